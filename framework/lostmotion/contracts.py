@@ -1,0 +1,223 @@
+"""The six kinds of plugin, in one file: subclass one once, as a frozen dataclass.
+
+`rhs`, `observe`, `force` and `rate` are plain scalar Python on NumPy arrays. The host compiles them with
+numba into one kernel, so they may use `math`, arithmetic, branches and other such functions, and nothing else;
+run uncompiled they are the slow twin of that kernel. What is *estimated* is never a field: it is an entry of `p`.
+"""
+
+from __future__ import annotations
+
+import math
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from typing import Any, ClassVar, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lostmotion.errors import ContractError, nearest
+from lostmotion.quantities import Dimension
+from lostmotion.results import Embedding, Estimate
+
+Array = NDArray[np.float64]
+PSEUDO_NEEDS = ("step", "mobility")
+"""What a term may need that is no parameter: `step`, the integration step in s, and `mobility`, step / inertia:
+the velocity that a unit force gives the body in one step. A law that jumps at zero velocity is as wide as
+`force * mobility`, so that it sticks without turning the integration stiff."""
+
+
+@dataclass(frozen=True)
+class Param:
+    """A number that may be known or estimated: `low` and `high` are physical bounds, not a prior.
+
+    `null` (terms only) is the value at which the whole term does nothing. `typical` is the prior width of a term's
+    parameter in natural scales of the recording (drive force, rms position and velocity); `scale="log"` says that
+    the parameter is positive and known by order of magnitude.
+    """
+
+    name: str
+    meaning: str
+    dimension: Dimension
+    low: float = -math.inf
+    high: float = math.inf
+    scale: Literal["linear", "log"] = "linear"
+    null: float | None = None
+    typical: float = 1.0
+    aliases: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Interface:
+    """A place where a force can act: `motion(y, u)` gives relative position and velocity there.
+
+    The force is added to `dydt[row]`, divided by the parameter `inertia`. `holds` names the parameters of the model
+    that live here, such as the gap: a term that needs them can act nowhere else.
+    """
+
+    name: str
+    row: int
+    inertia: str
+    motion: Callable[[Array, Array], tuple[float, float]]
+    holds: tuple[str, ...] = ()
+
+
+class Model(ABC):
+    """A machine as a system of first-order equations, driven by what was *measured* going in.
+
+    Class variables: `states` names the entries of `y`; `inputs` those of `u` ("force", or "base_position" and
+    "base_velocity"); `channels` what `observe` writes; `motion` is "translation" (N, m) or "rotation" (N m, rad).
+    """
+
+    name: ClassVar[str]
+    paper: ClassVar[str]
+    motion: ClassVar[Literal["translation", "rotation"]]
+    states: ClassVar[tuple[str, ...]]
+    inputs: ClassVar[tuple[str, ...]]
+    channels: ClassVar[tuple[str, ...]]
+    params: ClassVar[tuple[Param, ...]]
+    interfaces: ClassVar[tuple[Interface, ...]]
+
+    @staticmethod
+    @abstractmethod
+    def rhs(t: float, y: Array, u: Array, p: Array, dydt: Array) -> None:
+        """Write the time derivative of the states `y` (len(states),) into `dydt`."""
+
+    @staticmethod
+    @abstractmethod
+    def observe(t: float, y: Array, dydt: Array, u: Array, p: Array, seen: Array) -> None:
+        """Write what the sensors see into `seen` (len(channels),); `dydt` already holds the forces of the terms."""
+
+    def __add__(self, term: Term) -> Assembly:
+        return Assembly(self) + term
+
+
+class Term(ABC):
+    """One piece of physics that a model may lack: a force at an interface, with states of its own if it needs them.
+
+    `force` returns the generalised force on the body in positive direction (friction is negative for v > 0), with
+    `x`, `v` the relative motion at the interface `at`, `p` the own `params` followed by `needs`, `s` the own states.
+    `physics` is a sentence with the parameters in braces; `formula` is the law in plain text.
+    """
+
+    at: str
+    name: ClassVar[str]
+    physics: ClassVar[str]
+    formula: ClassVar[str]
+    paper: ClassVar[str]
+    params: ClassVar[tuple[Param, ...]]
+    states: ClassVar[tuple[str, ...]] = ()
+    needs: ClassVar[tuple[str, ...]] = ()
+    motions: ClassVar[tuple[str, ...]] = ("translation", "rotation")
+    resembles: ClassVar[tuple[str, ...]] = ()
+
+    @staticmethod
+    @abstractmethod
+    def force(t: float, x: float, v: float, u: Array, p: Array, s: Array) -> float:
+        """Return the force (N or N m) on the body in positive direction."""
+
+    @staticmethod
+    def rate(t: float, x: float, v: float, u: Array, p: Array, s: Array, dsdt: Array) -> None:
+        """Write the time derivative of the own states into `dsdt`; a term without states leaves this alone."""
+
+    def null(self) -> dict[str, float]:
+        """Return the parameters, with their values, at which the term does nothing."""
+        return {q.name: q.null for q in self.params if q.null is not None}
+
+    def fits(self, model: Model) -> bool:
+        """Return whether the term can act in `model`: the place, the kind of motion and the needs exist there."""
+        try:
+            place_of(model, self)
+        except ContractError:
+            return False
+        return True
+
+
+@dataclass(frozen=True)
+class Assembly:
+    """A model plus named terms: the one description that is simulated, fitted, diagnosed and drawn."""
+
+    model: Model
+    terms: tuple[Term, ...] = ()
+
+    def __add__(self, term: Term) -> Assembly:
+        place_of(self.model, term)
+        if any((t.name, t.at) == (term.name, term.at) for t in self.terms):
+            raise ContractError(f"{term.name} at {term.at} is in the model already: add it once, or at another place")
+        return replace(self, terms=(*self.terms, term))
+
+    @property
+    def label(self) -> str:
+        """The sum as people write it, for instance `lin_backlash + coulomb_friction`."""
+        return " + ".join([self.model.name, *(t.name for t in self.terms)])
+
+
+def place_of(model: Model, term: Term) -> Interface:
+    """Return the interface of `model` at which `term` acts, or raise a `ContractError` that says what is wanting."""
+    places = {i.name: i for i in model.interfaces}
+    if term.at not in places:
+        raise ContractError(
+            f"{term.name} acts at {term.at!r}, but {model.name} has {', '.join(places)}{nearest(term.at, places)}"
+        )
+    known = {*places[term.at].holds, *PSEUDO_NEEDS}
+    if lacking := [n for n in term.needs if n not in known]:
+        raise ContractError(f"{term.name} needs {', '.join(lacking)}, which {model.name} does not have at {term.at}")
+    if model.motion not in term.motions:
+        raise ContractError(f"{term.name} is a law of {' or '.join(term.motions)}; {model.name} is {model.motion}")
+    return places[term.at]
+
+
+class Embedder(ABC):
+    """Chooses the delay and the dimension in which a series unfolds."""
+
+    name: ClassVar[str]
+    paper: ClassVar[str]
+
+    @abstractmethod
+    def choose(self, x: Array, *, dt: float) -> Embedding:
+        """Return lag (samples) and dim for the series `x` (n,) sampled every `dt` s, with the curves behind them."""
+
+
+class Quantifier(ABC):
+    """Measures one number of a series, with its interval, its curve and a status."""
+
+    name: ClassVar[str]
+    paper: ClassVar[str]
+
+    @abstractmethod
+    def estimate(self, x: Array, *, dt: float, embedding: Embedding, rng: np.random.Generator) -> Estimate:
+        """Return value, low, high, status and curve; a refusal is a status, not an exception."""
+
+
+class Surrogate(ABC):
+    """Draws series that share what `preserves` names with the recording and are random otherwise."""
+
+    name: ClassVar[str]
+    paper: ClassVar[str]
+    null: ClassVar[str]
+    preserves: ClassVar[frozenset[str]]
+
+    @abstractmethod
+    def draw(self, x: Array, *, draws: int, rng: np.random.Generator) -> Array:
+        """Return surrogates (draws, n) of the series `x` (n,)."""
+
+
+class Denoiser(ABC):
+    """Removes measurement noise from a series without a model of it."""
+
+    name: ClassVar[str]
+    paper: ClassVar[str]
+
+    @abstractmethod
+    def clean(self, x: Array, *, embedding: Embedding, rng: np.random.Generator) -> Array:
+        """Return the cleaned series (n,)."""
+
+
+KINDS: Mapping[str, type[Any]] = {
+    "model": Model,
+    "term": Term,
+    "embedder": Embedder,
+    "quantifier": Quantifier,
+    "surrogate": Surrogate,
+    "denoiser": Denoiser,
+}

@@ -1,0 +1,41 @@
+"""The errors a caller may meet; every one is a `LostMotionError`.
+
+    LostMotionError
+    ├── DataError       the recording cannot be used as it is
+    ├── CaseError       the case file says something that cannot be meant
+    ├── ContractError   a plugin breaks the contract of its kind
+    └── PluginError     a name is unknown, contested or could not be loaded
+
+A message says what was found, what was wanted and what to do.
+"""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable
+
+
+class LostMotionError(Exception):
+    """Base of all errors raised on purpose; the command line turns it into exit status 2."""
+
+
+class DataError(LostMotionError):
+    """The recording cannot be used as it is."""
+
+
+class CaseError(LostMotionError):
+    """The case file says something that cannot be meant."""
+
+
+class ContractError(LostMotionError):
+    """A plugin breaks the contract of its kind."""
+
+
+class PluginError(LostMotionError):
+    """A plugin name is unknown, contested or could not be loaded."""
+
+
+def nearest(word: str, known: Iterable[str]) -> str:
+    """Return ` (did you mean 'x'?)` for the known name closest to `word`, or an empty string."""
+    close = difflib.get_close_matches(word, list(known), n=1, cutoff=0.5)
+    return f" (did you mean {close[0]!r}?)" if close else ""

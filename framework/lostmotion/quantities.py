@@ -1,0 +1,98 @@
+"""Dimensions of parameters and units of recordings; pint is the only door to unit names."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import Any, NamedTuple
+
+from lostmotion.errors import DataError
+
+SI = {
+    "force": "N",
+    "torque": "N m",
+    "position": "m",
+    "velocity": "m/s",
+    "acceleration": "m/s^2",
+    "base_position": "m",
+    "time": "s",
+}
+ANGULAR = {
+    "position": "rad",
+    "velocity": "rad/s",
+    "acceleration": "rad/s^2",
+    "base_position": "rad",
+    "force": "N m",
+    "torque": "N m",
+}
+_NAMED = {
+    ("translation", 1, -1, 2): "kg",
+    ("rotation", 1, -1, 2): "kg m^2",
+    ("translation", 0, 0, 0): "1",
+    ("rotation", 0, 0, 0): "1",
+}
+
+
+class Dimension(NamedTuple):
+    """Powers of generalised force, length and time: `Dimension(1, -1, 1)` is a damping coefficient."""
+
+    force: int = 0
+    length: int = 0
+    time: int = 0
+
+    def unit(self, motion: str) -> str:
+        """Return the SI unit, for instance `N s/m` in translation and `N m s/rad` in rotation."""
+        named = _NAMED.get((motion, *self))
+        if named:
+            return named
+        symbols = ("N", "m", "s") if motion == "translation" else ("N m", "rad", "s")
+        powers = list(zip(symbols, self, strict=True))
+        above = [_power(s, n) for s, n in powers if n > 0] or ["1"]
+        below = [_power(s, -n) for s, n in powers if n < 0]
+        return " ".join(above) + ("/" + "/".join(below) if below else "")
+
+    def scale(self, force: float, length: float, time: float) -> float:
+        """Return the natural size of such a quantity from the natural sizes of force, length and time."""
+        return float(force**self.force * length**self.length * time**self.time)
+
+
+def _power(symbol: str, power: int) -> str:
+    return symbol if power == 1 else f"{symbol}^{power}"
+
+
+FORCE = Dimension(1, 0, 0)
+LENGTH = Dimension(0, 1, 0)
+TIME = Dimension(0, 0, 1)
+SPEED = Dimension(0, 1, -1)
+INERTIA = Dimension(1, -1, 2)
+DAMPING = Dimension(1, -1, 1)
+STIFFNESS = Dimension(1, -1, 0)
+NUMBER = Dimension(0, 0, 0)
+
+
+@lru_cache(maxsize=1)
+def _registry() -> Any:
+    import pint
+
+    return pint.UnitRegistry()
+
+
+def si_factor(unit: str, quantity: str) -> tuple[float, str]:
+    """Return the factor that turns `unit` into SI, and the SI unit, for a quantity such as "force" or "position".
+
+    A length or an angle is taken for a position, a force or a torque for a force; anything else raises `DataError`.
+    """
+    import pint
+
+    registry = _registry()
+    try:
+        one = registry.Quantity(1.0, unit)
+    except (pint.errors.PintError, ValueError, AttributeError, AssertionError, TypeError) as err:
+        raise DataError(f"unit {unit!r} of the {quantity} is not known: write for instance {SI[quantity]!r}") from err
+    for target in dict.fromkeys((SI[quantity], ANGULAR.get(quantity, SI[quantity]))):
+        if one.is_compatible_with(target) and _angular(unit) == ("rad" in target):
+            return float(one.to(target).magnitude), target
+    raise DataError(f"unit {unit!r} does not measure a {quantity}: wanted one like {SI[quantity]!r}")
+
+
+def _angular(unit: str) -> bool:
+    return any(word in unit.lower() for word in ("rad", "deg", "rev", "turn", "°", "arc"))

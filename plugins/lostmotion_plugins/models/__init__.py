@@ -1,0 +1,1 @@
+"""Machines: the nominal models that a recording is held against."""

@@ -1,0 +1,56 @@
+"""Machines without a gap: a mass on a guide, and a mass on a spring."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from lostmotion.contracts import Array, Interface, Model, Param
+from lostmotion.quantities import DAMPING, INERTIA, STIFFNESS
+from lostmotion_plugins.models.lin import LinBacklash, ground
+
+_GROUND = Interface("ground", row=1, inertia="m", motion=ground)
+_MASS = Param("m", "moving mass", INERTIA, low=0.0, scale="log", aliases=("M", "mass"))
+_DAMPING = Param("c", "viscous friction", DAMPING, low=0.0, scale="log", aliases=("Fv", "damping"))
+
+
+@dataclass(frozen=True)
+class RigidDrive(Model):
+    """m x'' + c x' = force: a carriage moved by a motor, as in the EMPS benchmark of Janot, Gautier, Brunot (2019)."""
+
+    name: ClassVar[str] = "rigid_drive"
+    paper: ClassVar[str] = "Janot, Gautier, Brunot, Nonlinear System Identification Benchmarks workshop (2019)"
+    motion = "translation"
+    states = ("position", "velocity")
+    inputs = ("force",)
+    channels = ("position", "velocity", "acceleration")
+    params = (_MASS, _DAMPING)
+    interfaces = (_GROUND,)
+
+    @staticmethod
+    def rhs(t: float, y: Array, u: Array, p: Array, dydt: Array) -> None:
+        dydt[0] = y[1]
+        dydt[1] = (u[0] - p[1] * y[1]) / p[0]
+
+    observe = LinBacklash.observe
+
+
+@dataclass(frozen=True)
+class LinearOscillator(Model):
+    """m x'' + c x' + k x = force: the textbook oscillator, and the nominal model of the Silverbox."""
+
+    name: ClassVar[str] = "linear_oscillator"
+    paper: ClassVar[str] = "Wigren, Schoukens, European Control Conference (2013), the linear part"
+    motion = "translation"
+    states = ("position", "velocity")
+    inputs = ("force",)
+    channels = ("position", "velocity", "acceleration")
+    params = (_MASS, _DAMPING, Param("k", "stiffness", STIFFNESS, low=0.0, scale="log", aliases=("k1", "stiffness")))
+    interfaces = (_GROUND,)
+
+    @staticmethod
+    def rhs(t: float, y: Array, u: Array, p: Array, dydt: Array) -> None:
+        dydt[0] = y[1]
+        dydt[1] = (u[0] - p[1] * y[1] - p[2] * y[0]) / p[0]
+
+    observe = LinBacklash.observe

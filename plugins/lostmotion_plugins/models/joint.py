@@ -1,0 +1,65 @@
+"""A robot link behind a joint with backlash, driven by the measured motion of its motor side."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import ClassVar
+
+from lostmotion.contracts import Array, Interface, Model, Param
+from lostmotion.quantities import DAMPING, FORCE, INERTIA, LENGTH, STIFFNESS
+
+
+def ground(y: Array, u: Array) -> tuple[float, float]:
+    """Return angle and angular velocity of the link relative to the ground (its bearing)."""
+    return y[0], y[1]
+
+
+def base(y: Array, u: Array) -> tuple[float, float]:
+    """Return angle and angular velocity of the link relative to the motor side of the joint (its backlash)."""
+    return y[0] - u[0], y[1] - u[1]
+
+
+@dataclass(frozen=True)
+class RobotJoint(Model):
+    """J q'' + c (q' - qb') + F(q - qb) + mgl sin q = 0: a link q moved by a base motion qb through a gap.
+
+    The contact F is zero inside the gap |q - qb| < x0 and k0 (|q - qb| - x0) beyond. Encoder 1 reads qb (the input),
+    encoder 2 reads q (the channel "position"). The angle is measured from where the link hangs straight down; mgl = 0
+    for a link that turns in the horizontal plane.
+    """
+
+    name: ClassVar[str] = "robot_joint"
+    paper: ClassVar[str] = "Tjahjowidodo, Al-Bender, Van Brussel, MSSP 21 (2007) 973-986, section 6 and Fig. 1"
+    motion = "rotation"
+    states = ("position", "velocity")
+    inputs = ("base_position", "base_velocity")
+    channels = ("position", "velocity", "acceleration")
+    params = (
+        Param("m", "moment of inertia of the link", INERTIA, low=0.0, scale="log", aliases=("J", "inertia")),
+        Param("c", "viscous damping in the joint", DAMPING, low=0.0, scale="log", aliases=("damping",)),
+        Param("k0", "stiffness of the joint in contact", STIFFNESS, low=0.0, scale="log", aliases=("stiffness",)),
+        Param("x0", "half of the backlash", LENGTH, low=0.0, scale="log", aliases=("gap", "backlash")),
+        Param("mgl", "gravity torque of the horizontal link", FORCE, aliases=("gravity",)),
+    )
+    interfaces = (
+        Interface("base", row=1, inertia="m", motion=base, holds=("k0", "x0")),
+        Interface("ground", row=1, inertia="m", motion=ground),
+    )
+
+    @staticmethod
+    def rhs(t: float, y: Array, u: Array, p: Array, dydt: Array) -> None:
+        gap = y[0] - u[0]
+        contact = 0.0
+        if gap > p[3]:
+            contact = p[2] * (gap - p[3])
+        elif gap < -p[3]:
+            contact = p[2] * (gap + p[3])
+        dydt[0] = y[1]
+        dydt[1] = -(p[1] * (y[1] - u[1]) + contact + p[4] * math.sin(y[0])) / p[0]
+
+    @staticmethod
+    def observe(t: float, y: Array, dydt: Array, u: Array, p: Array, seen: Array) -> None:
+        seen[0] = y[0]
+        seen[1] = y[1]
+        seen[2] = dydt[1]

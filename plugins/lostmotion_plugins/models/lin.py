@@ -1,0 +1,75 @@
+"""The oscillator with backlash of Lin, as studied by Tjahjowidodo, Al-Bender and Van Brussel (2007)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import ClassVar
+
+from lostmotion.contracts import Array, Interface, Model, Param
+from lostmotion.quantities import DAMPING, INERTIA, LENGTH, STIFFNESS
+
+
+def ground(y: Array, u: Array) -> tuple[float, float]:
+    """Return position and velocity relative to the ground."""
+    return y[0], y[1]
+
+
+@dataclass(frozen=True)
+class LinBacklash(Model):
+    """m x'' + c x' + k1 x + F(x) = force, where the contact F is zero inside the gap |x| < x0 and k0 (|x| - x0) beyond.
+
+    The states are position and velocity; the parameters m, c, k1, k0, x0 in this order.
+    """
+
+    name: ClassVar[str] = "lin_backlash"
+    paper: ClassVar[str] = "Tjahjowidodo, Al-Bender, Van Brussel, MSSP 21 (2007) 973-986, eq. (1); Lin (1990)"
+    motion = "translation"
+    states = ("position", "velocity")
+    inputs = ("force",)
+    channels = ("position", "velocity", "acceleration")
+    params = (
+        Param("m", "mass", INERTIA, low=0.0, scale="log", aliases=("mass",)),
+        Param("c", "viscous damping", DAMPING, low=0.0, scale="log", aliases=("damping",)),
+        Param("k1", "stiffness of the free spring", STIFFNESS, low=0.0),
+        Param("k0", "stiffness of the contact", STIFFNESS, low=0.0, scale="log", aliases=("stiffness",)),
+        Param("x0", "half gap", LENGTH, low=0.0, scale="log", aliases=("gap", "backlash")),
+    )
+    interfaces = (Interface("ground", row=1, inertia="m", motion=ground, holds=("k0", "x0")),)
+
+    @staticmethod
+    def rhs(t: float, y: Array, u: Array, p: Array, dydt: Array) -> None:
+        x = y[0]
+        contact = 0.0
+        if x > p[4]:
+            contact = p[3] * (x - p[4])
+        elif x < -p[4]:
+            contact = p[3] * (x + p[4])
+        dydt[0] = y[1]
+        dydt[1] = (u[0] - p[1] * y[1] - p[2] * x - contact) / p[0]
+
+    @staticmethod
+    def observe(t: float, y: Array, dydt: Array, u: Array, p: Array, seen: Array) -> None:
+        seen[0] = y[0]
+        seen[1] = y[1]
+        seen[2] = dydt[1]
+
+    @staticmethod
+    def normalised(
+        *, m: float, c: float, k0: float, x0: float, amplitude: float, omega: float, k1: float = 0.0
+    ) -> dict[str, float]:
+        """Return alpha = A/(k0 x0), zeta, frequency ratio and k1/k0 of a harmonic drive A cos(omega t); eq. (3)."""
+        return {
+            "alpha": amplitude / (k0 * x0),
+            "zeta": c / (2.0 * math.sqrt(k0 * m)),
+            "frequency_ratio": omega / math.sqrt(k0 / m),
+            "stiffness_ratio": k1 / k0,
+        }
+
+    @staticmethod
+    def physical(
+        *, alpha: float, zeta: float, frequency_ratio: float, stiffness_ratio: float = 0.0
+    ) -> tuple[dict[str, float], float, float]:
+        """Return the parameters with m = k0 = x0 = 1 of the normalised form, the drive amplitude and its omega."""
+        params = {"m": 1.0, "c": 2.0 * zeta, "k1": stiffness_ratio, "k0": 1.0, "x0": 1.0}
+        return params, alpha, frequency_ratio

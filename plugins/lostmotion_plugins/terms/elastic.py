@@ -1,0 +1,76 @@
+"""Forces that depend on position, and a constant one."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import ClassVar
+
+from lostmotion.contracts import Array, Param, Term
+from lostmotion.quantities import FORCE, STIFFNESS, Dimension
+
+
+@dataclass(frozen=True)
+class LinearStiffness(Term):
+    """A spring to the interface that the model does not have."""
+
+    at: str = "ground"
+    name: ClassVar[str] = "linear_stiffness"
+    physics: ClassVar[str] = "A spring of {coefficient} pulls towards the middle"
+    formula: ClassVar[str] = "-coefficient * x"
+    paper: ClassVar[str] = "Nayfeh, Mook, Nonlinear Oscillations (1979), section 1.1"
+    params = (Param("coefficient", "stiffness", STIFFNESS, null=0.0),)
+
+    @staticmethod
+    def force(t: float, x: float, v: float, u: Array, p: Array, s: Array) -> float:
+        return -p[0] * x
+
+
+@dataclass(frozen=True)
+class CubicStiffness(Term):
+    """A spring that hardens (positive) or softens (negative) with the cube of travel, as in Duffing's equation."""
+
+    at: str = "ground"
+    name: ClassVar[str] = "cubic_stiffness"
+    physics: ClassVar[str] = "A spring force of {coefficient} times the cube of position acts"
+    formula: ClassVar[str] = "-coefficient * x^3"
+    paper: ClassVar[str] = "Duffing (1918); Nayfeh, Mook, Nonlinear Oscillations (1979), section 4.1"
+    params = (Param("coefficient", "cubic stiffness", Dimension(1, -3, 0), null=0.0),)
+
+    @staticmethod
+    def force(t: float, x: float, v: float, u: Array, p: Array, s: Array) -> float:
+        return -p[0] * x * x * x
+
+
+@dataclass(frozen=True)
+class OffsetForce(Term):
+    """A constant force: a bias of the drive, a weight, a preload."""
+
+    at: str = "ground"
+    name: ClassVar[str] = "offset_force"
+    physics: ClassVar[str] = "A constant force of {force} acts"
+    formula: ClassVar[str] = "force"
+    paper: ClassVar[str] = "Janot, Gautier, Brunot, Nonlinear System Identification Benchmarks workshop (2019)"
+    params = (Param("force", "constant force in positive direction", FORCE, null=0.0),)
+
+    @staticmethod
+    def force(t: float, x: float, v: float, u: Array, p: Array, s: Array) -> float:
+        return p[0]
+
+
+@dataclass(frozen=True)
+class GravityPendulum(Term):
+    """The weight of a link that turns in a vertical plane, its angle measured from where it hangs."""
+
+    at: str = "ground"
+    name: ClassVar[str] = "gravity_pendulum"
+    physics: ClassVar[str] = "The weight of the link, {torque} when horizontal, pulls it down"
+    formula: ClassVar[str] = "-torque * sin(x)"
+    paper: ClassVar[str] = "Spong, Hutchinson, Vidyasagar, Robot Modeling and Control (2006), section 7.3"
+    params = (Param("torque", "gravity torque of the horizontal link", FORCE, null=0.0),)
+    motions = ("rotation",)
+    resembles = ("linear_stiffness",)
+
+    @staticmethod
+    def force(t: float, x: float, v: float, u: Array, p: Array, s: Array) -> float:
+        return -p[0] * math.sin(x)

@@ -1,0 +1,89 @@
+"""Dry friction: laws that jump at zero velocity, and one with a bristle that remembers."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import ClassVar
+
+from lostmotion.contracts import Array, Param, Term
+from lostmotion.quantities import FORCE, LENGTH, SPEED
+
+
+@dataclass(frozen=True)
+class CoulombFriction(Term):
+    """Dry friction of constant size. It sticks: below the velocity `force * mobility` the law is a steep line."""
+
+    at: str = "ground"
+    name: ClassVar[str] = "coulomb_friction"
+    physics: ClassVar[str] = "Dry friction of {force} opposes the motion"
+    formula: ClassVar[str] = "-force * sign(v)"
+    paper: ClassVar[str] = "Coulomb (1785); Armstrong-Helouvry, Dupont, Canudas de Wit, Automatica 30 (1994) 1083-1138"
+    params = (Param("force", "friction force", FORCE, low=0.0, null=0.0),)
+    needs = ("mobility",)
+    resembles = ("stribeck_friction", "lugre_friction", "dahl_friction")
+
+    @staticmethod
+    def force(t: float, x: float, v: float, u: Array, p: Array, s: Array) -> float:
+        width = abs(p[0]) * p[1]
+        if abs(v) >= width:
+            return -p[0] if v > 0.0 else (p[0] if v < 0.0 else 0.0)
+        return -p[0] * v / width
+
+
+@dataclass(frozen=True)
+class StribeckFriction(Term):
+    """Dry friction that is larger near rest and falls to its sliding value as the velocity rises."""
+
+    at: str = "ground"
+    name: ClassVar[str] = "stribeck_friction"
+    physics: ClassVar[str] = "Dry friction of {force}, rising by {excess} towards rest below {velocity}, opposes the motion"
+    formula: ClassVar[str] = "-(force + excess * exp(-(v/velocity)^2)) * sign(v)"
+    paper: ClassVar[str] = "Armstrong-Helouvry, Dupont, Canudas de Wit, Automatica 30 (1994) 1083-1138, eq. (6)"
+    params = (
+        Param("force", "sliding friction force", FORCE, low=0.0, null=0.0),
+        Param("excess", "breakaway friction above the sliding one", FORCE, low=0.0, null=0.0),
+        Param("velocity", "Stribeck velocity", SPEED, low=0.0, scale="log", typical=0.1),
+    )
+    needs = ("mobility",)
+    resembles = ("coulomb_friction", "lugre_friction", "dahl_friction")
+
+    @staticmethod
+    def force(t: float, x: float, v: float, u: Array, p: Array, s: Array) -> float:
+        size = p[0] + p[1] * math.exp(-((v / p[2]) ** 2))
+        width = (abs(p[0]) + abs(p[1])) * p[3]
+        if abs(v) >= width:
+            return -size if v > 0.0 else (size if v < 0.0 else 0.0)
+        return -size * v / width
+
+
+@dataclass(frozen=True)
+class LuGreFriction(Term):
+    """Dry friction through bristles: a spring before it slides, with the bristle force (N) as its own state.
+
+    Written in the bristle force f = sigma0 z, so that the law stays stable when the bristles are much stiffer than
+    one step resolves; sigma1 = sigma2 = 0, since damping of either kind has terms of its own.
+    """
+
+    at: str = "ground"
+    name: ClassVar[str] = "lugre_friction"
+    physics: ClassVar[str] = "Dry friction of {force} with {deflection} of elastic travel before it slides opposes the motion"
+    formula: ClassVar[str] = "-f,  f' = |v|/deflection * (force * sign(v) - f)"
+    paper: ClassVar[str] = "Canudas de Wit, Olsson, Astrom, Lischinsky, IEEE Trans. Automatic Control 40 (1995) 419-425"
+    params = (
+        Param("force", "sliding friction force", FORCE, low=0.0, null=0.0),
+        Param("deflection", "elastic travel before sliding", LENGTH, low=0.0, scale="log", typical=0.05),
+    )
+    states = ("bristle_force",)
+    needs = ("step",)
+    resembles = ("coulomb_friction", "stribeck_friction", "dahl_friction", "bouc_wen_hysteresis")
+
+    @staticmethod
+    def force(t: float, x: float, v: float, u: Array, p: Array, s: Array) -> float:
+        return -s[0]
+
+    @staticmethod
+    def rate(t: float, x: float, v: float, u: Array, p: Array, s: Array, dsdt: Array) -> None:
+        pace = min(abs(v) / p[1], 1.0 / p[2])
+        level = p[0] if v > 0.0 else -p[0]
+        dsdt[0] = pace * (level - s[0])
