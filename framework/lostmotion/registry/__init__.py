@@ -1,0 +1,195 @@
+"""Who offers which plugin: names are gathered from hooks, and a class is imported only when its name is used.
+
+Every package is asked by itself, so that one that is broken takes nothing else down: it is kept aside with the reason.
+Listing the names imports neither NumPy nor numba nor the contracts.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields, is_dataclass, replace
+from functools import lru_cache
+from importlib import metadata
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+from lostmotion.errors import LostMotionError, PluginError, nearest
+from lostmotion.hookspecs import GROUP
+from lostmotion.registry.classes import class_of, classes_in, imported, kind_of, module_from, require
+from lostmotion.registry.hooks import FAILURES, KINDS, Host, RefusedError, guarded, said
+
+__all__ = ["KINDS", "Entry", "Registry", "default"]
+
+_PACKAGE = "package"
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One offered name, or a package that offers nothing because something is wrong with it (kind "package").
+
+    `state` is "ready", "broken", "clash" or "misspelt hook"; `why` is one sentence when it is not "ready".
+    """
+
+    kind: str
+    name: str
+    owner: str
+    version: str
+    target: str
+    state: str = "ready"
+    why: str = ""
+
+    @property
+    def whose(self) -> str:
+        """The name as a sentence begins with it: `term 'drag' of my_package`."""
+        return f"{self.kind} {self.name!r} of {self.owner}"
+
+
+class Registry:
+    """The names of all plugins, who offers each, and the way from a name to its class."""
+
+    def __init__(self) -> None:
+        self._host = Host()
+        self._offers: list[Entry] = []
+        self._given: dict[Entry, Any] = {}
+
+    @classmethod
+    def discover(cls) -> Registry:
+        """Return a registry of all installed packages with an entry point in the group `lostmotion.v1`."""
+        registry = cls()
+        for point in metadata.entry_points(group=GROUP):
+            registry._admit(point)
+        return registry
+
+    def add(self, obj: object, name: str | None = None) -> Registry:
+        """Return this registry with `obj` in it: a module or object with hooks, or a Model, Term ... class or instance.
+
+        `name` is the owner that lists show. A class that is added once more takes the place of the earlier one, so
+        that a notebook cell can be run again.
+        """
+        if not isinstance(obj, ModuleType) and kind_of(obj):
+            self._give(obj, name or class_of(obj).__module__)
+            return self
+        owner = name or str(getattr(obj, "__name__", type(obj).__name__))
+        try:
+            self._ask(obj, owner, str(getattr(obj, "__version__", "")))
+        except RefusedError as err:
+            raise PluginError(f"plugin {owner} cannot be used: {err}") from err
+        return self
+
+    def add_file(self, path: str | Path) -> Registry:
+        """Return this registry with a .py file in it: its hooks, or every Model, Term ... class written in the file."""
+        module = module_from(Path(path))
+        if self._host.has_hooks(module):
+            return self.add(module, str(path))
+        if not (found := classes_in(module)):
+            raise PluginError(f"{path} holds no plugin: write a subclass of Model or Term in it, or a hookimpl")
+        for component in found:
+            self._give(component, str(path))
+        return self
+
+    def names(self, kind: str) -> tuple[str, ...]:
+        """Return the names of this kind that are ready, sorted; `entries` shows the others too."""
+        _require_kind(kind)
+        return tuple(e.name for e in self.entries() if e.kind == kind and e.state == "ready")
+
+    def entries(self) -> tuple[Entry, ...]:
+        """Return everything that is offered, by kind and name, with what is wrong with it if something is."""
+        order = {kind: i for i, kind in enumerate((*KINDS, _PACKAGE))}
+        judged = (self._judged(e) for e in self._offers)
+        return tuple(sorted(judged, key=lambda e: (order[e.kind], e.name, e.owner)))
+
+    def load(self, kind: str, name: str) -> type[Any]:
+        """Return the class behind a name; raise `PluginError` when it is unknown, contested or breaks its kind."""
+        return class_of(self._loaded(kind, name))
+
+    def make(self, kind: str, name: str, **options: Any) -> Any:
+        """Return an instance with these fields set; of an instance that was added, itself or a changed copy."""
+        given = self._loaded(kind, name)
+        _require_options(class_of(given), f"{kind} {name!r}", options)
+        try:
+            if isinstance(given, type):
+                return given(**options)
+            return replace(given, **options) if options else given
+        except LostMotionError:
+            raise
+        except FAILURES as err:
+            raise PluginError(f"{kind} {name!r} cannot be made: {said(err)}: check its options") from err
+
+    def _loaded(self, kind: str, name: str) -> Any:
+        """Return the class behind a name, or the instance that was added under it."""
+        entry = self._find(kind, name)
+        given = self._given.get(entry)
+        found = imported(entry.target, entry.whose) if given is None else given
+        require(class_of(found), kind, name, entry.whose)
+        return found
+
+    def _admit(self, point: metadata.EntryPoint) -> None:
+        """Take in one entry point, or keep it aside with the reason."""
+        owner, version = (point.dist.name, point.dist.version) if point.dist else (point.module, "")
+        try:
+            self._ask(guarded(point.load, "it could not be imported"), owner, version)
+        except RefusedError as err:
+            self._offers.append(Entry(_PACKAGE, point.name, owner, version, point.value, err.state, str(err)))
+
+    def _ask(self, plugin: object, owner: str, version: str) -> None:
+        for kind, name, target in self._host.ask(plugin, owner):
+            self._offers.append(Entry(kind, name, owner, version, target))
+
+    def _give(self, obj: Any, owner: str) -> None:
+        kind, cls = kind_of(obj), class_of(obj)
+        name = getattr(cls, "name", None)
+        if not isinstance(name, str):
+            raise PluginError(f"{kind} class {cls.__name__} has no name: write `name = ...` in its body")
+        entry = Entry(kind, name, owner, "", f"{cls.__module__}:{cls.__qualname__}")
+        require(cls, kind, name, entry.whose)
+        again = (owner, kind, name)
+        self._offers = [e for e in self._offers if (e.owner, e.kind, e.name) != again]
+        self._offers.append(entry)
+        self._given[entry] = obj
+
+    def _judged(self, entry: Entry) -> Entry:
+        """Return the entry, marked as a clash when another owner offers its name too."""
+        same = [e for e in self._offers if (e.kind, e.name) == (entry.kind, entry.name)]
+        if entry.kind == _PACKAGE or len(same) == 1:
+            return entry
+        owners = " and ".join(sorted(f"{e.owner} {e.version}".strip() for e in same))
+        why = f"{entry.kind} {entry.name!r} is offered by {owners}: remove one, or have its author rename it"
+        return replace(entry, state="clash", why=why)
+
+    def _find(self, kind: str, name: str) -> Entry:
+        """Return the one entry of this name, or raise `PluginError`."""
+        _require_kind(kind)
+        same = [e for e in self._offers if e.name == name and e.kind != _PACKAGE]
+        for entry in (e for e in same if e.kind == kind):
+            if (judged := self._judged(entry)).state != "ready":
+                raise PluginError(judged.why)
+            return entry
+        near = nearest(name, self.names(kind))
+        if same:
+            raise PluginError(f"{name!r} is a {same[0].kind}, and a {kind} was wanted{near}")
+        raise PluginError(f"no {kind} is called {name!r}{near}: {self._advice(kind)}")
+
+    def _advice(self, kind: str) -> str:
+        aside = sorted({e.owner for e in self._offers if e.kind == _PACKAGE})
+        known = ", ".join(self.names(kind)) or "none yet"
+        return f"there are {known}" + (f"; broken, and kept aside: {', '.join(aside)}" if aside else "")
+
+
+@lru_cache(maxsize=1)
+def default() -> Registry:
+    """Return the registry of this process: what is installed, and what has been added to it since."""
+    return Registry.discover()
+
+
+def _require_kind(kind: str) -> None:
+    if kind not in KINDS:
+        near = nearest(kind, KINDS)
+        raise PluginError(f"there is no kind {kind!r} of plugin{near}: the kinds are {', '.join(KINDS)}")
+
+
+def _require_options(cls: type[Any], what: str, options: dict[str, Any]) -> None:
+    known = [f.name for f in fields(cls) if f.init] if is_dataclass(cls) else []
+    for option in options:
+        if option not in known:
+            has = ", ".join(known) or "none"
+            raise PluginError(f"{what} has no option {option!r}{nearest(option, known)}: it has {has}")

@@ -1,0 +1,89 @@
+"""From the target of a name to its class, and from a file to its module; each with a sentence when it fails."""
+
+from __future__ import annotations
+
+import importlib
+import importlib.util
+import inspect
+import sys
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+from lostmotion.errors import PluginError, nearest
+from lostmotion.registry.hooks import FAILURES, said
+
+
+def class_of(obj: Any) -> type[Any]:
+    """Return `obj` itself if it is a class, else its class."""
+    return obj if isinstance(obj, type) else type(obj)
+
+
+def kind_of(obj: object) -> str:
+    """Return the kind of a class or instance, or an empty string; the contracts are imported only for this."""
+    from lostmotion import contracts
+
+    return next((kind for kind, base in contracts.KINDS.items() if issubclass(class_of(obj), base)), "")
+
+
+def imported(target: str, whose: str) -> type[Any]:
+    """Return the class that `target` ("package.module:Class") points to; `whose` begins the sentence if it fails."""
+    module, _, attribute = target.partition(":")
+    try:
+        found = importlib.import_module(module)
+    except FAILURES as err:
+        raise PluginError(f"{whose} could not be imported from {module}: {said(err)}: tell its author") from err
+    if not isinstance(cls := getattr(found, attribute, None), type):
+        near = nearest(attribute, vars(found))
+        raise PluginError(f"{whose} points to {target}, and there is no such class{near}: mend its hook")
+    return cls
+
+
+def require(cls: type[Any], kind: str, name: str, whose: str) -> None:
+    """Raise `PluginError` unless `cls` is a complete class of this kind that calls itself `name`."""
+    if (own := kind_of(cls)) != kind:
+        what = f"a {own}" if own else "no plugin of ours"
+        raise PluginError(f"{whose} points to {cls.__name__}, which is {what}: subclass {kind.capitalize()}")
+    if inspect.isabstract(cls):
+        lacking = ", ".join(sorted(cls.__abstractmethods__))
+        raise PluginError(f"{whose} is not finished: write the method {lacking} of {cls.__name__}")
+    if getattr(cls, "name", None) != name:
+        raise PluginError(f"{whose} is called {getattr(cls, 'name', None)!r} in {cls.__name__}: let both names agree")
+
+
+def classes_in(module: ModuleType) -> list[type[Any]]:
+    """Return the finished plugin classes that are written in `module` itself, in order."""
+    own = [c for c in vars(module).values() if isinstance(c, type) and c.__module__ == module.__name__]
+    return [c for c in own if kind_of(c) and not inspect.isabstract(c)]
+
+
+def module_from(path: Path) -> ModuleType:
+    """Return the module in a file; it stays importable under its name, so that hooks and pickles can point to it."""
+    if path.suffix != ".py" or not path.is_file():
+        raise PluginError(f"plugin file {str(path)!r} is not there or is no .py file: give the path of a Python file")
+    place = str(path.resolve())
+    for module in list(sys.modules.values()):
+        if getattr(module, "__file__", None) == place:
+            return module
+    return _run(_free_name(path.stem), place)
+
+
+def _free_name(stem: str) -> str:
+    """Return the name of a file if a module can have it and none has, else one derived from it."""
+    taken = stem in sys.modules or importlib.util.find_spec(stem) is not None if stem.isidentifier() else True
+    return f"lostmotion_file_{stem}" if taken else stem
+
+
+def _run(name: str, place: str) -> ModuleType:
+    while name in sys.modules:
+        name += "_"
+    spec = importlib.util.spec_from_file_location(name, place)
+    if spec is None or spec.loader is None:
+        raise PluginError(f"plugin file {place} cannot be read as Python: give the path of a Python file")
+    module = sys.modules[name] = importlib.util.module_from_spec(spec)
+    try:
+        spec.loader.exec_module(module)
+    except FAILURES as err:
+        del sys.modules[name]
+        raise PluginError(f"plugin file {place} could not be loaded: {said(err)}: mend the file") from err
+    return module

@@ -1,0 +1,105 @@
+"""The pluggy host: asks one plugin at a time what it offers, and refuses what is not right with a reason."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import pluggy
+
+from lostmotion import hookspecs
+from lostmotion.errors import nearest
+
+KINDS = ("model", "term", "embedder", "quantifier", "surrogate", "denoiser")
+HOOKS = {f"lostmotion_{kind}s": kind for kind in KINDS}
+FAILURES = (Exception, SystemExit)
+"""What code of other people may raise while it is imported or asked; Ctrl-C is not among them."""
+_TARGET = re.compile(r"[^\W\d]\w*(\.[^\W\d]\w*)*:[^\W\d]\w*")
+
+Offer = tuple[str, str, str]
+"""Kind, name and target."""
+
+
+class RefusedError(Exception):
+    """Why a plugin is not taken in, and the state it is listed with; no caller of the registry ever sees it."""
+
+    def __init__(self, state: str, why: str) -> None:
+        super().__init__(why)
+        self.state = state
+
+
+class Host:
+    """Holds the plugins that have answered well, each under a label of its own."""
+
+    def __init__(self) -> None:
+        self._plugins = pluggy.PluginManager(hookspecs.PROJECT)
+        self._plugins.add_hookspecs(hookspecs)
+
+    def has_hooks(self, plugin: object) -> bool:
+        """Return whether anything in `plugin` is marked with `hookimpl`."""
+        return any(self._plugins.parse_hookimpl_opts(plugin, name) is not None for name in dir(plugin))
+
+    def ask(self, plugin: object, owner: str) -> list[Offer]:
+        """Return what `plugin` offers, nothing if it was asked before; raise `RefusedError` if it is not right."""
+        if self._plugins.is_registered(plugin):
+            return []
+        label = f"{owner} {len(self._plugins.get_plugins())}"
+        try:
+            self._register(plugin, label)
+            offers = [offer for hook, kind in HOOKS.items() for offer in self._answers(label, hook, kind)]
+            if not offers:
+                raise RefusedError("broken", f"it offers no name: answer one of the hooks {', '.join(HOOKS)}")
+        except RefusedError:
+            if self._plugins.has_plugin(label):
+                self._plugins.unregister(name=label)
+            raise
+        return offers
+
+    def _register(self, plugin: object, label: str) -> None:
+        try:
+            self._plugins.register(plugin, label)
+            self._plugins.check_pending()
+        except pluggy.PluginValidationError as err:
+            callers = self._plugins.get_hookcallers(plugin) or []
+            unknown = [c.name for c in callers if not c.has_spec()]
+            if unknown:
+                why = f"hook {unknown[0]!r} is not known{nearest(unknown[0], HOOKS)}: rename it"
+                raise RefusedError("misspelt hook", why) from err
+            raise RefusedError("broken", "a hook of it takes arguments: write it without any") from err
+        except FAILURES as err:
+            raise RefusedError("broken", f"it could not be registered: {said(err)}") from err
+
+    def _answers(self, label: str, hook: str, kind: str) -> list[Offer]:
+        """Return what the plugin under `label` answers to one hook."""
+        answers: list[Offer] = []
+        for impl in getattr(self._plugins.hook, hook).get_hookimpls():
+            if impl.plugin_name == label:
+                offer = guarded(impl.function, f"hook {hook!r} failed")
+                answers += [(kind, name, target) for name, target in _checked(offer, hook).items()]
+        return answers
+
+
+def said(err: BaseException) -> str:
+    """Return the kind of an error and the first line of what it says."""
+    lines = str(err).strip().splitlines()
+    return f"{type(err).__name__}: {lines[0]}" if lines else type(err).__name__
+
+
+def guarded(function: Callable[[], Any], complaint: str) -> Any:
+    """Return what `function` returns; whatever it raises becomes a `RefusedError` that begins with `complaint`."""
+    try:
+        return function()
+    except FAILURES as err:
+        raise RefusedError("broken", f"{complaint}: {said(err)}") from err
+
+
+def _checked(offer: Any, hook: str) -> Mapping[str, str]:
+    """Return the answer to a hook if it is a mapping of names to targets, else refuse it."""
+    wanted = 'return {"name": "package.module:Class"}'
+    if not isinstance(offer, Mapping):
+        raise RefusedError("broken", f"hook {hook!r} returned {type(offer).__name__}: {wanted}")
+    for name, target in offer.items():
+        if not isinstance(name, str) or not isinstance(target, str) or not _TARGET.fullmatch(target):
+            raise RefusedError("broken", f"hook {hook!r} returned {{{name!r}: {target!r}}}: {wanted}")
+    return offer
