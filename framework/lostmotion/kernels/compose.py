@@ -1,0 +1,179 @@
+"""One kernel out of a model and its terms: source text is written, kept in a cache folder, and compiled once.
+
+Every term has a switch at run time, so one compilation serves each subset of the terms in it: a diagnosis tries a
+whole library without compiling again. The same text runs as plain Python: the slow twin of every kernel.
+"""
+
+from __future__ import annotations
+
+import getpass
+import hashlib
+import inspect
+import os
+import sys
+import tempfile
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import lru_cache
+from importlib import resources
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import numba
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where a force acts: the row of `dydt`, the index of the inertia in `p`, and the relative motion there."""
+
+    row: int
+    inertia: int
+    motion: Callable[..., Any]
+
+
+@dataclass(frozen=True)
+class Law:
+    """A term as the kernel sees it: where it acts, its functions, and how many of `w` and of `y` are its own."""
+
+    place: int
+    width: int
+    states: int
+    force: Callable[..., Any]
+    rate: Callable[..., Any]
+
+
+@dataclass(frozen=True)
+class Blueprint:
+    """All that decides the text of a kernel; `n` counts every state, `latent` says that the last is a latent force."""
+
+    n: int
+    channels: int
+    rhs: Callable[..., Any]
+    observe: Callable[..., Any]
+    places: tuple[Place, ...]
+    laws: tuple[Law, ...]
+    latent: bool = False
+
+
+@dataclass(frozen=True)
+class Compiled:
+    """The functions of one composed kernel: `slope` (derivative), `track` (filter), `run` (free simulation)."""
+
+    slope: Callable[..., Any]
+    track: Callable[..., Any]
+    run: Callable[..., Any]
+    source: str
+
+
+def _parts(plan: Blueprint) -> dict[str, Callable[..., Any]]:
+    """Return the functions of the plugins under the names they have in the composed text."""
+    parts = {"model_rhs": plan.rhs, "model_observe": plan.observe}
+    parts |= {f"motion_{i}": place.motion for i, place in enumerate(plan.places)}
+    for i, law in enumerate(plan.laws):
+        parts |= {f"force_{i}": law.force, f"rate_{i}": law.rate}
+    return parts
+
+
+def _law_text(index: int, law: Law, place: Place) -> str:
+    """Return the lines that add one law to `dydt`, behind its switch.
+
+    The states of a law go through small work arrays: a slice would cost more than the law itself (52 ns each).
+    """
+    i, states = index, range(law.states)
+    lines = [f"    if on[{i}]:", f"        x, v = motion_{law.place}(y, u)"]
+    lines += [f"        s{i}[{a}] = y[at[{i}] + {a}]" for a in states]
+    lines.append(f"        dydt[{place.row}] += force_{i}(t, x, v, u, w{i}, s{i}) / p[{place.inertia}]")
+    if law.states:
+        lines.append(f"        rate_{i}(t, x, v, u, w{i}, s{i}, d{i})")
+        lines += [f"        dydt[at[{i}] + {a}] = d{i}[{a}]" for a in states]
+    return "\n".join(lines)
+
+
+def _unpack_text(plan: Blueprint) -> str:
+    """Return the lines that take the parameters of each law out of the tuple `w` and lay out their work arrays."""
+    lines = [f"    w{i} = w[{i}]" for i in range(len(plan.laws))]
+    for i, law in enumerate(plan.laws):
+        lines += [f"    s{i} = np.zeros({law.states})", f"    d{i} = np.zeros({law.states})"]
+    return "\n".join(lines)
+
+
+def _text(plan: Blueprint) -> str:
+    """Return the source of the composed kernel."""
+    first = plan.places[0]
+    laws = [_law_text(i, law, plan.places[law.place]) for i, law in enumerate(plan.laws)]
+    if plan.latent:
+        laws.append(f"    dydt[{first.row}] += y[{plan.n - 1}] / p[{first.inertia}]")
+        laws.append(f"    dydt[{plan.n - 1}] = -pace * y[{plan.n - 1}]")
+    values = {
+        "@N@": str(plan.n),
+        "@CHANNELS@": str(plan.channels),
+        "@NOISY@": str(plan.n - 1 if plan.latent else first.row),
+        "@NOISE_INERTIA@": "1.0" if plan.latent else f"p[{first.inertia}]",
+        "@LAWS@": "\n".join(laws),
+        "@WORK@": "".join(f"w{i}, s{i}, d{i}, " for i in range(len(plan.laws))),
+        "@UNPACK@": _unpack_text(plan),
+    }
+    text = resources.files("lostmotion.kernels").joinpath("template.txt").read_text()
+    for mark, value in values.items():
+        text = text.replace(mark, value)
+    return text
+
+
+def _origin(function: Callable[..., Any]) -> bytes:
+    """Return what identifies the code of a plugin function: the file it stands in, else its byte code."""
+    try:
+        path = inspect.getsourcefile(function)
+        if path and Path(path).is_file():
+            return Path(path).read_bytes() + function.__qualname__.encode()
+    except TypeError:
+        pass
+    code = function.__code__
+    return code.co_code + repr((code.co_consts, code.co_names)).encode()
+
+
+def _folders() -> tuple[Path, ...]:
+    """Return where compiled kernels may be kept, best first."""
+    home = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "lostmotion"
+    spare = Path(tempfile.gettempdir()) / f"lostmotion-{getpass.getuser()}"
+    return (Path(os.environ["LOSTMOTION_CACHE"]), spare) if "LOSTMOTION_CACHE" in os.environ else (home, spare)
+
+
+def _cached(text: str, parts: dict[str, Callable[..., Any]]) -> Path:
+    """Return the file that holds `text`; its name changes with every function that is compiled into it."""
+    key = hashlib.sha256(text.encode() + numba.__version__.encode())
+    for name in sorted(parts):
+        key.update(name.encode() + _origin(parts[name]))
+    for folder in _folders():
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+            path = folder / f"lostmotion_kernel_{key.hexdigest()[:24]}.py"
+            if not path.exists():
+                fresh = path.with_suffix(f".{os.getpid()}.tmp")
+                fresh.write_text(text)
+                fresh.replace(path)
+        except OSError:
+            continue
+        return path
+    raise OSError("no folder for compiled kernels can be written: set LOSTMOTION_CACHE to one that can")
+
+
+@lru_cache(maxsize=64)
+def build(plan: Blueprint, compiled: bool = True) -> Compiled:
+    """Return the kernel of `plan`, compiled, or as the plain Python twin of the same text."""
+    parts, text = _parts(plan), _text(plan)
+    if not compiled:
+        return _run_text(text, "<slow twin>", {**parts, "jit": lambda f: f})
+    path = _cached(text, parts)
+    part = numba.njit(error_model="numpy", nogil=True)
+    whole = numba.njit(error_model="numpy", nogil=True, cache=True)
+    return _run_text(text, str(path), {**{name: part(f) for name, f in parts.items()}, "jit": whole})
+
+
+def _run_text(text: str, path: str, parts: dict[str, Any]) -> Compiled:
+    """Return the functions that `text` defines, in a module of its own: numba looks it up when it loads its cache."""
+    module = ModuleType(Path(path).stem)
+    module.__dict__.update(parts)
+    sys.modules[module.__name__] = module
+    exec(compile(text, path, "exec"), module.__dict__)  # noqa: S102 - our own template, filled with numbers only
+    return Compiled(module.__dict__["slope"], module.__dict__["track"], module.__dict__["run"], text)

@@ -1,0 +1,238 @@
+"""A model with its terms as something that runs: parameter layout, compiled kernels, measured inputs.
+
+A `System` holds a model and a library of terms, each of which is on or off (`active`) at run time.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lostmotion.contracts import Array, Assembly, Model, Param, Term, place_of
+from lostmotion.errors import ContractError, nearest
+from lostmotion.kernels import Blueprint, Compiled, Law, Place, build
+
+NUMB = -1
+"""The index of an observed channel that is no state and has to be linearised."""
+
+
+def key_of(term: Term) -> str:
+    """Return the name of a term with its place when that is not the ground: `coulomb_friction@base`."""
+    return term.name if term.at == "ground" else f"{term.name}@{term.at}"
+
+
+@dataclass(frozen=True)
+class Slot:
+    """A parameter of the whole system: `key` is `c` for the model's, `coulomb_friction.force` for a term's."""
+
+    key: str
+    param: Param
+    unit: str
+    term: int | None
+
+
+@dataclass(frozen=True)
+class Motion:
+    """A free simulation: `states` (samples, n) at the sample times, and how many of them are finite."""
+
+    states: Array
+    finite: int
+
+
+@dataclass(frozen=True)
+class System:
+    """A model and the terms it may have; all terms are known to the kernel, `active` says which act."""
+
+    model: Model
+    terms: tuple[Term, ...] = ()
+
+    @classmethod
+    def of(cls, assembly: Assembly | Model) -> System:
+        """Return the system of a model or of `model + term + ...`."""
+        if isinstance(assembly, Model):
+            return cls(assembly)
+        return cls(assembly.model, assembly.terms)
+
+    @property
+    def everything(self) -> frozenset[str]:
+        """The keys of all terms."""
+        return frozenset(self.keys)
+
+    @cached_property
+    def keys(self) -> tuple[str, ...]:
+        """The key of each term, in order."""
+        return tuple(key_of(term) for term in self.terms)
+
+    @cached_property
+    def slots(self) -> tuple[Slot, ...]:
+        """Every parameter: the model's first, then those of each term."""
+        motion = self.model.motion
+        own = [Slot(q.name, q, q.dimension.unit(motion), None) for q in self.model.params]
+        for i, term in enumerate(self.terms):
+            own += [Slot(f"{self.keys[i]}.{q.name}", q, q.dimension.unit(motion), i) for q in term.params]
+        return tuple(own)
+
+    @cached_property
+    def index(self) -> Mapping[str, int]:
+        """The position of each parameter key in the full vector."""
+        return {slot.key: i for i, slot in enumerate(self.slots)}
+
+    def slot(self, name: str) -> Slot:
+        """Return the parameter called `name` or one of its aliases, or raise `ContractError` naming the nearest."""
+        for slot in self.slots:
+            if name == slot.key or (slot.term is None and name in slot.param.aliases):
+                return slot
+        known = [slot.key for slot in self.slots if slot.term is None]
+        raise ContractError(f"{self.model.name} has no parameter {name!r}{nearest(name, known)}: it has {', '.join(known)}")
+
+    def vector(self, values: Mapping[str, float]) -> Array:
+        """Return the full parameter vector; what is not given is `null`, or one for a shape parameter, or zero."""
+        full = np.array([_default(slot) for slot in self.slots])
+        for name, value in values.items():
+            full[self.index[self.slot(name).key]] = value
+        return full
+
+    def states(self, active: Iterable[str]) -> int:
+        """Return how many states the model has with these terms."""
+        chosen = set(active)
+        return len(self.model.states) + sum(
+            len(term.states) for key, term in zip(self.keys, self.terms, strict=True) if key in chosen
+        )
+
+    def kernel(self, active: Iterable[str], *, latent: bool = False, compiled: bool = True) -> Compiled:
+        """Return the kernel for as many states as these terms need; it is the same for any terms without states."""
+        return build(self._plan(self.states(active) + latent, latent), compiled)
+
+    def _plan(self, n: int, latent: bool) -> Blueprint:
+        model = self.model
+        index = {q.name: i for i, q in enumerate(model.params)}
+        places = tuple(Place(i.row, index[i.inertia], i.motion) for i in model.interfaces)
+        names = [i.name for i in model.interfaces]
+        laws = tuple(
+            Law(names.index(place_of(model, t).name), len(t.params) + len(t.needs), len(t.states), t.force, t.rate)
+            for t in self.terms
+        )
+        return Blueprint(n, len(model.channels), model.rhs, model.observe, places, laws, latent)
+
+    def wiring(self, active: Iterable[str]) -> tuple[NDArray[np.bool_], NDArray[np.int64]]:
+        """Return the switches of the terms, and where in `y` the states of each begin."""
+        chosen = set(active)
+        if unknown := chosen - set(self.keys):
+            raise ContractError(f"no term {sorted(unknown)[0]!r} in this system{nearest(sorted(unknown)[0], self.keys)}")
+        on = np.array([key in chosen for key in self.keys], dtype=np.bool_)
+        at, start = np.zeros(len(self.terms), dtype=np.int64), len(self.model.states)
+        for i, term in enumerate(self.terms):
+            at[i] = start if on[i] else 0
+            start += len(term.states) if on[i] else 0
+        return on, at
+
+    def pack(self, full: Array, step: float) -> tuple[Array, tuple[Array, ...]]:
+        """Return the parameters of the model, and for each term its own with what it needs behind them."""
+        base = np.ascontiguousarray(full[: len(self.model.params)])
+        return base, tuple(
+            np.array([full[i] if i >= 0 else (step / full[inertia] if inertia >= 0 else step) for i, inertia in row])
+            for row in self._sources
+        )
+
+    @cached_property
+    def _sources(self) -> tuple[tuple[tuple[int, int], ...], ...]:
+        """Where each entry of a term's `p` comes from: an index, or -1 with the index of an inertia, or -1 twice."""
+        table = []
+        for key, term in zip(self.keys, self.terms, strict=True):
+            inertia = self.index[place_of(self.model, term).inertia]
+            pseudo = {"step": (NUMB, NUMB), "mobility": (NUMB, inertia)}
+            own = [(self.index[f"{key}.{q.name}"], NUMB) for q in term.params]
+            table.append((*own, *(pseudo.get(n) or (self.index[n], NUMB) for n in term.needs)))
+        return tuple(table)
+
+    def channel(self, name: str) -> tuple[int, int]:
+        """Return the index of an observed channel, and that of the state it shows directly (-1 when it is none)."""
+        if name not in self.model.channels:
+            known = ", ".join(self.model.channels)
+            raise ContractError(f"{self.model.name} does not show {name!r}{nearest(name, self.model.channels)}: it shows {known}")
+        direct = self.model.states.index(name) if name in self.model.states else NUMB
+        return self.model.channels.index(name), direct
+
+    def simulate(self, full: Array, active: Iterable[str], y0: Array, drive: Drive) -> Motion:
+        """Return the free motion from the state `y0` (padded with zeros for the states of terms) under `drive`."""
+        chosen = tuple(active)
+        base, own = self.pack(full, drive.dt / drive.nsub)
+        on, at = self.wiring(chosen)
+        start = np.zeros(self.states(chosen))
+        start[: min(len(start), len(y0))] = y0[: len(start)]
+        states = np.full((drive.samples, len(start)), np.nan)
+        run = self.kernel(chosen).run
+        return Motion(states, int(run(start, drive.u, drive.dt, drive.nsub, base, own, on, at, 0.0, states)))
+
+    def stiffness(self, full: Array, active: Iterable[str], states: Array, inputs: Array) -> float:
+        """Return the fastest rate (1/s) of the linearised motion over the given states (points, n) and inputs."""
+        chosen = tuple(active)
+        base, own = self.pack(full, 1.0)
+        on, at = self.wiring(chosen)
+        slope_of = self.kernel(chosen).slope
+        n, fastest = self.states(chosen), 0.0
+        spread = 1e-6 * (np.ptp(states, axis=0) + 1e-12)
+
+        def slope(y: Array, u: Array) -> Array:
+            dydt = np.zeros(n)
+            slope_of(0.0, y, u, base, own, on, at, 0.0, dydt)
+            return dydt
+
+        for y, u in zip(states, inputs, strict=True):
+            full_y = np.zeros(n)
+            full_y[: len(y)] = y
+            m = len(y)
+            jac = np.array([(slope(full_y + _unit(n, a) * spread[a], u) - slope(full_y, u)) / spread[a] for a in range(m)])
+            fastest = max(fastest, float(np.abs(np.linalg.eigvals(jac[:, :m])).max()))
+        return fastest
+
+
+def _unit(n: int, a: int) -> Array:
+    e = np.zeros(n)
+    e[a] = 1.0
+    return e
+
+
+def _default(slot: Slot) -> float:
+    if slot.param.null is not None:
+        return slot.param.null
+    return 1.0 if slot.param.scale == "log" else 0.0
+
+
+@dataclass(frozen=True)
+class Drive:
+    """Measured inputs on the grid of the integrator: `u` (3 * nsub * samples, inputs), three rows to each step.
+
+    The rows are the input at the start, the middle and the end of a step, the end as a limit from the left, so that
+    an input that jumps at the samples (`hold="step"`) is integrated exactly.
+    """
+
+    u: Array
+    dt: float
+    nsub: int
+    samples: int
+
+    @classmethod
+    def smooth(cls, columns: list[Any], dt: float, nsub: int, samples: int) -> Drive:
+        """Return the drive of functions of time (s), one to each input, for instance splines through the samples."""
+        h = dt / nsub
+        start = np.arange(samples * nsub) * h
+        t = np.minimum((start[:, None] + np.array([0.0, 0.5 * h, h])).ravel(), (samples - 1) * dt)
+        return cls(np.ascontiguousarray(np.stack([f(t) for f in columns], axis=1)), dt, nsub, samples)
+
+    @classmethod
+    def held(cls, columns: list[Array], dt: float, nsub: int, samples: int) -> Drive:
+        """Return the drive of inputs (samples,) that are held between the samples."""
+        u = np.stack([np.repeat(np.asarray(c, dtype=float), 3 * nsub) for c in columns], axis=1)
+        return cls(np.ascontiguousarray(u), dt, nsub, samples)
+
+
+def substeps(rate: float, dt: float, *, accuracy: float = 0.06, most: int = 64) -> int:
+    """Return how many steps to take between samples so that `rate * step <= accuracy` (0.06: 105 steps a cycle)."""
+    return int(min(max(math.ceil(rate * dt / accuracy), 1), most))
