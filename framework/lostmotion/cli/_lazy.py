@@ -1,0 +1,102 @@
+"""A group of commands that imports a command only when it runs, and names of plugins that the Tab key completes."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Mapping
+from importlib import import_module
+from typing import ClassVar
+
+import click
+from click.shell_completion import CompletionItem
+
+from lostmotion.errors import LostMotionError, nearest
+from lostmotion.registry import KINDS, Registry, default
+
+INTERRUPTED = 130
+
+
+def examples(*lines: str) -> str:
+    """Return command lines as the epilog of a help text, kept on lines of their own."""
+    return "\b\n" + "\n".join(("Examples:", *(f"  {line}" for line in lines)))
+
+
+class SentenceError(click.ClickException):
+    """An error of ours as the command line shows it: one sentence, exit status 2, no traceback."""
+
+    exit_code = 2
+
+    def show(self, file: object = None) -> None:
+        """Write the sentence to standard error."""
+        click.echo(f"lostmotion: {' '.join(self.message.split())}", err=True)
+
+
+class LazyGroup(click.Group):
+    """A group whose `table` says for each command where it stands and what its one line of help is."""
+
+    table: ClassVar[Mapping[str, tuple[str, str]]] = {}
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        """Return the names of the commands in the order of the table."""
+        return list(self.table)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        """Return the command, imported now, or None when there is no such name."""
+        if cmd_name not in self.table:
+            return None
+        module, _, attribute = self.table[cmd_name][0].partition(":")
+        command: click.Command = getattr(import_module(module), attribute)
+        return command
+
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """Return name, command and the arguments left; an unknown name is told with the nearest known one."""
+        if args[0] not in self.table and not args[0].startswith("-"):
+            raise click.UsageError(f"there is no command {args[0]!r}{nearest(args[0], self.table)}", ctx)
+        return super().resolve_command(ctx, args)
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """Write the one-line helps, from the table alone."""
+        with formatter.section("Commands"):
+            formatter.write_dl([(name, text) for name, (_, text) in self.table.items()])
+
+    def shell_complete(self, ctx: click.Context, incomplete: str) -> list[CompletionItem]:
+        """Return the commands that begin with what is typed, from the table alone, then the options."""
+        found = [CompletionItem(n, help=text) for n, (_, text) in self.table.items() if n.startswith(incomplete)]
+        return found + click.Command.shell_complete(self, ctx, incomplete)
+
+    def invoke(self, ctx: click.Context) -> object:
+        """Run the command; an error of ours becomes a sentence, Ctrl-C the exit status 130."""
+        try:
+            return super().invoke(ctx)
+        except LostMotionError as err:
+            raise SentenceError(str(err)) from err
+        except (KeyboardInterrupt, click.Abort):
+            click.echo("lostmotion: interrupted", err=True)
+            ctx.exit(INTERRUPTED)
+
+
+class PluginName(click.ParamType):
+    """The name of a plugin of the given kinds, or of any kind; it is looked up by whoever loads it."""
+
+    name = "name"
+
+    def __init__(self, *kinds: str) -> None:
+        self._kinds = kinds or KINDS
+
+    def shell_complete(self, ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
+        """Return the names that begin with what is typed, those of `--plugin` files included."""
+        names = [(name, kind) for kind in self._kinds for name in registry_of(ctx).names(kind)]
+        return [CompletionItem(name, help=kind) for name, kind in names if name.startswith(incomplete)]
+
+
+def registry_of(ctx: click.Context) -> Registry:
+    """Return the registry of this command line; while the Tab key completes, no command has run and filled it."""
+    held = ctx.find_object(Registry)
+    if held is not None:
+        return held
+    for path in ctx.find_root().params.get("plugin") or ():
+        with contextlib.suppress(LostMotionError):
+            default().add_file(path)
+    return default()
