@@ -77,7 +77,7 @@ class LazyGroup(click.Group):
             ctx.exit(INTERRUPTED)
 
 
-class PluginName(click.ParamType):
+class PluginName(click.types.StringParamType):
     """The name of a plugin of the given kinds, or of any kind; it is looked up by whoever loads it."""
 
     name = "name"
