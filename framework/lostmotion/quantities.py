@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from functools import lru_cache
+from tokenize import TokenError
 from typing import Any, NamedTuple
 
 from lostmotion.errors import DataError
@@ -86,13 +88,34 @@ def si_factor(unit: str, quantity: str) -> tuple[float, str]:
     registry = _registry()
     try:
         one = registry.Quantity(1.0, unit)
-    except (pint.errors.PintError, ValueError, AttributeError, AssertionError, TypeError) as err:
+    except (
+        pint.errors.PintError,
+        ValueError,
+        AttributeError,
+        AssertionError,
+        TypeError,
+        TokenError,
+        SyntaxError,
+    ) as err:
         raise DataError(f"unit {unit!r} of the {quantity} is not known: write for instance {SI[quantity]!r}") from err
     for target in dict.fromkeys((SI[quantity], ANGULAR.get(quantity, SI[quantity]))):
         if one.is_compatible_with(target) and _angular(unit) == ("rad" in target):
-            return float(one.to(target).magnitude), target
-    raise DataError(f"unit {unit!r} does not measure a {quantity}: wanted one like {SI[quantity]!r}")
+            return _positive(float(one.to(target).magnitude), unit, quantity), target
+    raise DataError(f"unit {unit!r} does not measure {quantity}: wanted one like {SI[quantity]!r}{_hint(unit)}")
+
+
+def _hint(unit: str) -> str:
+    return {
+        "g": "; 'g' is the gram, write 'g_0' for the acceleration of gravity",
+        "V": "; volts need factor = (N, m, ... per volt) and the unit that comes of it",
+    }.get(unit, "")
+
+
+def _positive(factor: float, unit: str, quantity: str) -> float:
+    if not 0 < factor < math.inf:
+        raise DataError(f"unit {unit!r} of the {quantity} comes to a factor of {factor:g}: wanted a positive one")
+    return factor
 
 
 def _angular(unit: str) -> bool:
-    return any(word in unit.lower() for word in ("rad", "deg", "rev", "turn", "°", "arc"))
+    return any(word in unit.lower() for word in ("rad", "deg", "rev", "turn", "rpm", "°", "arc"))

@@ -1,0 +1,106 @@
+"""The entries of a case file, each asked for by key and type; what is wrong is said with its place."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from lostmotion.errors import CaseError, nearest
+
+_WORDS = {str: "text", bool: "true or false", int: "a number", float: "a number", list: "a list", dict: "a table"}
+
+
+@dataclass(frozen=True)
+class Fields:
+    """A table of the case file and where it stands, for instance `recordings[0].response`."""
+
+    file: str
+    place: str
+    values: Mapping[str, Any]
+
+    def only(self, known: Iterable[str]) -> Fields:
+        """Return the table itself, having refused every key that is not among `known`."""
+        known = list(known)
+        for key in self.values:
+            if key not in known:
+                raise self.error(f"has the unknown key {key!r}{nearest(key, known)}; known are {', '.join(known)}")
+        return self
+
+    def error(self, says: str) -> CaseError:
+        """Return an error that names the file and the place; `says` starts with a verb."""
+        return CaseError(f"{self.file}: {self.place} {says}")
+
+    def wrong(self, key: str, wanted: str) -> CaseError:
+        """Return an error on the value of `key`."""
+        value = self.values[key]
+        found = f"{_WORDS.get(type(value), type(value).__name__)} ({value!r})"[:80]
+        return self.error(f"has {found} as {key!r}: wanted {wanted}")
+
+    def text(self, key: str) -> str:
+        """Return a text that is not blank; the key must be there."""
+        value = self._get(key, "text in quotes")
+        if not isinstance(value, str) or not value.strip():
+            raise self.wrong(key, "text in quotes")
+        return value
+
+    def maybe_text(self, key: str) -> str | None:
+        """Return a text, or None where the key is absent."""
+        return self.text(key) if key in self.values else None
+
+    def number(self, key: str) -> float:
+        """Return a finite number; the key must be there."""
+        value = self._get(key, "a number")
+        if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
+            raise self.wrong(key, "a finite number, without quotes")
+        return float(value)
+
+    def maybe_number(self, key: str) -> float | None:
+        """Return a finite number, or None where the key is absent."""
+        return self.number(key) if key in self.values else None
+
+    def choice(self, key: str, known: Iterable[str]) -> str:
+        """Return a text that is among `known`."""
+        value, known = self.text(key), list(known)
+        if value not in known:
+            raise self.error(f"has {key} = {value!r}{nearest(value, known)}: wanted one of {', '.join(known)}")
+        return value
+
+    def texts(self, key: str) -> tuple[str, ...]:
+        """Return a list of texts; empty where the key is absent."""
+        value = self.values.get(key, [])
+        if not isinstance(value, list) or not all(isinstance(v, str) and v for v in value):
+            raise self.wrong(key, 'a list of texts, as ["file.py"]')
+        return tuple(value)
+
+    def table(self, key: str) -> Fields:
+        """Return a table; the key must be there."""
+        value = self._get(key, "a table")
+        if not isinstance(value, dict):
+            raise self.wrong(key, "a table")
+        return Fields(self.file, self._below(key), value)
+
+    def maybe_table(self, key: str) -> Fields:
+        """Return a table, empty where the key is absent."""
+        return self.table(key) if key in self.values else Fields(self.file, self._below(key), {})
+
+    def tables(self, key: str) -> Iterator[Fields]:
+        """Yield the tables of a list that is not empty; the key must be there."""
+        value = self._get(key, f"at least one [[{key}]]")
+        if not isinstance(value, list) or not value or not all(isinstance(v, dict) for v in value):
+            raise self.wrong(key, f"at least one table, headed [[{key}]]")
+        for i, entry in enumerate(value):
+            yield Fields(self.file, f"{self._below(key)}[{i}]", entry)
+
+    def numbers(self) -> dict[str, float]:
+        """Return the whole table as finite numbers."""
+        return {key: self.number(key) for key in self.values}
+
+    def _get(self, key: str, wanted: str) -> Any:
+        if key not in self.values:
+            raise self.error(f"lacks {key!r}: add {wanted}")
+        return self.values[key]
+
+    def _below(self, key: str) -> str:
+        return key if self.place == "the case" else f"{self.place}.{key}"

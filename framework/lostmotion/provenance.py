@@ -1,0 +1,64 @@
+"""Where a result comes from: the same inputs give the same bytes, so no date and no path of a machine."""
+
+from __future__ import annotations
+
+import hashlib
+import platform
+from collections.abc import Mapping
+from importlib import metadata
+from pathlib import Path
+from typing import Any
+
+from lostmotion.errors import DataError
+
+PACKAGES = ("lostmotion", "numpy", "numba")
+"""The packages whose version may change a number."""
+
+
+def digest(path: Path) -> str:
+    """Return the SHA-256 of a file as 64 hexadecimal digits."""
+    try:
+        with path.open("rb") as stream:
+            return hashlib.file_digest(stream, "sha256").hexdigest()
+    except OSError as err:
+        raise DataError(f"{path.name} cannot be read ({err.strerror}): give the path of a file") from err
+
+
+def provenance(
+    component: str, settings: Mapping[str, Any], seed: int | None, inputs: Mapping[str, str]
+) -> dict[str, Any]:
+    """Return what made a result, ready for JSON: component, versions, settings, seed and digests of the inputs.
+
+    `inputs` maps a name, such as that of the file, to its `digest`. Keys are sorted.
+    """
+    return {
+        "component": component,
+        "versions": {"python": platform.python_version(), **{name: _version(name) for name in PACKAGES}},
+        "settings": _plain(settings),
+        "seed": seed,
+        "inputs": _plain(inputs),
+    }
+
+
+def _version(package: str) -> str:
+    try:
+        return metadata.version(package)
+    except metadata.PackageNotFoundError:
+        return "not installed"
+
+
+def _plain(value: Any) -> Any:
+    """Return `value` as JSON knows it; a path loses its folders, and anything without a fixed text is refused."""
+    if isinstance(value, Mapping):
+        return {str(k): _plain(value[k]) for k in sorted(value, key=str)}
+    if isinstance(value, (set, frozenset)):
+        return sorted(map(_plain, value))
+    if isinstance(value, (list, tuple)):
+        return [_plain(v) for v in value]
+    if isinstance(value, Path):
+        return value.name
+    if hasattr(value, "tolist"):
+        return value.tolist()
+    if value is None or isinstance(value, (str, bool, int, float)):
+        return value
+    raise TypeError(f"a setting of type {type(value).__name__} cannot be recorded: give numbers, text, lists, tables")

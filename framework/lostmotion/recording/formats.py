@@ -1,0 +1,175 @@
+"""The columns of a file, whatever its format; each reader of a third party is loaded only when it is needed."""
+
+from __future__ import annotations
+
+import difflib
+import warnings
+from collections.abc import Callable, Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lostmotion.errors import DataError
+from lostmotion.recording.text import read_text
+
+Array = NDArray[np.float64]
+
+
+def read_columns(path: Path) -> dict[str, Array]:
+    """Return the numeric columns of a file by name, each (n,); lengths may differ between columns.
+
+    Numbers that stand alone are left out. A two-dimensional array `a` gives `a[0]`, `a[1]`, ...: the longer axis is
+    time. A field `b` of a structure or group `a` is `a.b` (MAT) or `a/b` (netCDF, HDF5). In UFF a function is named
+    by its first id line, where that is unique, and by its number among the functions: `58[0]`.
+    """
+    path = Path(path)
+    reader = _reader(path)
+    _must_be_file(path)
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            columns = reader(path)
+    except DataError:
+        raise
+    except Exception as err:  # readers of foreign formats fail in every way there is
+        raise DataError(
+            f"{path.name} cannot be read as {path.suffix[1:].lower()} ({_first_line(err)}): "
+            "it may be cut short or of another format; export it again, for instance as csv"
+        ) from err
+    if not columns:
+        raise DataError(f"{path.name} holds no column of numbers: wanted at least one series of samples")
+    return columns
+
+
+def _reader(path: Path) -> Callable[[Path], dict[str, Array]]:
+    ending = path.suffix[1:].lower()
+    if ending not in ENDINGS:
+        raise DataError(f"{path.name} ends in {ending!r}: wanted one of {', '.join(ENDINGS)}; export it, say, as csv")
+    return ENDINGS[ending]
+
+
+def _must_be_file(path: Path) -> None:
+    if path.is_dir():
+        raise DataError(f"{path.name} is a folder: give the recording inside it")
+    if not path.exists():
+        raise DataError(f"{path.name} does not exist in {path.parent.name or '.'}{_neighbour(path)}: correct the name")
+    if path.stat().st_size == 0:
+        raise DataError(f"{path.name} is empty (0 bytes): record or export it again")
+
+
+def _neighbour(path: Path) -> str:
+    names = [p.name for p in path.parent.iterdir()] if path.parent.is_dir() else []
+    close = difflib.get_close_matches(path.name, names, n=1)
+    return f" (did you mean {close[0]!r}?)" if close else ""
+
+
+def _first_line(err: Exception) -> str:
+    return (str(err).splitlines() or [""])[0][:120] or type(err).__name__
+
+
+def _read_npz(path: Path) -> dict[str, Array]:
+    with np.load(path, allow_pickle=False) as archive:
+        if not isinstance(archive, np.lib.npyio.NpzFile):
+            raise DataError(f"{path.name} is a single array: wanted an archive as np.savez writes it")
+        return dict(_flat_all({name: _member(archive, name, path) for name in archive.files}))
+
+
+def _member(archive: Any, name: str, path: Path) -> Any:
+    try:
+        return archive[name]
+    except ValueError as err:
+        if "allow_pickle" not in str(err):
+            raise
+        raise DataError(
+            f"{path.name}: {name!r} holds Python objects, which could run code when read: save plain numbers"
+        ) from err
+
+
+def _read_mat(path: Path) -> dict[str, Array]:
+    import pymatreader
+
+    content = pymatreader.read_mat(path)
+    return dict(_flat_all({k: v for k, v in content.items() if not k.startswith("__")}))
+
+
+def _read_nc(path: Path) -> dict[str, Array]:
+    import xarray as xr
+
+    engine = "scipy" if path.open("rb").read(3) == b"CDF" else "h5netcdf"
+    groups = xr.open_groups(path, engine=engine, decode_times=False)
+    try:
+        found = {_inside(g, n): v.values for g, data in groups.items() for n, v in data.variables.items()}
+    finally:
+        for data in groups.values():
+            data.close()
+    return dict(_flat_all(found))
+
+
+def _inside(group: str, name: object) -> str:
+    return f"{group.strip('/')}/{name}".lstrip("/")
+
+
+def _read_h5(path: Path) -> dict[str, Array]:
+    import h5py
+
+    with h5py.File(path, "r") as file:
+        if "_NCProperties" not in file.attrs:
+            found: dict[str, Any] = {}
+            file.visititems(lambda name, item: found.update({name: item[()]} if isinstance(item, h5py.Dataset) else {}))
+            return dict(_flat_all(found))
+    return _read_nc(path)
+
+
+def _read_uff(path: Path) -> dict[str, Array]:
+    import pyuff
+
+    file = pyuff.UFF(str(path))
+    numbers = [i for i, kind in enumerate(file.get_set_types()) if int(kind) == 58]
+    sets = [file.read_sets(i) for i in numbers]
+    found = {f"58[{k}]": s["data"] for k, s in enumerate(sets)}
+    ids = [str(s.get("id1") or "").strip() for s in sets]
+    found |= {name: s["data"] for name, s in zip(ids, sets, strict=True) if name and ids.count(name) == 1}
+    if sets and all(np.array_equal(s["x"], sets[0]["x"]) for s in sets):
+        found.setdefault("time", sets[0]["x"])
+    return dict(_flat_all(found))
+
+
+def _flat_all(content: Mapping[str, Any]) -> Iterator[tuple[str, Array]]:
+    for name, value in content.items():
+        yield from _flat(name, value)
+
+
+def _flat(name: str, value: Any) -> Iterator[tuple[str, Array]]:
+    if isinstance(value, Mapping):
+        yield from _flat_all({f"{name}.{key}": item for key, item in value.items()})
+    elif isinstance(value, (list, tuple)) and any(np.ndim(item) for item in value if not isinstance(item, Mapping)):
+        yield from _flat_all({f"{name}[{i}]": item for i, item in enumerate(value)})
+    elif not isinstance(value, (str, bytes)):
+        yield from _series(name, np.squeeze(np.asarray(value)))
+
+
+def _series(name: str, array: NDArray[Any]) -> Iterator[tuple[str, Array]]:
+    if array.dtype.kind not in "fiub":
+        return
+    if array.ndim == 1:
+        yield name, array.astype(np.float64)
+    elif array.ndim == 2:
+        rows = array if array.shape[0] < array.shape[1] else array.T
+        yield from ((f"{name}[{i}]", row.astype(np.float64)) for i, row in enumerate(rows))
+
+
+ENDINGS: Mapping[str, Callable[[Path], dict[str, Array]]] = {
+    "csv": read_text,
+    "tsv": read_text,
+    "txt": read_text,
+    "npz": _read_npz,
+    "mat": _read_mat,
+    "nc": _read_nc,
+    "h5": _read_h5,
+    "hdf5": _read_h5,
+    "uff": _read_uff,
+    "unv": _read_uff,
+}
+"""The endings that are understood, with their readers."""

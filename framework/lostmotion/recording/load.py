@@ -1,0 +1,135 @@
+"""One recording, read, checked and in SI units."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lostmotion.errors import DataError, nearest
+from lostmotion.provenance import digest
+from lostmotion.quantities import si_factor
+from lostmotion.recording.checks import check_length, check_values, note_degrees, note_stuck
+from lostmotion.recording.formats import read_columns
+from lostmotion.recording.spec import Channel, Hold, RecordingSpec
+from lostmotion.recording.timing import check_time
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+Array = NDArray[np.float64]
+SHOWN = 12
+
+
+@dataclass(frozen=True, eq=False)
+class Recording:
+    """What went in and what came out, in SI units on an even time grid.
+
+    `data` has the dim `time` (s) and the variables `excitation` and `response` (n,), with `units`, `quantity` and
+    `long_name`. NaN in the response marks a lost sample; the excitation has none. `dt` is the sampling step (s),
+    `digest` the SHA-256 of the file, `source` its name. `notes` are sentences on what looks odd and was accepted.
+    """
+
+    name: str
+    data: xr.Dataset
+    dt: float
+    digest: str
+    source: str
+    hold: Hold = "smooth"
+    notes: tuple[str, ...] = ()
+
+    @property
+    def rate(self) -> float:
+        """The sampling rate in Hz."""
+        return 1.0 / self.dt
+
+    @property
+    def n(self) -> int:
+        """The number of samples."""
+        return int(self.data.sizes["time"])
+
+
+def load_recording(spec: RecordingSpec, folder: Path) -> Recording:
+    """Return the recording that `spec` describes, its file taken relative to `folder`; `DataError` if unusable."""
+    path = Path(folder) / spec.file
+    columns = read_columns(path)
+    time, pair = _samples(spec, columns, path.name)
+    check_length(time.size, path.name)
+    time, pair = _cut(spec, time, pair)
+    check_length(time.size, path.name)
+    dt, notes = check_time(time, path.name) if spec.time else (1.0 / _rate(spec), ())
+    checked = [_checked(c, v, path.name) for c, v in zip((spec.excitation, spec.response), pair, strict=True)]
+    data = _dataset(time[0] + dt * np.arange(time.size), [si for si, _ in checked])
+    notes = (*notes, *(note for _, own in checked for note in own))
+    return Recording(spec.label, data, dt, digest(path), path.name, spec.hold, notes)
+
+
+def _samples(spec: RecordingSpec, columns: Mapping[str, Array], source: str) -> tuple[Array, list[Array]]:
+    names = [spec.excitation.column, spec.response.column]
+    found = {name: _pick(columns, name, source) for name in [*names, *([spec.time] if spec.time else [])]}
+    sizes = {name: column.size for name, column in found.items()}
+    if len(set(sizes.values())) > 1:
+        listed = ", ".join(f"{name!r} {size}" for name, size in sizes.items())
+        raise DataError(f"{source}: the columns differ in length ({listed}): name columns recorded together")
+    time = found[spec.time] if spec.time else np.arange(found[names[0]].size) / _rate(spec)
+    return time, [found[name] for name in names]
+
+
+def _rate(spec: RecordingSpec) -> float:
+    if spec.rate is None or not 0 < spec.rate < np.inf:
+        raise DataError(f"{spec.file} has neither time nor a positive rate: give time = 'column' or rate = 1000.0 (Hz)")
+    return spec.rate
+
+
+def _pick(columns: Mapping[str, Array], name: str, source: str) -> Array:
+    if name in columns:
+        return columns[name]
+    listed = [*columns][:SHOWN]
+    more = f" and {len(columns) - SHOWN} more" if len(columns) > SHOWN else ""
+    raise DataError(
+        f"{source} has no column {name!r}: it has {', '.join(listed)}{more}{nearest(name, columns)}; name one of these"
+    )
+
+
+def _cut(spec: RecordingSpec, time: Array, pair: list[Array]) -> tuple[Array, list[Array]]:
+    """Return the samples from `t_start` to `t_end`, both included; half a rounding error does not lose the last one."""
+    if spec.t_start is None and spec.t_end is None:
+        return time, pair
+    low = -np.inf if spec.t_start is None else spec.t_start - 1e-9 * (1 + abs(spec.t_start))
+    high = np.inf if spec.t_end is None else spec.t_end + 1e-9 * (1 + abs(spec.t_end))
+    inside = (time >= low) & (time <= high)
+    if not inside.any():
+        raise DataError(
+            f"{spec.file} has no samples from t_start to t_end: its time runs from {time[0]:.6g} s "
+            f"to {time[-1]:.6g} s; choose both in there"
+        )
+    return time[inside], [values[inside] for values in pair]
+
+
+def _checked(channel: Channel, values: Array, source: str) -> tuple[xr.DataArray, tuple[str, ...]]:
+    import xarray as xr
+
+    response = channel.quantity in ("position", "velocity", "acceleration")
+    what = f"the {'response' if response else 'excitation'} {channel.column!r}"
+    notes = [*check_values(values, what, source, may_miss=response)]
+    if response:
+        notes += note_stuck(values, what)
+    factor, unit = si_factor(channel.unit, channel.quantity)
+    si = values * (channel.factor * factor)
+    if channel.unit.strip() in ("rad", "radian", "radians"):
+        notes += note_degrees(si, what, unit)
+    name = f"{channel.quantity.replace('_', ' ')} (column {channel.column!r})"
+    return xr.DataArray(si, dims="time", attrs={"units": unit, "quantity": channel.quantity, "long_name": name}), tuple(
+        notes
+    )
+
+
+def _dataset(time: Array, channels: list[xr.DataArray]) -> xr.Dataset:
+    import xarray as xr
+
+    data = xr.Dataset(dict(zip(("excitation", "response"), channels, strict=True)))
+    return data.assign_coords(time=("time", time, {"units": "s", "long_name": "time"}))
