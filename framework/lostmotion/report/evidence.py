@@ -1,0 +1,85 @@
+"""What a report is drawn from: `diagnosis.json` and `arrays.nc`, read once and never written."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from lostmotion.errors import DataError
+from lostmotion.results import Array
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """Facts of a diagnosis, its numeric arrays and text coordinates, and the units of the arrays."""
+
+    facts: Mapping[str, Any]
+    arrays: Mapping[str, Array]
+    labels: Mapping[str, tuple[str, ...]]
+    units: Mapping[str, str]
+
+    def has(self, *names: str) -> bool:
+        """Return whether every array of `names` is there and holds at least one finite number."""
+        return all(name in self.arrays and bool(np.isfinite(self.arrays[name]).any()) for name in names)
+
+    def fact(self, *path: str) -> Any:
+        """Return the fact at a path of keys, or None where any of them is absent."""
+        found: Any = self.facts
+        for key in path:
+            found = found.get(key) if isinstance(found, Mapping) else None
+        return found
+
+    def number(self, *path: str) -> float:
+        """Return the number at a path of keys, or NaN where there is none."""
+        found = self.fact(*path)
+        return float(found) if isinstance(found, int | float) else float("nan")
+
+    def unit(self, quantity: str) -> str:
+        """Return the unit of `position`, `velocity`, `force` or `time`: the diagnosis's own, or that of the array."""
+        return str(self.fact("units", quantity) or self.units.get(quantity, ""))
+
+    @property
+    def response(self) -> str:
+        """Return the name of the quantity that was recorded."""
+        return str(self.fact("response", "quantity") or "response")
+
+    @property
+    def response_unit(self) -> str:
+        """Return the unit of the response."""
+        return self.units.get("response") or self.unit(self.response)
+
+
+def read_evidence(folder: Path) -> Evidence:
+    """Return what is in a folder written by `lostmotion diagnose`; arrays may be absent, the diagnosis may not."""
+    page = folder / "diagnosis.json"
+    if not page.is_file():
+        raise DataError(f"no diagnosis.json in {folder}: run `lostmotion diagnose CASE.toml --out {folder}` first")
+    try:
+        facts = json.loads(page.read_text(encoding="utf-8"))
+    except json.JSONDecodeError as error:
+        raise DataError(f"{page} is not JSON ({error}): run `lostmotion diagnose` again") from error
+    if not isinstance(facts, dict):
+        raise DataError(f"{page} holds a {type(facts).__name__}, not an object: run `lostmotion diagnose` again")
+    arrays = folder / "arrays.nc"
+    return _with_arrays(facts, xr.load_dataset(arrays, engine="h5netcdf") if arrays.is_file() else xr.Dataset())
+
+
+def _with_arrays(facts: Mapping[str, Any], data: xr.Dataset) -> Evidence:
+    numeric = {str(n): v for n, v in data.variables.items() if v.dtype.kind in "fiub"}
+    text = {str(n): v for n, v in data.variables.items() if v.dtype.kind in "OSUT"}
+    return Evidence(
+        facts=facts,
+        arrays={name: np.asarray(variable.values, dtype=float) for name, variable in numeric.items()},
+        labels={name: tuple(_decoded(v) for v in variable.values.ravel()) for name, variable in text.items()},
+        units={name: str(variable.attrs.get("units", "")) for name, variable in numeric.items()},
+    )
+
+
+def _decoded(label: object) -> str:
+    return label.decode("utf-8", "replace") if isinstance(label, bytes) else str(label)

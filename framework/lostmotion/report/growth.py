@@ -1,0 +1,127 @@
+"""Figures: how the error of a prediction grows with its lead, and whether the innovations are white."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from lostmotion.report import style
+from lostmotion.report.evidence import Evidence
+from lostmotion.report.words import figures, percent
+
+CURVES = (
+    ("floor", style.QUIET, "noise floor"),
+    ("before", style.BEFORE, "before"),
+    ("after", style.AFTER, "after"),
+)
+
+
+class Clock(NamedTuple):
+    """What one second of lead is in the unit of the axis, and the name of that unit."""
+
+    rate: float
+    name: str
+
+
+def draw(evidence: Evidence) -> Figure | None:
+    """Return the growth of the prediction error, or None without its curves."""
+    if not evidence.has("lead") or not any(evidence.has(f"growth_{name}") for name, _, _ in CURVES):
+        return None
+    figure = style.blank(3.4)
+    axes = figure.subplots()
+    draw_growth(axes, evidence, clock_of(evidence))
+    style.legend_above(figure, axes)
+    return figure
+
+
+def caption(evidence: Evidence) -> str:
+    """Return what to see in the figure."""
+    valid = evidence.fact("valid_prediction_time")
+    marks = "; the dotted lines mark how long each prediction is valid" if valid else ""
+    return (
+        "Error of free-running predictions of held-out data over the standard deviation of the response, against the "
+        f"time since the last filtered state{marks}. The noise floor is what the right model would reach from states "
+        "known no better than these: a curve that keeps to it has nothing left to gain."
+    )
+
+
+def clock_of(evidence: Evidence) -> Clock:
+    """Return Lyapunov times where the response is chaotic, else drive periods, else seconds."""
+    for when in ("after", "before"):
+        exponent = evidence.number("lyapunov", when)
+        if exponent > 0:
+            return Clock(exponent, "Lyapunov times")
+    frequency = evidence.number("drive", "frequency")
+    return Clock(frequency, "drive periods") if frequency > 0 else Clock(1.0, "s")
+
+
+def draw_growth(axes: Axes, evidence: Evidence, clock: Clock) -> None:
+    """Draw the error over the lead before, after and at the noise floor, on a logarithmic scale."""
+    lead = clock.rate * evidence.arrays["lead"]
+    for name, colour, words in CURVES:
+        if evidence.has(f"growth_{name}"):
+            curve = evidence.arrays[f"growth_{name}"]
+            axes.plot(lead, np.where(curve > 0, curve, np.nan), color=colour, label=words, linewidth=1.8)
+    axes.set_yscale("log")
+    axes.set_xlim(float(lead.min()), float(lead.max()))
+    axes.set_xlabel(f"lead ({clock.name})")
+    axes.set_ylabel("error / response s.d.")
+    axes.yaxis.set_major_formatter(lambda value, _: percent(value))
+    _mark_validity(axes, evidence, clock)
+    if clock.name != "s":
+        turns = (lambda lead: np.asarray(lead, float) / clock.rate, lambda at: np.asarray(at, float) * clock.rate)
+        above = axes.secondary_xaxis("top", functions=turns)
+        above.set_xlabel("lead (s)")
+
+
+def _mark_validity(axes: Axes, evidence: Evidence, clock: Clock) -> None:
+    for row, (name, colour, _) in enumerate(CURVES):
+        at = clock.rate * evidence.number("valid_prediction_time", name)
+        if not np.isfinite(at):
+            continue
+        axes.axvline(at, color=colour, linestyle=":", linewidth=1.5)
+        text = axes.text(at, 0.05 + 0.09 * row, f" {figures(at, 2)}", color=colour, fontsize=8.5)
+        text.set_transform(axes.get_xaxis_transform())
+        text.set_bbox({"facecolor": "white", "edgecolor": "none", "alpha": 0.85, "pad": 0.6})
+
+
+def draw_whiteness(evidence: Evidence) -> Figure | None:
+    """Return the autocorrelation of the innovations before and after, or None without it."""
+    shown = [entry for entry in CURVES[1:] if evidence.has(f"acf_{entry[0]}")]
+    if not shown:
+        return None
+    figure = style.blank(2.2, width=style.WIDTH if len(shown) > 1 else style.WIDTH / 2)
+    panels = figure.subplots(1, len(shown), squeeze=False, sharey=True)[0]
+    for axes, (name, colour, words) in zip(panels, shown, strict=True):
+        _draw_lags(axes, evidence, name, colour)
+        axes.set_title(words, color=colour)
+    panels[0].set_ylabel("autocorrelation")
+    return figure
+
+
+def whiteness_caption(evidence: Evidence) -> str:
+    """Return what to see in the autocorrelations."""
+    said = []
+    for name, _, words in CURVES[1:]:
+        says, p = evidence.fact("whiteness", name, "says"), evidence.number("whiteness", name, "p")
+        if says or np.isfinite(p):
+            said.append(f"{words} (p = {figures(p, 2)}): {says}" if says else f"{words}: p = {figures(p, 2)}.")
+    return "Autocorrelation of the innovations; within the grey band they are white. " + " ".join(
+        sentence[:1].upper() + sentence[1:] for sentence in said
+    )
+
+
+def _draw_lags(axes: Axes, evidence: Evidence, name: str, colour: str) -> None:
+    values = evidence.arrays[f"acf_{name}"]
+    lags = evidence.arrays.get("lag", np.arange(float(values.size)))
+    kept = lags > 0
+    if evidence.has("acf_limit"):
+        limit = float(evidence.arrays["acf_limit"])
+        axes.axhspan(-limit, limit, color="#dddddd", zorder=0)
+    axes.vlines(lags[kept], 0, values[kept], color=colour, linewidth=2)
+    axes.axhline(0, color=style.RECORDED, linewidth=0.8)
+    style.few_ticks(axes, 8, 4)
+    axes.set_xlabel("lag (samples)")

@@ -1,0 +1,97 @@
+"""Figure: the force the model does not explain, over what it may depend on, before and after."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from lostmotion.report import style
+from lostmotion.report.evidence import Evidence
+from lostmotion.report.words import percent, with_unit
+from lostmotion.results import Array
+
+NAMES = {"position": "position", "velocity": "velocity", "phase": "drive phase", "time": "slow time"}
+
+
+def draw(evidence: Evidence) -> Figure | None:
+    """Return one panel for each covariate that has a curve, or None without any."""
+    shown = [name for name in evidence.labels.get("covariate", ()) if curve_of(evidence, "before_mean", name).size]
+    if not shown:
+        return None
+    rows = -(-len(shown) // 2)
+    figure = style.blank(2.75 * rows + 0.3)
+    panels = figure.subplots(rows, min(2, len(shown)), squeeze=False, sharey=True)
+    for axes, name in zip(panels.flat, shown, strict=False):
+        draw_curve(axes, evidence, name)
+    for axes in panels.flat[len(shown) :]:
+        axes.remove()
+    for axes in panels[:, 1:].flat:
+        axes.set_ylabel("")
+    style.legend_above(
+        figure, max(panels.flat[: len(shown)], key=lambda axes: len(axes.get_legend_handles_labels()[1]))
+    )
+    return figure
+
+
+def caption(evidence: Evidence) -> str:
+    """Return what to see in the figure."""
+    summary = evidence.fact("where", "summary")
+    opening = f"The missing force: {summary}. " if summary else ""
+    body = "Lines are the mean in each bin, bands hold 95 % of the samples. "
+    if not evidence.has("after_mean"):
+        return f"{opening}{body}A force that was left out would show as a curve that leaves zero."
+    return f"{opening}{body}" + (
+        "A curve that leaves zero tells what the missing force depends on: vermillion is the force when the term is "
+        "taken out, blue what is left with it"
+        + (", and the dashed green line is the law that was learnt." if evidence.has("law_mean") else ".")
+    )
+
+
+def curve_of(evidence: Evidence, name: str, covariate: str) -> Array:
+    """Return the row of a binned array that belongs to a covariate; empty where there is none."""
+    covariates = evidence.labels.get("covariate", ())
+    if covariate not in covariates or not evidence.has(name):
+        return np.array([])
+    row = evidence.arrays[name][covariates.index(covariate)]
+    return row if np.isfinite(row).any() else np.array([])
+
+
+def draw_curve(axes: Axes, evidence: Evidence, covariate: str) -> None:
+    """Draw the missing force over one covariate: mean and band before and after, and the law."""
+    unit = _unit(evidence, covariate)
+    centre = curve_of(evidence, "bin_center", covariate)
+    scale = style.scale_of(centre, unit)
+    axes.axhline(0, color=style.RECORDED, linewidth=0.8)
+    for when, colour in (("before", style.BEFORE), ("after", style.AFTER)):
+        _draw_band(axes, evidence, (when, covariate, colour), scale.factor * centre)
+    law = curve_of(evidence, "law_mean", covariate)
+    if law.size:
+        axes.plot(scale.factor * centre, law, color=style.LAW, linestyle=(0, (4, 2)), linewidth=1.8, label="law")
+    style.few_ticks(axes)
+    if unit == "rad" and covariate == "phase":
+        axes.set_xticks([0, np.pi / 2, np.pi, 1.5 * np.pi, 2 * np.pi], ["0", "π/2", "π", "3π/2", "2π"])
+    axes.set_xlabel(with_unit(NAMES.get(covariate, covariate), scale.unit))
+    axes.set_ylabel(with_unit("missing force", evidence.unit("force")))
+    _name_share(axes, evidence, covariate)
+
+
+def _draw_band(axes: Axes, evidence: Evidence, what: tuple[str, str, str], at: Array) -> None:
+    when, covariate, colour = what
+    mean, low, high = (curve_of(evidence, f"{when}_{kind}", covariate) for kind in ("mean", "low", "high"))
+    if low.size and high.size:
+        axes.fill_between(at, low, high, color=colour, alpha=0.18, linewidth=0)
+    if mean.size:
+        axes.plot(at, mean, color=colour, label=when, marker="o", markersize=2.6)
+
+
+def _name_share(axes: Axes, evidence: Evidence, covariate: str) -> None:
+    share = evidence.number("where", "explained_by", covariate)
+    if np.isfinite(share):
+        axes.set_title(f"{percent(share)} explained by {NAMES.get(covariate, covariate)}", color="#444444")
+
+
+def _unit(evidence: Evidence, covariate: str) -> str:
+    covariates = evidence.labels.get("covariate", ())
+    units = evidence.labels.get("covariate_unit", ())
+    return units[covariates.index(covariate)] if len(units) == len(covariates) else ""

@@ -1,0 +1,94 @@
+"""The page: sections in their order, and the template they are poured into."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import NamedTuple
+
+from jinja2 import Environment, PackageLoader, StrictUndefined
+from markupsafe import Markup
+from matplotlib.figure import Figure
+
+from lostmotion.report import growth, missing, opening, portraits, posteriors, prediction, ranking, style, tables
+from lostmotion.report.evidence import Evidence, read_evidence
+
+
+class Section(NamedTuple):
+    """One figure of the report: its name in the page, heading, drawing and caption."""
+
+    name: str
+    title: str
+    draw: Callable[[Evidence], Figure | None]
+    caption: Callable[[Evidence], str]
+
+
+class Drawn(NamedTuple):
+    """A section as the template takes it: markup is empty where there was nothing to draw."""
+
+    name: str
+    title: str
+    markup: Markup
+    caption: str
+    table: tables.Table | None
+
+
+SECTIONS = (
+    Section("prediction", "Recording and prediction", prediction.draw, prediction.caption),
+    Section("missing", "The force that is missing", missing.draw, missing.caption),
+    Section("ranking", "Which physics it may be", ranking.draw, ranking.caption),
+    Section("parameters", "Parameters before and after", posteriors.draw, posteriors.caption),
+    Section("portraits", "Phase portrait and Poincaré section", portraits.draw, portraits.caption),
+    Section("growth", "How far ahead predictions hold", growth.draw, growth.caption),
+    Section("whiteness", "Are the innovations white?", growth.draw_whiteness, growth.whiteness_caption),
+)
+
+
+def write_report(folder: Path) -> Path:
+    """Return the path of `report.html`, written from `diagnosis.json` and `arrays.nc` in the folder."""
+    page = folder / "report.html"
+    page.write_text(render(read_evidence(folder)), encoding="utf-8")
+    return page
+
+
+def render(evidence: Evidence) -> str:
+    """Return the page as one self-contained HTML text."""
+    pages = Environment(
+        loader=PackageLoader("lostmotion.report", "."),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    with style.applied():
+        sections = list(_drawn(evidence))
+    return pages.get_template("diagnosis.html.j2").render(
+        title=str(evidence.fact("title") or "Diagnosis"),
+        badge=opening.badge(evidence),
+        answer=opening.answer(evidence),
+        model=evidence.fact("model") or {},
+        numbers=tables.key_numbers(evidence),
+        mechanisms=tables.mechanisms(evidence),
+        sections=sections,
+        notes=[str(note) for note in evidence.fact("notes") or []],
+        confused=opening.confused(evidence),
+        provenance=_provenance(evidence),
+    )
+
+
+def _drawn(evidence: Evidence) -> Iterator[Drawn]:
+    """Return the sections that have a figure or a table."""
+    for section in SECTIONS:
+        figure = section.draw(evidence)
+        table = tables.parameters(evidence) if section.name == "parameters" else None
+        if figure is not None or (table and table.rows):
+            # The markup is drawn by matplotlib, which escapes the words it is given.
+            markup = Markup(style.embedded(figure, section.name) if figure else "")  # noqa: S704
+            caption = section.caption(evidence) if figure else ""
+            yield Drawn(section.name, section.title, markup, caption, table)
+
+
+def _provenance(evidence: Evidence) -> str:
+    origin = evidence.fact("provenance")
+    return json.dumps(origin, indent=2, ensure_ascii=False, default=str) if origin else ""

@@ -1,0 +1,99 @@
+"""Figure: phase portrait and Poincaré section of recording, baseline and augmented model, on the same axes."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from lostmotion.report import style
+from lostmotion.report.evidence import Evidence
+from lostmotion.report.words import Scale, with_unit
+from lostmotion.results import Array
+
+WHO = (
+    ("recorded", "recording", style.RECORDED),
+    ("before", "model before", style.BEFORE),
+    ("after", "model after", style.AFTER),
+)
+KINDS = ("portrait", "section")
+
+
+class Frame(NamedTuple):
+    """Scales and limits that all panels of a kind share."""
+
+    position: Scale
+    velocity: Scale
+    across: tuple[float, float]
+    up: tuple[float, float]
+
+
+def draw(evidence: Evidence) -> Figure | None:
+    """Return portraits above sections, one column each for recording, before and after, or None without any."""
+    kinds = [kind for kind in KINDS if _columns(evidence, kind)]
+    if not kinds:
+        return None
+    columns = [who for who in WHO if any(who in _columns(evidence, kind) for kind in kinds)]
+    figure = style.blank(2.75 * len(kinds) + 0.2)
+    panels = figure.subplots(len(kinds), len(columns), squeeze=False, sharey="row", sharex="row")
+    for row, kind in zip(panels, kinds, strict=True):
+        frame = frame_of(evidence, kind)
+        for axes, who in zip(row, columns, strict=True):
+            draw_panel(axes, evidence, (kind, who), frame)
+        row[0].set_ylabel(with_unit("velocity", frame.velocity.unit))
+    return figure
+
+
+def caption(evidence: Evidence) -> str:
+    """Return what to see in the figure."""
+    parts = []
+    if evidence.has("portrait_recorded_x"):
+        parts.append("Phase portraits")
+    if evidence.has("section_recorded_x"):
+        parts.append("Poincaré sections, one point for each drive period (pale dots: the recording)")
+    return " and ".join(parts) + (
+        ". All panels of a row share their axes. A model with the right physics fills the same region with the same "
+        "folds; in chaos the orbits themselves need not agree point by point."
+    )
+
+
+def draw_panel(axes: Axes, evidence: Evidence, what: tuple[str, tuple[str, str, str]], frame: Frame) -> None:
+    """Draw one orbit or section in the frame it shares with its neighbours."""
+    kind, (key, words, colour) = what
+    axes.set_xlim(frame.across)
+    axes.set_ylim(frame.up)
+    axes.set_title(words if kind == "portrait" else f"{words}: section", color=colour)
+    axes.set_xlabel(with_unit("position", frame.position.unit))
+    style.few_ticks(axes, 4, 5)
+    if kind == "portrait":
+        axes.plot(*_scaled(evidence, (kind, key), frame), color=colour, linewidth=0.55)
+        return
+    if key != "recorded":
+        axes.plot(*_scaled(evidence, (kind, "recorded"), frame), ".", color="#bdbdbd", markersize=4, markeredgewidth=0)
+    axes.plot(*_scaled(evidence, (kind, key), frame), ".", color=colour, markersize=5, markeredgewidth=0)
+
+
+def frame_of(evidence: Evidence, kind: str) -> Frame:
+    """Return the frame that holds the recording and the models, unless a model runs away."""
+    keys = [key for key, _, _ in _columns(evidence, kind)]
+    x, v = ([evidence.arrays[f"{kind}_{key}_{axis}"] for key in keys] for axis in "xv")
+    position = style.scale_of(np.concatenate(x), evidence.unit("position"))
+    velocity = style.scale_of(np.concatenate(v), evidence.unit("velocity"))
+    return Frame(position, velocity, _limits(position.factor, x), _limits(velocity.factor, v))
+
+
+def _limits(factor: float, values: list[Array]) -> tuple[float, float]:
+    return style.framed(factor * values[0], [factor * other for other in values[1:]], 0.5)
+
+
+def _columns(evidence: Evidence, kind: str) -> list[tuple[str, str, str]]:
+    return [who for who in WHO if evidence.has(f"{kind}_{who[0]}_x", f"{kind}_{who[0]}_v")]
+
+
+def _scaled(evidence: Evidence, what: tuple[str, str], frame: Frame) -> tuple[Array, Array]:
+    if not evidence.has(*(f"{what[0]}_{what[1]}_{axis}" for axis in "xv")):
+        return np.array([]), np.array([])
+    x, v = (evidence.arrays[f"{what[0]}_{what[1]}_{axis}"] for axis in "xv")
+    return frame.position.factor * x, frame.velocity.factor * v

@@ -1,0 +1,118 @@
+"""Figure: the parameters before and after, beside the known values where there are any."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from lostmotion.report import style
+from lostmotion.report.evidence import Evidence
+from lostmotion.report.words import Scale, spoken, with_unit
+from lostmotion.results import Array
+
+BINS = 45
+WHEN = (("before", "parameter", style.BEFORE), ("after", "parameter_after", style.AFTER))
+DIMENSION = {when: dimension for when, dimension, _ in WHEN}
+MOST_ACROSS = 3
+
+
+def draw(evidence: Evidence) -> Figure | None:
+    """Return one panel of densities for each parameter, or None without posterior samples."""
+    names = [name for name in parameters(evidence) if any(samples(evidence, when, name).size for when, _, _ in WHEN)]
+    if not names:
+        return None
+    across = min(MOST_ACROSS, len(names))
+    rows = -(-len(names) // across)
+    figure = style.blank(2.1 * rows + 0.35)
+    panels = figure.subplots(rows, across, squeeze=False)
+    for axes, name in zip(panels.flat, names, strict=False):
+        draw_density(axes, evidence, name)
+    for axes in panels.flat[len(names) :]:
+        axes.remove()
+    _add_legend(figure, evidence)
+    return figure
+
+
+def caption(evidence: Evidence) -> str:
+    """Return what to see in the figure."""
+    known = " The dashed line is the known value." if evidence.fact("truth") else ""
+    both = (
+        " A parameter that moves had been bent to stand in for what was left out: its old interval is narrow and wrong."
+        if evidence.has("posterior_after")
+        else ""
+    )
+    return "Posterior densities, each scaled to its own peak; the bars below are central 95 % intervals." + known + both
+
+
+def parameters(evidence: Evidence) -> list[str]:
+    """Return all names of parameters, those of the model as it stands first."""
+    listed = [name for when, _, _ in WHEN for name in (evidence.fact("parameters", when) or {})]
+    drawn = [name for _, dim, _ in WHEN for name in evidence.labels.get(dim, ())]
+    return list(dict.fromkeys(listed + drawn))
+
+
+def samples(evidence: Evidence, when: str, name: str) -> Array:
+    """Return the finite posterior samples of a parameter; empty where there are none."""
+    names = evidence.labels.get(DIMENSION[when], ())
+    if name not in names or not evidence.has(f"posterior_{when}"):
+        return np.array([])
+    column = evidence.arrays[f"posterior_{when}"][:, names.index(name)]
+    return column[np.isfinite(column)]
+
+
+def draw_density(axes: Axes, evidence: Evidence, name: str) -> None:
+    """Draw the densities of one parameter before and after, their intervals, and the known value."""
+    drawn = [(when, colour, samples(evidence, when, name)) for when, _, colour in WHEN]
+    entry, truth = entry_of(evidence, name), evidence.number("truth", name)
+    scale = style.scale_of(np.concatenate([values for _, _, values in drawn]), str(entry.get("unit", "")))
+    for row, (when, colour, values) in enumerate(drawn):
+        if values.size:
+            _draw_histogram(axes, scale.factor * values, colour)
+            _draw_interval(axes, evidence.fact("parameters", when, name), scale, (colour, -0.1 - 0.12 * row))
+    if np.isfinite(truth):
+        axes.axvline(scale.factor * truth, color=style.RECORDED, linestyle=(0, (4, 2)), linewidth=1.3)
+    style.few_ticks(axes, 4)
+    axes.set_ylim(-0.32, 1.08)
+    axes.set_yticks([])
+    axes.spines["left"].set_visible(False)
+    axes.set_xlabel(with_unit(words_of(name), scale.unit))
+
+
+def _draw_histogram(axes: Axes, values: Array, colour: str) -> None:
+    counts, edges = np.histogram(values, bins=min(BINS, 8 + values.size // 40))
+    axes.stairs(counts / counts.max(), edges, fill=True, color=colour, alpha=0.3)
+    axes.stairs(counts / counts.max(), edges, color=colour, linewidth=1.2)
+
+
+def _draw_interval(axes: Axes, entry: Mapping[str, Any] | None, scale: Scale, look: tuple[str, float]) -> None:
+    if not entry:
+        return
+    colour, height = look
+    low, median, high = (scale.factor * float(entry[key]) for key in ("low", "median", "high"))
+    axes.plot([low, high], [height, height], color=colour, linewidth=2.2, solid_capstyle="butt")
+    axes.plot([median], [height], "o", color=colour, markersize=4.5)
+
+
+def _add_legend(figure: Figure, evidence: Evidence) -> None:
+    axes = figure.axes[0]
+    for when, _, colour in WHEN:
+        if evidence.has(f"posterior_{when}"):
+            axes.plot([], [], color=colour, linewidth=5, alpha=0.6, label=when)
+    if evidence.fact("truth"):
+        axes.plot([], [], color=style.RECORDED, linestyle=(0, (4, 2)), label="known value")
+    style.legend_above(figure, axes)
+
+
+def entry_of(evidence: Evidence, name: str) -> Mapping[str, Any]:
+    """Return what the diagnosis says of a parameter, after if it can, else before."""
+    return evidence.fact("parameters", "after", name) or evidence.fact("parameters", "before", name) or {}
+
+
+def words_of(name: str) -> str:
+    """Return the name of a parameter in words; that of a term's parameter says whose it is."""
+    term, _, own = name.rpartition(".")
+    return f"{spoken(term)}: {spoken(own)}" if term else name

@@ -1,0 +1,171 @@
+"""Figure: the recording and the free-running predictions of held-out data, before and after."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from lostmotion.report import style
+from lostmotion.report.evidence import Evidence
+from lostmotion.report.words import Scale, with_unit
+from lostmotion.results import Array
+
+PERIODS_SHOWN = 6
+COLUMNS = 900
+
+
+class Window(NamedTuple):
+    """Samples of one recording, those of them to be drawn large, and where the predictions start anew."""
+
+    record: NDArray[np.intp]
+    shown: NDArray[np.intp]
+    restarts: NDArray[np.intp]
+
+
+def draw(evidence: Evidence) -> Figure | None:
+    """Return overview, predictions and their errors one below the other, or None without a recording."""
+    if not evidence.has("time", "response"):
+        return None
+    window = window_of(evidence)
+    predicted = evidence.has("forecast_before") or evidence.has("forecast_after")
+    figure = style.blank(6.0 if predicted else 3.8)
+    rows = figure.subplots(3 if predicted else 2, 1, height_ratios=[0.55, 2, 1][: 3 if predicted else 2])
+    draw_overview(rows[0], evidence, window)
+    draw_window(rows[1], evidence, window)
+    if predicted:
+        rows[1].sharex(rows[2])
+        rows[1].tick_params(labelbottom=False)
+        rows[1].set_xlabel("")
+        draw_error(rows[2], evidence, window)
+    figure.align_ylabels()
+    style.legend_above(figure, rows[1])
+    return figure
+
+
+def caption(evidence: Evidence) -> str:
+    """Return what to see in the figure."""
+    if not (evidence.has("forecast_before") or evidence.has("forecast_after")):
+        return "The recording; held-out part shaded, and a few periods of it drawn large."
+    closing = (
+        " The vermillion curve leaves the black one where the missing physics acts; the blue one should stay on it."
+        if evidence.has("forecast_after")
+        else " Where nothing is missing, the prediction stays on the recording until noise and chaos part them."
+    )
+    return (
+        "Top: the whole recording, with the part that no fit has seen shaded and the enlarged window outlined. "
+        "Middle: recording and free-running prediction, started anew from a filtered state at each triangle. "
+        "Bottom: prediction minus recording." + closing
+    )
+
+
+def window_of(evidence: Evidence) -> Window:
+    """Return the recording that holds the first held-out restart, and a few periods around that restart."""
+    time = evidence.arrays["time"]
+    held = evidence.arrays.get("heldout", np.zeros(time.size)) > 0
+    starts = np.flatnonzero((evidence.arrays.get("restart", np.zeros(time.size)) > 0) & held)
+    centre = int(starts[0]) if starts.size else int(np.argmax(held))
+    number = evidence.arrays.get("record", np.zeros(time.size))
+    record = np.flatnonzero(number == number[centre])
+    return Window(record, _around(evidence, record, centre), np.intersect1d(starts, record))
+
+
+def _around(evidence: Evidence, record: NDArray[np.intp], centre: int) -> NDArray[np.intp]:
+    time = evidence.arrays["time"][record]
+    frequency = evidence.number("drive", "frequency")
+    whole = float(time[-1] - time[0])
+    length = min(whole, PERIODS_SHOWN / frequency if frequency > 0 else whole / 8)
+    start = min(max(float(evidence.arrays["time"][centre]) - length / 12, time[0]), time[-1] - length)
+    shown: NDArray[np.intp] = record[(time >= start) & (time <= start + length)]
+    return shown
+
+
+def draw_overview(axes: Axes, evidence: Evidence, window: Window) -> None:
+    """Draw the whole recording small, with the held-out part shaded and the window outlined."""
+    time, values = evidence.arrays["time"][window.record], evidence.arrays["response"][window.record]
+    scale = scale_used(evidence)
+    _draw_envelope(axes, time, scale.factor * values)
+    held = evidence.arrays.get("heldout", np.zeros(evidence.arrays["time"].size))[window.record] > 0
+    if held.any():
+        axes.axvspan(time[held][0], time[held][-1], color=style.SHADE, zorder=0)
+        axes.set_title("held out: shaded", loc="right", fontsize=8.5, color="#444444")
+    shown = evidence.arrays["time"][window.shown]
+    axes.axvspan(shown[0], shown[-1], facecolor="none", edgecolor=style.RECORDED, linewidth=1.2, zorder=3)
+    axes.set_xlim(time[0], time[-1])
+    style.few_ticks(axes, 10, 2)
+    axes.set_ylabel(f"({scale.unit})")
+    axes.grid(visible=False)
+
+
+def _draw_envelope(axes: Axes, time: Array, values: Array) -> None:
+    """Draw a curve, or lowest and highest values of its columns where it has more samples than the page has dots."""
+    width = values.size // COLUMNS
+    if width < 3:
+        axes.plot(time, values, color=style.QUIET, linewidth=0.8)
+        return
+    blocks = values[: width * COLUMNS].reshape(COLUMNS, width)
+    at = time[: width * COLUMNS : width]
+    axes.fill_between(at, blocks.min(axis=1), blocks.max(axis=1), color=style.QUIET, linewidth=0.4)
+
+
+def draw_window(axes: Axes, evidence: Evidence, window: Window) -> None:
+    """Draw the recording and the predictions of a few periods."""
+    seen = evidence.arrays["response"][window.shown]
+    scale = scale_used(evidence)
+    time = evidence.arrays["time"]
+    axes.plot(time[window.shown], scale.factor * seen, color=style.RECORDED, linewidth=3, label="recording")
+    for name, colour, words in _forecasts(evidence):
+        at, values = _broken(time, evidence.arrays[name], window)
+        axes.plot(at, scale.factor * values, color=colour, label=words)
+    others = [scale.factor * evidence.arrays[name][window.shown] for name, _, _ in _forecasts(evidence)]
+    axes.set_ylim(style.framed(scale.factor * seen, others, 0.5))
+    _finish(axes, evidence, window, with_unit(evidence.response, scale.unit))
+
+
+def draw_error(axes: Axes, evidence: Evidence, window: Window) -> None:
+    """Draw prediction minus recording for a few periods."""
+    time, seen = evidence.arrays["time"], evidence.arrays["response"]
+    errors = {name: evidence.arrays[name] - seen for name, _, _ in _forecasts(evidence)}
+    most = 1.5 * float(np.nanmax(seen) - np.nanmin(seen))
+    shown = np.clip(np.concatenate([error[window.shown] for error in errors.values()]), -most, most)
+    scale = style.scale_of(shown, evidence.response_unit)
+    axes.axhline(0, color=style.RECORDED, linewidth=0.8)
+    for name, colour, _ in _forecasts(evidence):
+        at, values = _broken(time, errors[name], window)
+        axes.plot(at, scale.factor * values, color=colour)
+    axes.set_ylim(style.span_of(scale.factor * shown, 0.08))
+    _finish(axes, evidence, window, with_unit("error", scale.unit))
+
+
+def _forecasts(evidence: Evidence) -> list[tuple[str, str, str]]:
+    known = [
+        ("forecast_before", style.BEFORE, "prediction before"),
+        ("forecast_after", style.AFTER, "prediction after"),
+    ]
+    return [entry for entry in known if evidence.has(entry[0])]
+
+
+def _broken(time: Array, values: Array, window: Window) -> tuple[Array, Array]:
+    """Return the curve in the window with a gap at each restart, where the prediction jumps."""
+    gaps = np.searchsorted(window.shown, np.intersect1d(window.restarts, window.shown))
+    at, curve = time[window.shown], values[window.shown]
+    return np.insert(at, gaps, at[gaps]), np.insert(curve, gaps, np.nan)
+
+
+def _finish(axes: Axes, evidence: Evidence, window: Window, name: str) -> None:
+    time = evidence.arrays["time"]
+    at = time[np.intersect1d(window.restarts, window.shown)]
+    foot = axes.get_xaxis_transform()
+    axes.plot(at, np.zeros(at.size), "^", color=style.RECORDED, markersize=5, transform=foot, clip_on=False)
+    axes.set_xlim(time[window.shown[0]], time[window.shown[-1]])
+    style.few_ticks(axes, 8)
+    axes.set_xlabel(with_unit("time", evidence.unit("time") or "s"))
+    axes.set_ylabel(name)
+
+
+def scale_used(evidence: Evidence) -> Scale:
+    """Return the scale in which the response is shown."""
+    return style.scale_of(evidence.arrays["response"], evidence.response_unit)

@@ -1,0 +1,77 @@
+"""Figure: the candidates, ranked by how much better they explain the recording."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from lostmotion.report import style
+from lostmotion.report.evidence import Evidence
+from lostmotion.report.words import figures, probability, sentence, spoken
+
+MOST = 16
+
+
+def draw(evidence: Evidence) -> Figure | None:
+    """Return the bars of the ranking, or None without a ranking."""
+    rows = ranked(evidence)
+    if not rows:
+        return None
+    figure = style.blank(0.75 + 0.27 * len(rows))
+    axes = figure.subplots()
+    draw_bars(axes, evidence, rows)
+    return figure
+
+
+def caption(evidence: Evidence) -> str:
+    """Return what to see in the figure."""
+    hidden = len(evidence.fact("ranking") or []) - MOST
+    rest = f" The {hidden} candidates that rank lowest are not drawn." if hidden > 0 else ""
+    return (
+        "Each candidate was fitted with all parameters of the model set free again. The bar is what the log evidence "
+        "gains over the model as it stands; a gain of 5 is strong, and one near zero or below says that the term is "
+        "not needed. The column on the right is the posterior probability among all candidates." + rest
+    )
+
+
+def ranked(evidence: Evidence, most: int = MOST) -> list[Mapping[str, Any]]:
+    """Return the entries of the ranking, largest gain first; candidates without a number stand last."""
+    return sorted(evidence.fact("ranking") or [], key=lambda entry: -_gain(entry, -math.inf))[:most]
+
+
+def draw_bars(axes: Axes, evidence: Evidence, rows: list[Mapping[str, Any]]) -> None:
+    """Draw one bar for each candidate, with its gain and its probability written beside it."""
+    found = {entry.get("mechanism") for entry in evidence.fact("found") or []}
+    gains = [_gain(entry, 0.0) for entry in rows]
+    top = max(*gains, 1.0, -0.2 * min(gains))
+    left = max(min(gains), -0.25 * top)
+    colours = [style.AFTER if entry.get("mechanism") in found else style.QUIET for entry in rows]
+    axes.barh(range(len(rows)), [max(gain, left) for gain in gains], color=colours, height=0.66)
+    axes.axvline(0, color=style.RECORDED, linewidth=0.8)
+    for row, entry in enumerate(rows):
+        _write_beside(axes, row, entry, 0.012 * top)
+    axes.set_yticks(range(len(rows)), [sentence(spoken(str(entry.get("mechanism", "?")))) for entry in rows])
+    axes.invert_yaxis()
+    axes.set_xlim(min(1.1 * left, 0), 1.2 * top)
+    axes.set_xlabel("log evidence gain over the model as it stands")
+    axes.grid(visible=False, axis="y")
+    axes.tick_params(axis="y", length=0)
+    axes.text(1.02, 1.01, "probability", color="#444444", fontsize=8.5, va="bottom", transform=axes.transAxes)
+
+
+def _write_beside(axes: Axes, row: int, entry: Mapping[str, Any], gap: float) -> None:
+    gain = _gain(entry, math.nan)
+    words = "not fitted" if math.isnan(gain) else figures(gain, 4 if abs(gain) >= 1000 else 3)
+    at = max(gain, 0.0) + gap if math.isfinite(gain) else gap
+    axes.text(at, row, words.replace("-", "−"), va="center", fontsize=8.5)
+    beside = axes.text(1.02, row, probability(entry.get("probability")), va="center", fontsize=8.5)
+    beside.set_transform(axes.get_yaxis_transform())
+
+
+def _gain(entry: Mapping[str, Any], absent: float) -> float:
+    gain = entry.get("log_evidence_gain")
+    return float(gain) if isinstance(gain, int | float) and math.isfinite(gain) else absent

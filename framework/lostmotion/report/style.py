@@ -1,0 +1,139 @@
+"""One look for all figures: colours, type, grids, and how a figure gets into a page."""
+
+from __future__ import annotations
+
+import base64
+import io
+import re
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
+
+from lostmotion.report.words import Scale, readable
+from lostmotion.results import Array
+
+# Okabe and Ito: told apart by colour-blind readers, and in grey print by their lightness.
+RECORDED = "#1a1a1a"
+BEFORE = "#d55e00"
+AFTER = "#0072b2"
+LAW = "#00664b"
+QUIET = "#8c8c8c"
+SHADE = "#e9eef3"
+
+WIDTH = 9.6
+LARGEST_SVG = 300_000
+RC: dict[Any, Any] = {
+    "font.family": ["DejaVu Sans"],
+    "font.size": 9.5,
+    "axes.titlesize": 9.5,
+    "axes.labelsize": 9.5,
+    "axes.titlelocation": "left",
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.edgecolor": "#555555",
+    "axes.linewidth": 0.8,
+    "axes.grid": True,
+    "axes.axisbelow": True,
+    "grid.color": "#e3e3e3",
+    "grid.linewidth": 0.7,
+    "xtick.labelsize": 8.5,
+    "ytick.labelsize": 8.5,
+    "xtick.color": "#444444",
+    "ytick.color": "#444444",
+    "legend.frameon": False,
+    "legend.fontsize": 9,
+    "lines.linewidth": 1.4,
+    "lines.solid_joinstyle": "round",
+    "path.simplify_threshold": 0.3,
+    "figure.facecolor": "white",
+    "svg.fonttype": "path",
+    "svg.hashsalt": "lostmotion",
+}
+
+
+@contextmanager
+def applied() -> Iterator[None]:
+    """Return a context in which figures are drawn and saved in the house style, whatever the reader's own settings."""
+    with mpl.rc_context():
+        mpl.rcdefaults()
+        mpl.rcParams.update(RC)
+        yield
+
+
+def blank(height: float, width: float = WIDTH) -> Figure:
+    """Return an empty figure of a height in inches, `width` inches wide."""
+    return Figure(figsize=(width, height), layout="constrained")
+
+
+def scale_of(values: Array, unit: str) -> Scale:
+    """Return the scale in which the finite values are easy to read."""
+    finite = np.abs(values[np.isfinite(values)])
+    return readable(float(finite.max()) if finite.size else 0.0, unit)
+
+
+def few_ticks(axes: Axes, across: int = 6, up: int = 5) -> None:
+    """Limit the ticks of both axes, and write them out in full instead of with an offset."""
+    axes.xaxis.set_major_locator(MaxNLocator(across))
+    axes.yaxis.set_major_locator(MaxNLocator(up))
+    axes.ticklabel_format(useOffset=False)
+
+
+def span_of(values: Array, margin: float) -> tuple[float, float]:
+    """Return the range of the finite values, widened on both sides by a share of itself."""
+    finite = values[np.isfinite(values)]
+    if not finite.size:
+        return -1.0, 1.0
+    low, high = float(finite.min()), float(finite.max())
+    room = margin * (high - low) or 0.1 * abs(high) or 1.0
+    return low - room, high + room
+
+
+def framed(main: Array, others: list[Array], most: float) -> tuple[float, float]:
+    """Return limits that hold all curves, unless one runs away: then at most `most` ranges beyond the main one."""
+    bound = span_of(main, most)
+    everything = np.concatenate([main, *others]) if others else main
+    low, high = span_of(everything, 0.06)
+    return max(low, bound[0]), min(high, bound[1])
+
+
+def legend_above(figure: Figure, axes: Axes) -> None:
+    """Put one legend over the whole figure, from the named curves of one panel."""
+    handles, names = axes.get_legend_handles_labels()
+    if names:
+        figure.legend(handles, names, loc="outside upper left", ncols=len(names))
+
+
+def embedded(figure: Figure, name: str) -> str:
+    """Return a figure as markup that stands by itself: inline SVG, or a PNG where the SVG would be too large."""
+    drawing = io.StringIO()
+    figure.savefig(drawing, format="svg", metadata={"Date": None, "Creator": None})
+    text = drawing.getvalue()
+    return _inline(text, name) if len(text) <= LARGEST_SVG else _image(figure, name)
+
+
+def save(figure: Figure, path: Path) -> Path:
+    """Return the path of the PNG into which the figure was saved."""
+    figure.savefig(path, format="png", dpi=160, metadata={"Software": None})
+    return path
+
+
+def _image(figure: Figure, name: str) -> str:
+    pixels = io.BytesIO()
+    figure.savefig(pixels, format="png", dpi=190, metadata={"Software": None})
+    return f'<img alt="{name}" src="data:image/png;base64,{base64.b64encode(pixels.getvalue()).decode()}">'
+
+
+def _inline(text: str, name: str) -> str:
+    """Return the SVG without addresses, and with names of its own: all figures share one page."""
+    text = re.sub(r"<metadata>.*?</metadata>", "", text[text.index("<svg") :], flags=re.DOTALL)
+    text = re.sub(r'\s(xmlns(:\w+)?|width|height)="[^"]*"', "", text, count=4)
+    text = re.sub(r'\bid="', f'id="{name}-', text)
+    text = re.sub(r'(url\(#|href="#)', rf"\g<1>{name}-", text)
+    return text.replace("<svg", f'<svg role="img" aria-label="{name}"', 1)

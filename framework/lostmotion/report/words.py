@@ -1,0 +1,108 @@
+"""Numbers, units and names as a reader meets them."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+RAISED = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
+PREFIXED = {"m", "rad", "N", "N m", "m/s", "rad/s", "m/s^2", "V", "A"}
+PROPER = {
+    "coulomb": "Coulomb",
+    "stribeck": "Stribeck",
+    "bouc": "Bouc",
+    "wen": "Wen",
+    "dahl": "Dahl",
+    "lugre": "LuGre",
+}
+DASH = "–"
+
+
+class Scale(NamedTuple):
+    """Factor that turns an SI value into the unit shown."""
+
+    factor: float
+    unit: str
+
+
+def readable(largest: float, unit: str) -> Scale:
+    """Return the scale in which values up to `largest` are easy to read: SI, or milli, micro, kilo where that helps."""
+    if unit not in PREFIXED or not math.isfinite(largest) or largest == 0 or 0.1 <= abs(largest) < 1e4:
+        return Scale(1.0, unit)
+    for factor, prefix in ((1e-3, "k"), (1e3, "m"), (1e6, "µ")):
+        if 0.1 <= abs(largest) * factor < 1e4:
+            return Scale(factor, prefix + unit)
+    return Scale(1.0, unit)
+
+
+def pretty(unit: str) -> str:
+    """Return a unit with raised powers; the unit of pure numbers is an empty string."""
+    return "" if unit == "1" else re.sub(r"\^(-?\d+)", lambda match: match[1].translate(RAISED), unit)
+
+
+def with_unit(name: str, unit: str) -> str:
+    """Return an axis label such as `velocity (m/s)`."""
+    return f"{name} ({pretty(unit)})" if pretty(unit) else name
+
+
+def spoken(name: str) -> str:
+    """Return a name such as `coulomb_friction` as words: `Coulomb friction`."""
+    return " ".join(PROPER.get(word, word) for word in name.split("_")).replace("Bouc Wen", "Bouc–Wen")
+
+
+def sentence(text: str) -> str:
+    """Return `text` with a capital at its start."""
+    return text[:1].upper() + text[1:]
+
+
+def figures(value: Any, digits: int = 3) -> str:
+    """Return a number with so many significant figures at most, or a dash where there is none."""
+    if not isinstance(value, int | float) or not math.isfinite(value):
+        return DASH
+    if value == 0:
+        return "0"
+    power = math.floor(math.log10(abs(value)))
+    if power < -4 or power > 6:
+        mantissa, _, exponent = f"{value:.{digits - 1}e}".partition("e")
+        return f"{mantissa.rstrip('0').rstrip('.') if '.' in mantissa else mantissa}e{int(exponent)}"
+    text = f"{value:.{max(0, digits - 1 - power)}f}"
+    return text.rstrip("0").rstrip(".") if "." in text else text
+
+
+def measured(value: Any, unit: str) -> str:
+    """Return a number with its unit, such as `3.1 N`, or a dash."""
+    text = figures(value)
+    return text if text == DASH else f"{text} {pretty(unit)}".rstrip()
+
+
+def percent(value: Any) -> str:
+    """Return a share as a percentage with at most two figures, or a dash."""
+    return figures(100 * value, 2) + " %" if isinstance(value, int | float) and math.isfinite(value) else DASH
+
+
+def probability(value: Any) -> str:
+    """Return a probability that is never rounded to certainty."""
+    if not isinstance(value, int | float) or not math.isfinite(value):
+        return DASH
+    if value > 0.999:
+        return "> 0.999"
+    return "< 0.001" if value < 0.001 else f"{value:.3f}"
+
+
+def interval(entry: Mapping[str, Any] | None, shown: Scale | None = None) -> str:
+    """Return `median [low, high] unit`, with as many decimals as the width of the interval deserves."""
+    if not entry or not isinstance(entry.get("median"), int | float):
+        return DASH
+    factor, unit = shown or readable(entry["median"], str(entry.get("unit", "")))
+    ends = [factor * float(entry.get(key, entry["median"])) for key in ("median", "low", "high")]
+    decimals = _decimals(ends[2] - ends[1], ends[0])
+    median, low, high = (f"{end:.{decimals}f}" for end in ends)
+    return f"{median} [{low}, {high}] {pretty(unit)}".rstrip()
+
+
+def _decimals(width: float, value: float) -> int:
+    """Return the decimals that show two figures of a width, or four of the value where there is no width."""
+    size = width / 100 if width > 0 and math.isfinite(width) else abs(value) / 1e4
+    return min(12, max(0, -math.floor(math.log10(size)) - 1)) if size > 0 else 1
