@@ -97,8 +97,12 @@ def _read_mat(path: Path) -> dict[str, Array]:
 def _read_nc(path: Path) -> dict[str, Array]:
     import xarray as xr
 
-    engine = "scipy" if path.open("rb").read(3) == b"CDF" else "h5netcdf"
-    groups = xr.open_groups(path, engine=engine, decode_times=False)
+    with path.open("rb") as raw:
+        classic = raw.read(3) == b"CDF"
+    if classic:  # netCDF 3 knows no groups
+        with xr.open_dataset(path, engine="scipy", decode_times=False) as data:
+            return dict(_flat_all({str(n): v.values for n, v in data.variables.items()}))
+    groups = xr.open_groups(path, engine="h5netcdf", decode_times=False)
     try:
         found = {_inside(g, n): v.values for g, data in groups.items() for n, v in data.variables.items()}
     finally:
@@ -125,6 +129,9 @@ def _read_h5(path: Path) -> dict[str, Array]:
 def _read_uff(path: Path) -> dict[str, Array]:
     import pyuff
 
+    with path.open("rb") as raw:
+        if sum(line.rstrip() == b"    -1" for line in raw) % 2:  # pyuff skips a set without an end, and says nothing
+            raise DataError(f"{path.name}: the last data set has no end: the file is cut short, export it again")
     file = pyuff.UFF(str(path))
     numbers = [i for i, kind in enumerate(file.get_set_types()) if int(kind) == 58]
     sets = [file.read_sets(i) for i in numbers]

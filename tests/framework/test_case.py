@@ -1,0 +1,195 @@
+"""A case file: what it may say, and what it is told when it says something else."""
+
+from __future__ import annotations
+
+import math
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from lostmotion.case import Case, Prior, dump_case, load_case
+from lostmotion.errors import CaseError
+
+GOOD = """
+title = "Link 2, 1.54 Hz"
+plugins = ["mine.py"]
+
+[[recordings]]
+file = "recording.csv"
+time = "time"
+hold = "step"
+t_start = 1
+excitation = { column = "force", quantity = "force", unit = "N", factor = 35.0 }
+response = { column = "position", quantity = "position", unit = "m" }
+
+[[recordings]]
+file = "recording.csv"
+rate = 1000.0
+excitation = { column = "force", quantity = "force", unit = "N" }
+response = { column = "position", quantity = "position", unit = "m" }
+
+[model]
+name = "lin_backlash"
+
+[model.known]
+m = 1
+k0 = 40000.0
+
+[model.estimate]
+c = { low = 0.8, high = 80.0, scale = "log" }
+x0 = { low = 5e-4, high = 5e-2 }
+k1 = { mean = 1.0, sd = 0.1 }
+
+[truth]
+c = 8.0
+"""
+
+
+def case(folder: Path, text: str = GOOD) -> Case:
+    (folder / "mine.py").touch()
+    (folder / "case.toml").write_text(text)
+    return load_case(folder / "case.toml")
+
+
+def test_a_case_is_read(tmp_path: Path) -> None:
+    got = case(tmp_path)
+    assert (got.title, got.folder, got.model, got.plugins) == (
+        "Link 2, 1.54 Hz", tmp_path, "lin_backlash", ("mine.py",))  # fmt: skip
+    assert got.known == {"m": 1.0, "k0": 40000.0}
+    assert got.truth == {"c": 8.0}
+    assert got.estimate["c"] == Prior(0.8, 80.0, "log")
+    assert got.estimate["x0"].scale == "linear"
+    first, second = got.recordings
+    assert (first.time, first.rate, first.hold, first.t_start, first.excitation.factor) == ("time", None, "step", 1, 35)
+    assert (second.time, second.rate, second.hold, second.t_end) == (None, 1000.0, "smooth", None)
+    assert [r.label for r in got.recordings] == ["recording", "recording 2"]
+    assert re.fullmatch("[0-9a-f]{64}", got.digest)
+
+
+@pytest.mark.real
+def test_the_contract_is_read(shared: Path) -> None:
+    got = load_case(shared / "contracts/case.toml")
+    assert list(got.estimate) == ["c", "x0"]
+    assert got.recordings[0].response.column == "position"
+
+
+def test_a_minimal_case(tmp_path: Path) -> None:
+    text = GOOD[GOOD.index("[[rec") : GOOD.index("[model.known]")]
+    got = case(tmp_path, text)
+    assert (got.title, got.known, got.estimate, got.truth, got.plugins) == ("case", {}, {}, {}, ())
+
+
+CHANNEL = 'quantity = "force", unit = "N", factor = 35.0'
+WRONG = [
+    ("[truth]", "[thruth]", ["'thruth'", "did you mean 'truth'"]),
+    ("[[recordings]]", "[[recording]]", ["'recording'", "did you mean 'recordings'"]),
+    ('hold = "step"', 'hodl = "step"', ["recordings[0]", "'hodl'", "did you mean 'hold'"]),
+    ('hold = "step"', 'hold = "steps"', ["recordings[0]", "did you mean 'step'", "smooth, step"]),
+    (CHANNEL, CHANNEL.replace("unit", "units"), ["recordings[0].excitation", "did you mean 'unit'"]),
+    (CHANNEL, CHANNEL.replace("force", "forse"), ["did you mean 'force'", "torque, base_position"]),
+    (CHANNEL, CHANNEL.replace('"force"', '"position"'), ["'position'", "force, torque, base_position"]),
+    (CHANNEL, CHANNEL.replace('"N"', '"m"'), ["recordings[0].excitation", "wrong unit", "'m'", "'N'"]),
+    (CHANNEL, CHANNEL.replace('"N"', '"newtonz"'), ["wrong unit", "'newtonz'", "not known"]),
+    (CHANNEL, CHANNEL.replace('"N"', '"V"'), ["volts need factor"]),
+    (CHANNEL, CHANNEL.replace("35.0", "0"), ["factor", "other than zero"]),
+    (CHANNEL, 'quantity = "force"', ["lacks 'unit'"]),
+    ('column = "force", ', "", ["lacks 'column'"]),
+    ('column = "force"', "column = 3", ["a number (3)", "'column'", "text"]),
+    ('file = "recording.csv"', "", ["recordings[0]", "lacks 'file'"]),
+    ('time = "time"', "", ["recordings[0]", "neither time nor rate"]),
+    ('time = "time"', 'time = "time"\nrate = 10', ["both time and rate"]),
+    ("rate = 1000.0", "rate = -1", ["recordings[1]", "'rate'", "positive"]),
+    ("rate = 1000.0", 'rate = "1000"', ["recordings[1]", "'1000'", "without quotes"]),
+    ("rate = 1000.0", "rate = true", ["true or false", "number"]),
+    ("rate = 1000.0", "rate = inf", ["finite"]),
+    ("t_start = 1", "t_start = 1\nt_end = 0.5", ["t_start must lie before t_end"]),
+    ("m = 1\n", 'm = "1"\n', ["model.known", "'m'"]),
+    ("k0 =", "c =", ["model", "'c' both known and estimated"]),
+    ("low = 0.8", "low = 90.0", ["model.estimate.c", "low = 90", "high = 80", "below"]),
+    ("low = 0.8", "low = 80.0", ["below"]),
+    ("low = 0.8", "low = 0.0", ["model.estimate.c", "log scale", "positive"]),
+    ("low = 0.8", "lo = 0.8", ["'lo'", "did you mean 'low'"]),
+    ("low = 0.8, ", "", ["neither low and high nor mean and sd"]),
+    ('scale = "log"', 'scale = "logg"', ["did you mean 'log'"]),
+    ("sd = 0.1", "sd = 0", ["model.estimate.k1", "sd = 0", "positive"]),
+    ("sd = 0.1", "sd = 0.1, low = 0", ["either one pair or the other"]),
+    ("{ mean = 1.0, sd = 0.1 }", "1.0", ["model.estimate", "'k1'", "a table"]),
+    ("[model.known]", "[model.knwon]", ["'knwon'", "did you mean 'known'"]),
+    ('name = "lin_backlash"', "", ["model", "lacks 'name'"]),
+    ('plugins = ["mine.py"]', 'plugins = ["other.py"]', ["'other.py'", "does not exist"]),
+    ('plugins = ["mine.py"]', 'plugins = "mine.py"', ["plugins", "a list of texts"]),
+    ('title = "Link', "title = Link", ["not valid TOML", "line 2"]),
+    ('title = "Link 2, 1.54 Hz"', "title = 3", ["the case", "'title'"]),
+]
+
+
+@pytest.mark.parametrize(("old", "new", "words"), WRONG, ids=lambda v: str(v)[:30])
+def test_refusals_are_sentences(tmp_path: Path, old: str, new: str, words: list[str]) -> None:
+    assert old in GOOD
+    with pytest.raises(CaseError) as caught:
+        case(tmp_path, GOOD.replace(old, new, 1))
+    message = str(caught.value)
+    assert [w for w in ["case.toml", *words] if w not in message] == [], message
+    assert "\n" not in message
+    assert str(tmp_path) not in message
+
+
+@pytest.mark.parametrize("empty", ["recordings = []", "recordings = 3", "recordings = [1]", "recordings = {}"])
+def test_recordings_must_be_there(tmp_path: Path, empty: str) -> None:
+    with pytest.raises(CaseError, match=r"recordings"):
+        case(tmp_path, empty + '\n[model]\nname = "a"')
+    with pytest.raises(CaseError, match=r"lacks 'recordings'"):
+        case(tmp_path, '[model]\nname = "a"')
+
+
+def test_two_recordings_of_one_name(tmp_path: Path) -> None:
+    text = GOOD.replace("t_start = 1", 'name = "a"').replace("rate =", 'name = "a"\nrate =')
+    with pytest.raises(CaseError, match="two recordings are named 'a'"):
+        case(tmp_path, text)
+
+
+def test_what_is_no_file_of_text(tmp_path: Path) -> None:
+    for path in (tmp_path, tmp_path / "gone.toml"):
+        with pytest.raises(CaseError, match="cannot be read"):
+            load_case(path)
+    (tmp_path / "b.toml").write_bytes(b"\xff\xfe\x00\x01\xc3")
+    with pytest.raises(CaseError, match="not text"):
+        load_case(tmp_path / "b.toml")
+
+
+@pytest.mark.parametrize("prior", [Prior(0.8, 80.0, "log"), Prior(-1.0, 3.0), Prior(mean=2.0, sd=0.1)])
+def test_a_prior_is_a_density(prior: Prior) -> None:
+    low, high = (0.0, 4.0) if prior.sd else (prior.low, prior.high)
+    grid = np.linspace(low, high, 200001)
+    density = np.exp([prior.log_density(v) for v in grid])
+    assert np.trapezoid(density, grid) == pytest.approx(1.0, rel=1e-5)
+    assert prior.log_density(math.nan) == -math.inf
+    assert prior.log_density(math.inf) == -math.inf
+
+
+def test_a_prior_starts_in_its_middle() -> None:
+    assert Prior(0.5, 50.0, "log").start() == pytest.approx(5.0)
+    assert Prior(-1.0, 3.0).start() == 1.0
+    normal = Prior(mean=2.0, sd=0.1)
+    assert (normal.start(), normal.low, normal.high) == (2.0, -math.inf, math.inf)
+    assert Prior(0.0, 1.0).log_density(1.5) == -math.inf
+
+
+def test_what_is_dumped_is_read_back(tmp_path: Path) -> None:
+    channel = {"column": 'a "b" \\ µ', "quantity": "force", "unit": "N", "factor": np.float64(2)}
+    content = {
+        "recordings": [{"file": "r.csv", "time": None, "rate": 1e3, "excitation": channel,
+                        "response": {"column": "x", "quantity": "position", "unit": "m"}}],
+        "title": "Demo",
+        "model": {"name": "m", "known": {"k": 1e-7, "odd key": 3}, "estimate": {"c": {"low": 1, "high": 2.5}}},
+        "truth": {"c": 2},
+    }  # fmt: skip
+    dump_case(content, tmp_path / "case.toml")
+    got = load_case(tmp_path / "case.toml")
+    assert got.recordings[0].excitation.column == channel["column"]
+    assert got.recordings[0].excitation.factor == 2.0
+    assert got.known == {"k": 1e-7, "odd key": 3.0}
+    assert got.estimate == {"c": Prior(1.0, 2.5)}
+    assert got.truth == {"c": 2.0}
