@@ -77,7 +77,11 @@ def test_a_cut_keeps_both_ends(tmp_path: Path, how: dict[str, object]) -> None:
         ({}, replace(SPEC, t_start=9.0), ["no samples", "0.399"]),
         ({"time": TIME[:9], "x": POSITION[:9], "u": FORCE[:9]}, SPEC, ["9 samples"]),
         ({"time": TIME[:0], "x": POSITION[:0], "u": FORCE[:0]}, SPEC, ["0 samples"]),
-        ({}, replace(SPEC, response=Channel("position", "position", "m")), ["no column 'position'", "time, u, x"]),
+        (
+            {},
+            replace(SPEC, response=Channel("position", "position", "m")),
+            ["no column of numbers named 'position'", "time, u, x"],
+        ),
         ({}, replace(SPEC, time="tine"), ["'tine'", "did you mean 'time'"]),
         ({}, replace(SPEC, time=None), ["neither time nor a positive rate"]),
         ({}, replace(SPEC, file="b.npz"), ["b.npz does not exist", "did you mean 'a.npz'"]),

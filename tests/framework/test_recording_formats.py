@@ -99,7 +99,7 @@ def function(name: str) -> dict[str, object]:
 WAYS: list[tuple[str, Callable[[Path], None]]] = [
     ("csv", to_csv), ("csv", to_hash_csv), ("csv", to_excel_csv), ("csv", to_utf16), ("txt", to_blanks),
     ("csv", to_words), ("npz", to_npz), ("mat", to_mat5), ("mat", to_mat73), ("nc", to_nc), ("nc", to_nc3),
-    ("h5", to_h5), ("h5", to_nc), ("uff", to_uff),
+    ("h5", to_h5), ("mat", to_h5), ("h5", to_nc), ("uff", to_uff),
 ]  # fmt: skip
 
 
@@ -189,5 +189,11 @@ def test_wrong_places(tmp_path: Path) -> None:
     (tmp_path / "dir.csv").mkdir()
     with pytest.raises(DataError, match="is a folder"):
         read_columns(tmp_path / "dir.csv")
+    with pytest.raises(DataError, match="too long"):
+        read_columns(tmp_path / ("x" * 300 + ".csv"))
+    with (tmp_path / "one.npz").open("wb") as file:
+        np.save(file, TIME)
+    with pytest.raises(DataError, match="single array"):
+        read_columns(tmp_path / "one.npz")
     with pytest.raises(DataError, match="wanted one of csv"):
         read_columns(tmp_path / "run.xlsx")

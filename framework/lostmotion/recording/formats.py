@@ -26,8 +26,8 @@ def read_columns(path: Path) -> dict[str, Array]:
     """
     path = Path(path)
     reader = _reader(path)
-    _must_be_file(path)
     try:
+        _must_be_file(path)
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             columns = reader(path)
@@ -70,9 +70,10 @@ def _first_line(err: Exception) -> str:
 
 
 def _read_npz(path: Path) -> dict[str, Array]:
-    with np.load(path, allow_pickle=False) as archive:
-        if not isinstance(archive, np.lib.npyio.NpzFile):
-            raise DataError(f"{path.name} is a single array: wanted an archive as np.savez writes it")
+    archive = np.load(path, allow_pickle=False)
+    if not isinstance(archive, np.lib.npyio.NpzFile):
+        raise DataError(f"{path.name} holds a single array: wanted an archive of named ones, as np.savez writes it")
+    with archive:
         return dict(_flat_all({name: _member(archive, name, path) for name in archive.files}))
 
 
@@ -88,8 +89,12 @@ def _member(archive: Any, name: str, path: Path) -> Any:
 
 
 def _read_mat(path: Path) -> dict[str, Array]:
+    import h5py
     import pymatreader
 
+    with path.open("rb") as raw:
+        if raw.read(6) != b"MATLAB" and h5py.is_hdf5(path):  # HDF5 of another program under the ending of MATLAB
+            return _read_h5(path)
     content = pymatreader.read_mat(path)
     return dict(_flat_all({k: v for k, v in content.items() if not k.startswith("__")}))
 
