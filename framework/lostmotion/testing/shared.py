@@ -28,7 +28,7 @@ def params_are_unique(component: Any) -> str:
 
 @rule("model", "term", declaration=True)
 def bounds_are_ordered(component: Any) -> str:
-    """Give physical bounds with `low` below `high`; a parameter of scale "log" is positive: let its `low` be 0 or more."""
+    """Give physical bounds with `low` below `high`; a parameter of scale "log" has a `low` of 0 or more."""
     for q in component.params:
         if not q.low < q.high:
             return f"{q.name} goes from {q.low:g} to {q.high:g}"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import string
+from dataclasses import fields
 from typing import Any
 
 import numpy as np
@@ -84,9 +85,9 @@ def resembles_names_others(term: Term) -> str:
 
 
 @rule("term", declaration=True)
-def place_is_a_field(term: Term) -> str:
+def place_is_a_field(term: Any) -> str:
     """Write the field `at: str = "ground"`: whoever uses the term says with it where the term acts."""
-    good = isinstance(getattr(term, "at", None), str) and "at" in getattr(term, "__dataclass_fields__", {})
+    good = isinstance(getattr(term, "at", None), str) and "at" in {f.name for f in fields(term)}
     return "" if good else "it has no field `at` that holds the name of a place"
 
 

@@ -1,0 +1,17 @@
+"""What this package offers to lostmotion: names only, so that a list of all plugins imports none of them."""
+
+from lostmotion.hookspecs import hookimpl
+
+_HERE = "lostmotion_template"
+
+
+@hookimpl
+def lostmotion_models() -> dict[str, str]:
+    """Return the models of this package."""
+    return {"driven_pendulum": f"{_HERE}.models:DrivenPendulum"}
+
+
+@hookimpl
+def lostmotion_terms() -> dict[str, str]:
+    """Return the terms of this package."""
+    return {"maxwell_element": f"{_HERE}.terms:MaxwellElement"}

@@ -1,0 +1,320 @@
+"""Deliberately bad plugins: each breaks one rule, and the kit says which."""
+
+import inspect
+import random
+from dataclasses import dataclass, replace
+from typing import ClassVar
+
+import pytest
+
+from lostmotion import testing
+from lostmotion.contracts import Denoiser, Interface, Model, Param, Term
+from lostmotion.errors import ContractError
+from lostmotion.quantities import DAMPING, INERTIA, NUMBER
+
+DRAG = Param("coefficient", "drag", DAMPING, low=0.0, null=0.0)
+MASS = Param("m", "mass", INERTIA, low=0.0, scale="log")
+
+
+@dataclass(frozen=True)
+class Drag(Term):
+    """A good term without states."""
+
+    at: str = "ground"
+    name: ClassVar[str] = "drag"
+    physics: ClassVar[str] = "Drag of {coefficient} acts"
+    formula: ClassVar[str] = "-coefficient * v"
+    paper: ClassVar[str] = "Stokes (1851)"
+    params = (DRAG,)
+
+    @staticmethod
+    def force(t, x, v, u, p, s):
+        return -p[0] * v
+
+
+@dataclass(frozen=True)
+class Memory(Drag):
+    """A good term with a state."""
+
+    name: ClassVar[str] = "memory"
+    states = ("held",)
+
+    @staticmethod
+    def force(t, x, v, u, p, s):
+        return -s[0]
+
+    @staticmethod
+    def rate(t, x, v, u, p, s, dsdt):
+        dsdt[0] = p[0] * v - s[0]
+
+
+@dataclass(frozen=True)
+class Placeless(Term):
+    """A term whose place cannot be chosen."""
+
+    at: ClassVar[str] = "ground"
+    name: ClassVar[str] = "placeless"
+    physics: ClassVar[str] = "Drag of {coefficient} acts"
+    formula: ClassVar[str] = "-coefficient * v"
+    paper: ClassVar[str] = "Stokes (1851)"
+    params = (DRAG,)
+    force = Drag.__dict__["force"]
+
+
+def here(y, u):
+    return y[0], y[1]
+
+
+def elsewhere(y, u):
+    return y[0], 2.0 * y[1]
+
+
+@dataclass(frozen=True)
+class Cart(Model):
+    """A good model."""
+
+    name: ClassVar[str] = "cart"
+    paper: ClassVar[str] = "Newton (1687)"
+    motion = "translation"
+    states = ("position", "velocity")
+    inputs = ("force",)
+    channels = ("position", "velocity")
+    params = (MASS,)
+    interfaces = (Interface("ground", row=1, inertia="m", motion=here),)
+
+    @staticmethod
+    def rhs(t, y, u, p, dydt):
+        dydt[0] = y[1]
+        dydt[1] = u[0] / p[0]
+
+    @staticmethod
+    def observe(t, y, dydt, u, p, seen):
+        seen[0] = y[0]
+        seen[1] = y[1]
+
+
+def adds_up(t, y, u, p, dydt):
+    dydt[0] = y[1]
+    dydt[1] += u[0] / p[0]
+
+
+def clears_its_input(t, y, u, p, dydt):
+    dydt[0] = y[1]
+    dydt[1] = u[0] / p[0]
+    y[0] = 0.0
+
+
+def divides_by_zero(t, y, u, p, dydt):
+    dydt[0] = y[1]
+    dydt[1] = u[0] / (p[0] - p[0])
+
+
+def shakes(t, y, u, p, dydt):
+    dydt[0] = y[1]
+    dydt[1] = u[0] / p[0] + random.random()  # noqa: S311
+
+
+def makes_text(t, y, u, p, dydt):
+    dydt[0] = y[1]
+    dydt[1] = float(str(float(u[0] / p[0])))
+
+
+def sees_half(t, y, dydt, u, p, seen):
+    seen[0] = y[0]
+
+
+def sees_and_changes(t, y, dydt, u, p, seen):
+    seen[0] = y[0]
+    seen[1] = y[1]
+    dydt[1] = 0.0
+
+
+def pushes_always(t, x, v, u, p, s):
+    return 1.0 - p[0] * v
+
+
+def does_nothing(t, x, v, u, p, s):
+    return 0.0 * v
+
+
+def explodes_at_rest(t, x, v, u, p, s):
+    return -p[0] * v / abs(v)
+
+
+def eats_its_parameter(t, x, v, u, p, s):
+    force = -p[0] * v
+    p[0] = 0.0
+    return force
+
+
+def trembles(t, x, v, u, p, s):
+    return -p[0] * v * random.random()  # noqa: S311
+
+
+def forgets_an_argument(t, x, v, p, s):
+    return -p[0] * v
+
+
+def makes_text_of_it(t, x, v, u, p, s):
+    return -p[0] * float(str(float(v)))
+
+
+def forgets_a_state(t, x, v, u, p, s, dsdt):
+    pass
+
+
+def ground(**changes):
+    return (replace(Cart.interfaces[0], **changes),)
+
+
+RANDOM = {"compiles_to_the_same_numbers"}
+BAD = [
+    ("name_is_snake_case", Drag, {"name": "Air Drag"}, set()),
+    ("paper_is_cited", Drag, {"paper": ""}, set()),
+    ("has_docstring", Drag, {"__doc__": None}, set()),
+    ("attributes_are_complete", Cart, {"channels": "abc"}, set()),
+    ("methods_have_the_arguments_of_the_contract", Drag, {"force": staticmethod(forgets_an_argument)}, set()),
+    ("params_are_unique", Cart, {"params": (MASS, replace(MASS, name="mass", aliases=("m",)))}, set()),
+    ("bounds_are_ordered", Drag, {"params": (replace(DRAG, high=0.0),)}, set()),
+    ("dimensions_are_dimensions", Drag, {"params": (replace(DRAG, dimension="N s/m"),)}, set()),
+    ("params_have_meanings", Drag, {"params": (replace(DRAG, meaning=" "),)}, set()),
+    ("functions_are_static", Drag, {"force": Drag.force}, set()),
+    ("states_are_named", Memory, {"states": ("held force",)}, set()),
+    ("can_be_pickled", Drag, {}, set()),
+    ("motion_is_known", Cart, {"motion": "sideways"}, set()),
+    ("inputs_and_channels_are_named", Cart, {"inputs": ("voltage",)}, set()),
+    ("interfaces_name_rows_and_params", Cart, {"interfaces": ground(row=2)}, set()),
+    ("interfaces_name_rows_and_params", Cart, {"interfaces": ground(holds=("x0",))}, set()),
+    ("interface_velocity_is_the_rate_of_its_position", Cart, {"interfaces": ground(motion=elsewhere)}, set()),
+    ("rhs_writes_every_entry", Cart, {"rhs": staticmethod(adds_up)}, set()),
+    ("rhs_changes_no_argument", Cart, {"rhs": staticmethod(clears_its_input)}, set()),
+    ("rhs_is_finite", Cart, {"rhs": staticmethod(divides_by_zero)}, set()),
+    ("rhs_is_deterministic", Cart, {"rhs": staticmethod(shakes)}, RANDOM),
+    ("observe_writes_every_channel", Cart, {"observe": staticmethod(sees_half)}, set()),
+    ("observe_changes_no_argument", Cart, {"observe": staticmethod(sees_and_changes)}, set()),
+    ("compiles_to_the_same_numbers", Cart, {"rhs": staticmethod(makes_text)}, set()),
+    ("has_a_null", Drag, {"params": (replace(DRAG, null=-1.0),)}, set()),
+    ("has_a_null", Drag, {"params": (replace(DRAG, null=None),)}, set()),
+    ("physics_names_its_parameters", Drag, {"physics": "Drag of {size} acts"}, set()),
+    ("physics_names_its_parameters", Drag, {"physics": "Drag acts"}, set()),
+    ("formula_is_written", Drag, {"formula": " "}, set()),
+    ("needs_are_names_of_others", Drag, {"needs": ("coefficient",)}, set()),
+    ("motions_are_known", Drag, {"motions": ("sideways",)}, set()),
+    ("resembles_names_others", Drag, {"resembles": ("drag",)}, set()),
+    ("states_and_rate_go_together", Drag, {"states": ("held",)}, set()),
+    ("states_and_rate_go_together", Memory, {"states": ()}, set()),
+    ("force_is_zero_at_null", Drag, {"force": staticmethod(pushes_always)}, set()),
+    ("force_is_zero_at_null", Memory, {"force": staticmethod(pushes_always)}, set()),
+    ("force_does_something", Drag, {"force": staticmethod(does_nothing)}, set()),
+    ("force_is_a_finite_number", Drag, {"force": staticmethod(explodes_at_rest)}, set()),
+    ("force_and_rate_change_no_argument", Drag, {"force": staticmethod(eats_its_parameter)}, None),
+    ("force_is_deterministic", Drag, {"force": staticmethod(trembles)}, RANDOM),
+    ("compiles_to_the_same_numbers", Drag, {"force": staticmethod(makes_text_of_it)}, set()),
+    ("rate_writes_every_state", Memory, {"rate": staticmethod(forgets_a_state)}, None),
+]
+
+
+def spoiled(base, changes):
+    cls = type("Spoiled", (base,), {"__doc__": "Spoiled on purpose.", "__module__": __name__, **changes})
+    return dataclass(frozen=True)(cls)
+
+
+def broken_rules(component):
+    return {f.rule for f in testing.check(component) if not f.ok}
+
+
+@pytest.mark.parametrize("component", [Drag, Memory, Cart, Drag(at="base")])
+def test_good_plugins_keep_every_rule(component):
+    assert [str(f) for f in testing.check(component) if not f.ok] == []
+    testing.assert_conforms(component)
+
+
+@pytest.mark.filterwarnings("ignore::RuntimeWarning")
+@pytest.mark.parametrize(("rule", "base", "changes", "also"), BAD, ids=[f"{b[0]}-{i}" for i, b in enumerate(BAD)])
+def test_bad_plugin_fails_the_rule_meant_for_it(rule, base, changes, also):
+    """A class made on the fly cannot be pickled; `also` names the rules that must fail with it, None any."""
+    broken = broken_rules(spoiled(base, changes))
+    assert rule in broken
+    if also is not None:
+        assert broken - {"can_be_pickled"} == ({rule} | also) - {"can_be_pickled"}
+
+
+def test_a_class_without_the_decorator_is_found():
+    plain = type("Plain", (Drag,), {"__doc__": "Not decorated.", "__module__": __name__})
+    assert broken_rules(plain) == {"is_frozen_dataclass"}
+
+
+def test_a_term_needs_a_place():
+    assert broken_rules(Placeless) == {"place_is_a_field"}
+
+
+def test_every_rule_has_a_bad_plugin_and_advice():
+    rules = {rule.name: rule for kind in ("model", "term") for rule in testing.rules_for(kind)}
+    assert set(rules) == {bad[0] for bad in BAD} | {"is_frozen_dataclass", "place_is_a_field"}
+    assert [name for name, rule in rules.items() if not rule.advice.endswith(".")] == []
+
+
+def test_declaration_comes_before_behaviour():
+    findings = testing.check(spoiled(Drag, {"paper": ""}))
+    behaviour = {rule.name for rule in testing.rules_for("term") if not rule.declaration}
+    assert behaviour.isdisjoint(f.rule for f in findings)
+
+
+def test_a_broken_rule_is_told_with_advice():
+    with pytest.raises(
+        AssertionError, match=r"drag, force_is_zero_at_null: the force is .* Let the force be exactly 0"
+    ):
+        testing.assert_conforms(spoiled(Drag, {"force": staticmethod(pushes_always)}))
+
+
+def test_an_unfinished_class_is_a_finding():
+    unfinished = type("Unfinished", (Term,), {"name": "unfinished"})
+    (finding,) = testing.check(unfinished)
+    assert not finding.ok
+    assert "lacks force" in finding.sentence
+    with pytest.raises(AssertionError, match="lacks force"):
+        testing.assert_conforms(unfinished, testing.rules_for("term")[0])
+
+
+def test_a_class_that_needs_arguments_is_a_finding():
+    @dataclass(frozen=True)
+    class Sized(Drag):
+        size: float = 0.0
+
+        def __post_init__(self):
+            raise ValueError("size must be given")
+
+    (finding,) = testing.check(Sized)
+    assert "size must be given" in finding.sentence
+
+
+def test_something_else_is_refused():
+    with pytest.raises(ContractError, match="no plugin: subclass one of Model, Term"):
+        testing.check(3)
+
+
+def test_kinds_without_rules_of_their_own_keep_the_general_ones():
+    class Silent(Denoiser):
+        def clean(self, x, *, embedding, rng):
+            return x
+
+    broken = broken_rules(Silent)
+    assert {"is_frozen_dataclass", "paper_is_cited", "attributes_are_complete"} <= broken
+
+
+def test_parametrize_gives_readable_ids_and_marks_known_failures():
+    mark = testing.parametrize([Drag], known_failures={"drag-has_a_null": "a reason"}).mark
+    cases = {case.id: case for case in mark.args[1]}
+    assert "drag-force_is_zero_at_null" in cases
+    assert cases["drag-has_a_null"].marks[0].kwargs == {"reason": "a reason", "strict": True}
+    with pytest.raises(ContractError, match="known failure 'drag-nothing'"):
+        testing.parametrize([Drag], known_failures={"drag-nothing": "a reason"})
+
+
+def test_a_parameter_of_no_dimension_is_a_number():
+    assert broken_rules(spoiled(Drag, {"params": (replace(DRAG, dimension=NUMBER),)})) == {"can_be_pickled"}
+
+
+def test_rules_are_small():
+    long = [r.name for k in ("model", "term") for r in testing.rules_for(k) if len(inspect.getsource(r.judge)) > 1200]
+    assert long == []
