@@ -91,7 +91,8 @@ def _pick(columns: Mapping[str, Array], name: str, source: str) -> Array:
     listed = [*columns][:SHOWN]
     more = f" and {len(columns) - SHOWN} more" if len(columns) > SHOWN else ""
     raise DataError(
-        f"{source} has no column of numbers named {name!r}: it has {', '.join(listed)}{more}{nearest(name, columns)}; name one of these"
+        f"{source} has no column of numbers named {name!r}: it has {', '.join(listed)}{more}{nearest(name, columns)}; "
+        "name one of these"
     )
 
 
