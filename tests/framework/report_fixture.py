@@ -92,10 +92,10 @@ def mechanics(rng, periods):
     return time, x, v, response, missing, left
 
 
-def growth(time, x, v, rng):
+def growth(time, x, v):
     out = {}
     for name, law, blur in (("before", BASELINE, 3e-3), ("after", FOUND, 3e-3), ("floor", TRUTH, 3e-3)):
-        starts, runs = forecasts(time, x, v, law, rng, blur)
+        starts, runs = forecasts(time, x, v, law, np.random.default_rng(7), blur)
         true = np.stack([x[s : s + runs.shape[0]] for s in starts], axis=1)
         out[f"growth_{name}"] = ("lead", np.sqrt(np.mean((runs - true) ** 2, axis=1)) / x.std())
     return out, np.arange(SEGMENT) * PERIOD / PER_PERIOD
@@ -132,7 +132,7 @@ def arrays(seed=1, periods=60):
     starts, before = forecasts(time, x, v, BASELINE, rng, 3e-3)
     _, after = forecasts(time, x, v, FOUND, rng, 3e-3)
     bins, covariates = curves(time, x, v, missing, left)
-    grown, lead = growth(time, x, v, rng)
+    grown, lead = growth(time, x, v)
     restart = np.zeros(time.size, dtype=int)
     restart[starts] = 1
     lags = np.arange(41)
@@ -193,6 +193,15 @@ RANKING = [
     ("random_force", 402.0, 0.0),
     ("unknown", 1650.0, 0.0),
     ("nothing_missing", 0.0, 0.0),
+]
+
+
+NOTHING = [
+    ("nothing_missing", 0.0, 0.962),
+    ("viscous_damping", -1.2, 0.02),
+    ("coulomb_friction", -2.7, 0.011),
+    ("linear_stiffness", -3.1, 0.007),
+    ("cubic_stiffness", -14.8, 0.0),
 ]
 
 
@@ -269,16 +278,24 @@ def mismatch():
 
 def adequate():
     facts = mismatch()
-    facts |= {
-        "verdict": "adequate",
-        "found": [],
-        "says": [],
-        "title": "Nothing hidden",
-        "model": {"before": "lin_backlash"},
-    }
-    facts["parameters"] = {"before": facts["parameters"]["after"]}
-    facts["fit"] = {"before": facts["fit"]["after"], "noise_floor_nrmse": 0.010}
-    return facts
+    pairs = ("fit", "parameters", "lyapunov", "valid_prediction_time", "whiteness", "model")
+    facts |= {key: {k: v for k, v in facts[key].items() if k != "after"} for key in pairs}
+    facts |= {"verdict": "adequate", "found": [], "says": [], "confused_with": [], "title": "Nothing hidden"}
+    whole = mismatch()
+    facts["fit"]["before"], facts["whiteness"]["before"] = whole["fit"]["after"], whole["whiteness"]["after"]
+    facts["parameters"]["before"] = {key: whole["parameters"]["after"][key] for key in ("c", "x0")}
+    facts["ranking"] = [{"mechanism": m, "log_evidence_gain": g, "probability": p} for m, g, p in NOTHING]
+    return facts | {"where": {"summary": "nowhere above the noise"}, "unexplained_before": {"rms": 0.05, "unit": "N"}}
+
+
+def alone(data):
+    """Return arrays of a model to which nothing had to be added: the good one, now standing first."""
+    stale = [
+        n for n in data.variables if "before" in n or n in ("parameter", "law_mean") or n.startswith("missing_force")
+    ]
+    data = data.drop_vars(stale).isel(parameter_after=slice(2)).reset_index("parameter_after")
+    names = {n: "parameter" if n == "parameter_after" else n.replace("after", "before") for n in data.variables}
+    return data.rename({n: new.replace("left_", "missing_") for n, new in names.items() if n != new})
 
 
 def unknown():

@@ -45,6 +45,11 @@ class Evidence:
         return str(self.fact("units", quantity) or self.units.get(quantity, ""))
 
     @property
+    def augmented(self) -> bool:
+        """Return whether something was found, so that there is a model after beside the one before."""
+        return bool(self.fact("found"))
+
+    @property
     def response(self) -> str:
         """Return the name of the quantity that was recorded."""
         return str(self.fact("response", "quantity") or "response")

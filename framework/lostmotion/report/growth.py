@@ -9,14 +9,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from lostmotion.report import style
+from lostmotion.report.cast import versions
 from lostmotion.report.evidence import Evidence
-from lostmotion.report.words import figures, percent
-
-CURVES = (
-    ("floor", style.QUIET, "noise floor"),
-    ("before", style.BEFORE, "before"),
-    ("after", style.AFTER, "after"),
-)
+from lostmotion.report.words import figures, percent, sentence
 
 
 class Clock(NamedTuple):
@@ -28,7 +23,7 @@ class Clock(NamedTuple):
 
 def draw(evidence: Evidence) -> Figure | None:
     """Return the growth of the prediction error, or None without its curves."""
-    if not evidence.has("lead") or not any(evidence.has(f"growth_{name}") for name, _, _ in CURVES):
+    if not evidence.has("lead") or not _curves(evidence):
         return None
     figure = style.blank(3.4)
     axes = figure.subplots()
@@ -61,10 +56,9 @@ def clock_of(evidence: Evidence) -> Clock:
 def draw_growth(axes: Axes, evidence: Evidence, clock: Clock) -> None:
     """Draw the error over the lead before, after and at the noise floor, on a logarithmic scale."""
     lead = clock.rate * evidence.arrays["lead"]
-    for name, colour, words in CURVES:
-        if evidence.has(f"growth_{name}"):
-            curve = evidence.arrays[f"growth_{name}"]
-            axes.plot(lead, np.where(curve > 0, curve, np.nan), color=colour, label=words, linewidth=1.8)
+    for name, colour, words in _curves(evidence):
+        curve = evidence.arrays[f"growth_{name}"]
+        axes.plot(lead, np.where(curve > 0, curve, np.nan), color=colour, label=words, linewidth=1.8)
     axes.set_yscale("log")
     axes.set_xlim(float(lead.min()), float(lead.max()))
     axes.set_xlabel(f"lead ({clock.name})")
@@ -77,8 +71,13 @@ def draw_growth(axes: Axes, evidence: Evidence, clock: Clock) -> None:
         above.set_xlabel("lead (s)")
 
 
+def _curves(evidence: Evidence) -> list[tuple[str, str, str]]:
+    models = [(who.key, who.colour, who.named("error")) for who in versions(evidence)]
+    return [entry for entry in [("floor", style.QUIET, "noise floor"), *models] if evidence.has(f"growth_{entry[0]}")]
+
+
 def _mark_validity(axes: Axes, evidence: Evidence, clock: Clock) -> None:
-    for row, (name, colour, _) in enumerate(CURVES):
+    for row, (name, colour, _) in enumerate(_curves(evidence)):
         at = clock.rate * evidence.number("valid_prediction_time", name)
         if not np.isfinite(at):
             continue
@@ -90,14 +89,14 @@ def _mark_validity(axes: Axes, evidence: Evidence, clock: Clock) -> None:
 
 def draw_whiteness(evidence: Evidence) -> Figure | None:
     """Return the autocorrelation of the innovations before and after, or None without it."""
-    shown = [entry for entry in CURVES[1:] if evidence.has(f"acf_{entry[0]}")]
+    shown = [who for who in versions(evidence) if evidence.has(f"acf_{who.key}")]
     if not shown:
         return None
     figure = style.blank(2.2, width=style.WIDTH if len(shown) > 1 else style.WIDTH / 2)
     panels = figure.subplots(1, len(shown), squeeze=False, sharey=True)[0]
-    for axes, (name, colour, words) in zip(panels, shown, strict=True):
-        _draw_lags(axes, evidence, name, colour)
-        axes.set_title(words, color=colour)
+    for axes, who in zip(panels, shown, strict=True):
+        _draw_lags(axes, evidence, who.key, who.colour)
+        axes.set_title(who.named("model"), color=who.colour)
     panels[0].set_ylabel("autocorrelation")
     return figure
 
@@ -105,13 +104,15 @@ def draw_whiteness(evidence: Evidence) -> Figure | None:
 def whiteness_caption(evidence: Evidence) -> str:
     """Return what to see in the autocorrelations."""
     said = []
-    for name, _, words in CURVES[1:]:
-        says, p = evidence.fact("whiteness", name, "says"), evidence.number("whiteness", name, "p")
+    for who in versions(evidence):
+        words = who.named("model")
+        says, p = evidence.fact("whiteness", who.key, "says"), evidence.number("whiteness", who.key, "p")
         if says or np.isfinite(p):
             said.append(f"{words} (p = {figures(p, 2)}): {says}" if says else f"{words}: p = {figures(p, 2)}.")
-    return "Autocorrelation of the innovations; within the grey band they are white. " + " ".join(
-        sentence[:1].upper() + sentence[1:] for sentence in said
+    opening = (
+        "Autocorrelation of the innovations, the part of each sample that was not expected; white ones keep to grey."
     )
+    return " ".join([opening, *(sentence(part) for part in said)])
 
 
 def _draw_lags(axes: Axes, evidence: Evidence, name: str, colour: str) -> None:

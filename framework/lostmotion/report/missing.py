@@ -7,6 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from lostmotion.report import style
+from lostmotion.report.cast import Version, versions
 from lostmotion.report.evidence import Evidence
 from lostmotion.report.words import percent, with_unit
 from lostmotion.results import Array
@@ -39,7 +40,7 @@ def caption(evidence: Evidence) -> str:
     summary = evidence.fact("where", "summary")
     opening = f"The missing force: {summary}. " if summary else ""
     body = "Lines are the mean in each bin, bands hold 95 % of the samples. "
-    if not evidence.has("after_mean"):
+    if len(versions(evidence)) == 1 or not evidence.has("after_mean"):
         return f"{opening}{body}A force that was left out would show as a curve that leaves zero."
     return f"{opening}{body}" + (
         "A curve that leaves zero tells what the missing force depends on: vermillion is the force when the term is "
@@ -63,11 +64,11 @@ def draw_curve(axes: Axes, evidence: Evidence, covariate: str) -> None:
     centre = curve_of(evidence, "bin_center", covariate)
     scale = style.scale_of(centre, unit)
     axes.axhline(0, color=style.RECORDED, linewidth=0.8)
-    for when, colour in (("before", style.BEFORE), ("after", style.AFTER)):
-        _draw_band(axes, evidence, (when, covariate, colour), scale.factor * centre)
+    for who in versions(evidence):
+        _draw_band(axes, evidence, (who, covariate), scale.factor * centre)
     law = curve_of(evidence, "law_mean", covariate)
     if law.size:
-        axes.plot(scale.factor * centre, law, color=style.LAW, linestyle=(0, (4, 2)), linewidth=1.8, label="law")
+        axes.plot(scale.factor * centre, law, color=style.LAW, linestyle=(0, (4, 2)), linewidth=1.8, label="learnt law")
     style.few_ticks(axes)
     if unit == "rad" and covariate == "phase":
         axes.set_xticks([0, np.pi / 2, np.pi, 1.5 * np.pi, 2 * np.pi], ["0", "π/2", "π", "3π/2", "2π"])
@@ -76,13 +77,13 @@ def draw_curve(axes: Axes, evidence: Evidence, covariate: str) -> None:
     _name_share(axes, evidence, covariate)
 
 
-def _draw_band(axes: Axes, evidence: Evidence, what: tuple[str, str, str], at: Array) -> None:
-    when, covariate, colour = what
-    mean, low, high = (curve_of(evidence, f"{when}_{kind}", covariate) for kind in ("mean", "low", "high"))
+def _draw_band(axes: Axes, evidence: Evidence, what: tuple[Version, str], at: Array) -> None:
+    who, covariate = what
+    mean, low, high = (curve_of(evidence, f"{who.key}_{kind}", covariate) for kind in ("mean", "low", "high"))
     if low.size and high.size:
-        axes.fill_between(at, low, high, color=colour, alpha=0.18, linewidth=0)
+        axes.fill_between(at, low, high, color=who.colour, alpha=0.18, linewidth=0)
     if mean.size:
-        axes.plot(at, mean, color=colour, label=when, marker="o", markersize=2.6)
+        axes.plot(at, mean, color=who.colour, label=who.named("missing force"), marker="o", markersize=2.6)
 
 
 def _name_share(axes: Axes, evidence: Evidence, covariate: str) -> None:

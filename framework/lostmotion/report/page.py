@@ -36,9 +36,9 @@ class Drawn(NamedTuple):
 
 SECTIONS = (
     Section("prediction", "Recording and prediction", prediction.draw, prediction.caption),
-    Section("missing", "The force that is missing", missing.draw, missing.caption),
+    Section("missing", "The force that the model does not explain", missing.draw, missing.caption),
     Section("ranking", "Which physics it may be", ranking.draw, ranking.caption),
-    Section("parameters", "Parameters before and after", posteriors.draw, posteriors.caption),
+    Section("parameters", "Parameters", posteriors.draw, posteriors.caption),
     Section("portraits", "Phase portrait and Poincaré section", portraits.draw, portraits.caption),
     Section("growth", "How far ahead predictions hold", growth.draw, growth.caption),
     Section("whiteness", "Are the innovations white?", growth.draw_whiteness, growth.whiteness_caption),

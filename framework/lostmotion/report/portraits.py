@@ -9,15 +9,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from lostmotion.report import style
+from lostmotion.report.cast import versions
 from lostmotion.report.evidence import Evidence
-from lostmotion.report.words import Scale, with_unit
+from lostmotion.report.words import Scale, sentence, with_unit
 from lostmotion.results import Array
 
-WHO = (
-    ("recorded", "recording", style.RECORDED),
-    ("before", "model before", style.BEFORE),
-    ("after", "model after", style.AFTER),
-)
 KINDS = ("portrait", "section")
 
 
@@ -35,7 +31,7 @@ def draw(evidence: Evidence) -> Figure | None:
     kinds = [kind for kind in KINDS if _columns(evidence, kind)]
     if not kinds:
         return None
-    columns = [who for who in WHO if any(who in _columns(evidence, kind) for kind in kinds)]
+    columns = [who for who in _who(evidence) if any(who in _columns(evidence, kind) for kind in kinds)]
     figure = style.blank(2.75 * len(kinds) + 0.2)
     panels = figure.subplots(len(kinds), len(columns), squeeze=False, sharey="row", sharex="row")
     for row, kind in zip(panels, kinds, strict=True):
@@ -50,10 +46,10 @@ def caption(evidence: Evidence) -> str:
     """Return what to see in the figure."""
     parts = []
     if evidence.has("portrait_recorded_x"):
-        parts.append("Phase portraits")
+        parts.append("phase portraits")
     if evidence.has("section_recorded_x"):
         parts.append("Poincaré sections, one point for each drive period (pale dots: the recording)")
-    return " and ".join(parts) + (
+    return sentence(" and ".join(parts)) + (
         ". All panels of a row share their axes. A model with the right physics fills the same region with the same "
         "folds; in chaos the orbits themselves need not agree point by point."
     )
@@ -88,8 +84,13 @@ def _limits(factor: float, values: list[Array]) -> tuple[float, float]:
     return style.framed(factor * values[0], [factor * other for other in values[1:]], 0.5)
 
 
+def _who(evidence: Evidence) -> list[tuple[str, str, str]]:
+    models = [(who.key, who.named("model"), who.colour) for who in versions(evidence)]
+    return [("recorded", "recording", style.RECORDED), *models]
+
+
 def _columns(evidence: Evidence, kind: str) -> list[tuple[str, str, str]]:
-    return [who for who in WHO if evidence.has(f"{kind}_{who[0]}_x", f"{kind}_{who[0]}_v")]
+    return [who for who in _who(evidence) if evidence.has(f"{kind}_{who[0]}_x", f"{kind}_{who[0]}_v")]
 
 
 def _scaled(evidence: Evidence, what: tuple[str, str], frame: Frame) -> tuple[Array, Array]:

@@ -10,19 +10,23 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from lostmotion.report import style
+from lostmotion.report.cast import versions
 from lostmotion.report.evidence import Evidence
 from lostmotion.report.words import Scale, spoken, with_unit
 from lostmotion.results import Array
 
 BINS = 45
-WHEN = (("before", "parameter", style.BEFORE), ("after", "parameter_after", style.AFTER))
-DIMENSION = {when: dimension for when, dimension, _ in WHEN}
+DIMENSION = {"before": "parameter", "after": "parameter_after"}
 MOST_ACROSS = 3
 
 
 def draw(evidence: Evidence) -> Figure | None:
     """Return one panel of densities for each parameter, or None without posterior samples."""
-    names = [name for name in parameters(evidence) if any(samples(evidence, when, name).size for when, _, _ in WHEN)]
+    names = [
+        name
+        for name in parameters(evidence)
+        if any(samples(evidence, who.key, name).size for who in versions(evidence))
+    ]
     if not names:
         return None
     across = min(MOST_ACROSS, len(names))
@@ -41,8 +45,8 @@ def caption(evidence: Evidence) -> str:
     """Return what to see in the figure."""
     known = " The dashed line is the known value." if evidence.fact("truth") else ""
     both = (
-        " A parameter that moves had been bent to stand in for what was left out: its old interval is narrow and wrong."
-        if evidence.has("posterior_after")
+        " A parameter that moves had stood in for what was left out; its interval before is then narrow and wrong."
+        if evidence.augmented and evidence.has("posterior_after")
         else ""
     )
     return "Posterior densities, each scaled to its own peak; the bars below are central 95 % intervals." + known + both
@@ -50,8 +54,9 @@ def caption(evidence: Evidence) -> str:
 
 def parameters(evidence: Evidence) -> list[str]:
     """Return all names of parameters, those of the model as it stands first."""
-    listed = [name for when, _, _ in WHEN for name in (evidence.fact("parameters", when) or {})]
-    drawn = [name for _, dim, _ in WHEN for name in evidence.labels.get(dim, ())]
+    keys = [who.key for who in versions(evidence)]
+    listed = [name for key in keys for name in (evidence.fact("parameters", key) or {})]
+    drawn = [name for key in keys for name in evidence.labels.get(DIMENSION[key], ())]
     return list(dict.fromkeys(listed + drawn))
 
 
@@ -66,13 +71,14 @@ def samples(evidence: Evidence, when: str, name: str) -> Array:
 
 def draw_density(axes: Axes, evidence: Evidence, name: str) -> None:
     """Draw the densities of one parameter before and after, their intervals, and the known value."""
-    drawn = [(when, colour, samples(evidence, when, name)) for when, _, colour in WHEN]
+    drawn = [(who, samples(evidence, who.key, name)) for who in versions(evidence)]
     entry, truth = entry_of(evidence, name), evidence.number("truth", name)
-    scale = style.scale_of(np.concatenate([values for _, _, values in drawn]), str(entry.get("unit", "")))
-    for row, (when, colour, values) in enumerate(drawn):
+    scale = style.scale_of(np.concatenate([values for _, values in drawn]), str(entry.get("unit", "")))
+    for row, (who, values) in enumerate(drawn):
         if values.size:
-            _draw_histogram(axes, scale.factor * values, colour)
-            _draw_interval(axes, evidence.fact("parameters", when, name), scale, (colour, -0.1 - 0.12 * row))
+            _draw_histogram(axes, scale.factor * values, who.colour)
+            look = who.colour, -0.1 - 0.12 * row
+            _draw_interval(axes, evidence.fact("parameters", who.key, name), scale, look)
     if np.isfinite(truth):
         axes.axvline(scale.factor * truth, color=style.RECORDED, linestyle=(0, (4, 2)), linewidth=1.3)
     style.few_ticks(axes, 4)
@@ -99,17 +105,18 @@ def _draw_interval(axes: Axes, entry: Mapping[str, Any] | None, scale: Scale, lo
 
 def _add_legend(figure: Figure, evidence: Evidence) -> None:
     axes = figure.axes[0]
-    for when, _, colour in WHEN:
-        if evidence.has(f"posterior_{when}"):
-            axes.plot([], [], color=colour, linewidth=5, alpha=0.6, label=when)
+    for who in versions(evidence):
+        if evidence.has(f"posterior_{who.key}"):
+            axes.plot([], [], color=who.colour, linewidth=5, alpha=0.6, label=who.named("posterior"))
     if evidence.fact("truth"):
         axes.plot([], [], color=style.RECORDED, linestyle=(0, (4, 2)), label="known value")
     style.legend_above(figure, axes)
 
 
 def entry_of(evidence: Evidence, name: str) -> Mapping[str, Any]:
-    """Return what the diagnosis says of a parameter, after if it can, else before."""
-    return evidence.fact("parameters", "after", name) or evidence.fact("parameters", "before", name) or {}
+    """Return what the diagnosis says of a parameter in the last version of the model that has it."""
+    said = [evidence.fact("parameters", who.key, name) for who in versions(evidence)]
+    return next((entry for entry in reversed(said) if entry), {})
 
 
 def words_of(name: str) -> str:

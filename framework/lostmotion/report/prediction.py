@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from lostmotion.report import style
+from lostmotion.report.cast import versions
 from lostmotion.report.evidence import Evidence
 from lostmotion.report.words import Scale, with_unit
 from lostmotion.results import Array
@@ -31,7 +32,7 @@ def draw(evidence: Evidence) -> Figure | None:
     if not evidence.has("time", "response"):
         return None
     window = window_of(evidence)
-    predicted = evidence.has("forecast_before") or evidence.has("forecast_after")
+    predicted = bool(_forecasts(evidence))
     figure = style.blank(6.0 if predicted else 3.8)
     rows = figure.subplots(3 if predicted else 2, 1, height_ratios=[0.55, 2, 1][: 3 if predicted else 2])
     draw_overview(rows[0], evidence, window)
@@ -48,11 +49,11 @@ def draw(evidence: Evidence) -> Figure | None:
 
 def caption(evidence: Evidence) -> str:
     """Return what to see in the figure."""
-    if not (evidence.has("forecast_before") or evidence.has("forecast_after")):
+    if not _forecasts(evidence):
         return "The recording; held-out part shaded, and a few periods of it drawn large."
     closing = (
         " The vermillion curve leaves the black one where the missing physics acts; the blue one should stay on it."
-        if evidence.has("forecast_after")
+        if len(_forecasts(evidence)) > 1
         else " Where nothing is missing, the prediction stays on the recording until noise and chaos part them."
     )
     return (
@@ -141,10 +142,7 @@ def draw_error(axes: Axes, evidence: Evidence, window: Window) -> None:
 
 
 def _forecasts(evidence: Evidence) -> list[tuple[str, str, str]]:
-    known = [
-        ("forecast_before", style.BEFORE, "prediction before"),
-        ("forecast_after", style.AFTER, "prediction after"),
-    ]
+    known = [(f"forecast_{who.key}", who.colour, who.named("prediction")) for who in versions(evidence)]
     return [entry for entry in known if evidence.has(entry[0])]
 
 

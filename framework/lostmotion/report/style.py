@@ -14,6 +14,7 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.ticker import MaxNLocator
 
 from lostmotion.report.words import Scale, readable
@@ -69,7 +70,7 @@ def applied() -> Iterator[None]:
 
 def blank(height: float, width: float = WIDTH) -> Figure:
     """Return an empty figure of a height in inches, `width` inches wide."""
-    return Figure(figsize=(width, height), layout="constrained")
+    return Figure(figsize=(width, height), layout=ConstrainedLayoutEngine(w_pad=0.08, h_pad=0.06))
 
 
 def scale_of(values: Array, unit: str) -> Scale:

@@ -48,7 +48,9 @@ def key_numbers(evidence: Evidence) -> Table:
         ["Predictions are valid for", *(_valid(evidence, when) for when in ("before", "after", "floor"))],
         ["Largest Lyapunov exponent", *(_exponent(evidence, when) for when in ("before", "after")), DASH],
     ]
-    return _trimmed(["", "Before" if augmented(evidence) else "Model as it stands", "After", "Noise floor"], rows)
+    if not evidence.augmented:
+        rows = [[name, before, DASH, floor] for name, before, _, floor in rows]
+    return _trimmed(["", "Before" if evidence.augmented else "Model as it stands", "After", "Noise floor"], rows)
 
 
 def parameters(evidence: Evidence) -> Table:
@@ -56,23 +58,19 @@ def parameters(evidence: Evidence) -> Table:
     names = [name for name in posteriors.parameters(evidence) if posteriors.entry_of(evidence, name)]
     head = [
         "Parameter",
-        "Before" if augmented(evidence) else "Median [95 %]",
+        "Before" if evidence.augmented else "Median [95 %]",
         "After",
         "Known value",
         "In the last interval",
     ]
-    return _trimmed(head, [_parameter(evidence, name) for name in names])
-
-
-def augmented(evidence: Evidence) -> bool:
-    """Return whether there is a model after, beside the one before."""
-    return bool(found(evidence) or evidence.fact("model", "after") or evidence.fact("parameters", "after"))
+    rows = [_parameter(evidence, name) for name in names]
+    return _trimmed(head, rows if evidence.augmented else [[*row[:2], DASH, *row[3:]] for row in rows])
 
 
 def _parameter(evidence: Evidence, name: str) -> Row:
     entry, truth = posteriors.entry_of(evidence, name), evidence.number("truth", name)
     scale = readable(float(entry.get("median") or 0.0), str(entry.get("unit", "")))
-    before, after = (in_words(evidence.fact("parameters", when, name), scale) for when in ("before", "after"))
+    before, after = (in_words(evidence.fact("parameters", key, name), scale) for key in ("before", "after"))
     if not np.isfinite(truth):
         return [posteriors.words_of(name), before, after, DASH, DASH]
     known = f"{figures(scale.factor * truth, 4)} {pretty(scale.unit)}".rstrip()
@@ -86,17 +84,22 @@ def _named(entry: Any) -> str:
 
 
 def _forces(evidence: Evidence) -> Row:
-    """Return the unexplained force before and after; where there is no after, the one that is left is that before."""
+    """Return the unexplained force before and after."""
     before, after = (
         measured(evidence.number(key, "rms"), str(evidence.fact(key, "unit") or ""))
         for key in ("unexplained_before", "unexplained")
     )
-    return [before, after] if augmented(evidence) else [after if before == DASH else before, DASH]
+    return _placed(evidence, before, after)
 
 
 def _shares(evidence: Evidence) -> Row:
     before, after = (percent(evidence.number(key, "share_of_drive")) for key in ("unexplained_before", "unexplained"))
-    return [before, after] if augmented(evidence) else [after if before == DASH else before, DASH]
+    return _placed(evidence, before, after)
+
+
+def _placed(evidence: Evidence, before: str, after: str) -> Row:
+    """Return what is unexplained before and after; where nothing was added, what is left is left by the one model."""
+    return [before, after] if evidence.augmented else [before if after == DASH else after, DASH]
 
 
 def _fit(evidence: Evidence, key: str, shown: Any) -> Row:

@@ -104,5 +104,5 @@ def interval(entry: Mapping[str, Any] | None, shown: Scale | None = None) -> str
 
 def _decimals(width: float, value: float) -> int:
     """Return the decimals that show two figures of a width, or four of the value where there is no width."""
-    size = width / 100 if width > 0 and math.isfinite(width) else abs(value) / 1e4
+    size = width / 20 if width > 0 and math.isfinite(width) else abs(value) / 1e4
     return min(12, max(0, -math.floor(math.log10(size)) - 1)) if size > 0 else 1
