@@ -106,7 +106,7 @@ def force_is_zero_at_null(term: Term) -> str:
     for point in of_term(term, null=True):
         for p in (point, _walked(term, point)):
             if (force := pull(term, p)) != 0.0:
-                return f"the force is {force!r} at x = {p.x:.3g}, v = {p.v:.3g}, p = {p.p}"
+                return f"the force is {force} at x = {p.x:.3g}, v = {p.v:.3g}, p = {p.p}"
     return ""
 
 
@@ -124,7 +124,7 @@ def force_is_a_finite_number(term: Term) -> str:
     for p in [*of_term(term), *rest]:
         force = pull(term, p)
         if not isinstance(force, (float, int, np.floating)) or not math.isfinite(force):
-            return f"the force is {force!r} at x = {p.x:.3g}, v = {p.v:.3g}"
+            return f"the force is {force} at x = {p.x:.3g}, v = {p.v:.3g}"
     return ""
 
 
