@@ -5,6 +5,7 @@ import os
 import shutil
 import subprocess
 import sys
+import zipfile
 from pathlib import Path
 
 import pytest
@@ -55,5 +56,10 @@ def test_its_own_tests_pass(installed, tmp_path):
     assert "3 passed" in text
 
 
-def test_the_root_wheel_leaves_it_out():
-    assert "template" not in (TEMPLATE.parents[1] / "pyproject.toml").read_text().split("[tool.ruff")[0]
+def test_the_root_wheel_leaves_it_out(tmp_path):
+    root = TEMPLATE.parents[1]
+    run("-m", "build", "--wheel", "--no-isolation", "--outdir", tmp_path, root, cwd=tmp_path)
+    (wheel,) = tmp_path.glob("*.whl")
+    names = zipfile.ZipFile(wheel).namelist()
+    assert "lostmotion/registry/__init__.py" in names
+    assert [n for n in names if "lostmotion_template" in n or n.startswith("template")] == []
