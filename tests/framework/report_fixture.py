@@ -202,6 +202,7 @@ NOTHING = [
     ("coulomb_friction", -2.7, 0.011),
     ("linear_stiffness", -3.1, 0.007),
     ("cubic_stiffness", -14.8, 0.0),
+    ("gravity_pendulum", -870.0, 0.0),
 ]
 
 
@@ -283,6 +284,8 @@ def adequate():
     facts |= {"verdict": "adequate", "found": [], "says": [], "confused_with": [], "title": "Nothing hidden"}
     whole = mismatch()
     facts["fit"]["before"], facts["whiteness"]["before"] = whole["fit"]["after"], whole["whiteness"]["after"]
+    facts["valid_prediction_time"]["before"] = whole["valid_prediction_time"]["after"]
+    facts["valid_prediction_time"]["in_lyapunov_times"] = {"before": 4.0, "floor": 4.2}
     facts["parameters"]["before"] = {key: whole["parameters"]["after"][key] for key in ("c", "x0")}
     facts["ranking"] = [{"mechanism": m, "log_evidence_gain": g, "probability": p} for m, g, p in NOTHING]
     return facts | {"where": {"summary": "nowhere above the noise"}, "unexplained_before": {"rms": 0.05, "unit": "N"}}

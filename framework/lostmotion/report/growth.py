@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import NullFormatter
 
 from lostmotion.report import style
 from lostmotion.report.cast import versions
@@ -64,6 +65,7 @@ def draw_growth(axes: Axes, evidence: Evidence, clock: Clock) -> None:
     axes.set_xlabel(f"lead ({clock.name})")
     axes.set_ylabel("error / response s.d.")
     axes.yaxis.set_major_formatter(lambda value, _: percent(value))
+    axes.yaxis.set_minor_formatter(NullFormatter())
     _mark_validity(axes, evidence, clock)
     if clock.name != "s":
         turns = (lambda lead: np.asarray(lead, float) / clock.rate, lambda at: np.asarray(at, float) * clock.rate)
@@ -92,7 +94,7 @@ def draw_whiteness(evidence: Evidence) -> Figure | None:
     shown = [who for who in versions(evidence) if evidence.has(f"acf_{who.key}")]
     if not shown:
         return None
-    figure = style.blank(2.2, width=style.WIDTH if len(shown) > 1 else style.WIDTH / 2)
+    figure = style.blank(2.2)
     panels = figure.subplots(1, len(shown), squeeze=False, sharey=True)[0]
     for axes, who in zip(panels, shown, strict=True):
         _draw_lags(axes, evidence, who.key, who.colour)
@@ -109,10 +111,8 @@ def whiteness_caption(evidence: Evidence) -> str:
         says, p = evidence.fact("whiteness", who.key, "says"), evidence.number("whiteness", who.key, "p")
         if says or np.isfinite(p):
             said.append(f"{words} (p = {figures(p, 2)}): {says}" if says else f"{words}: p = {figures(p, 2)}.")
-    opening = (
-        "Autocorrelation of the innovations, the part of each sample that was not expected; white ones keep to grey."
-    )
-    return " ".join([opening, *(sentence(part) for part in said)])
+    opening = "Autocorrelation of the innovations, the part of each sample that the model did not expect."
+    return " ".join([opening, "White ones stay within the grey band.", *(sentence(part) for part in said)])
 
 
 def _draw_lags(axes: Axes, evidence: Evidence, name: str, colour: str) -> None:

@@ -32,12 +32,12 @@ def draw(evidence: Evidence) -> Figure | None:
     if not evidence.has("time", "response"):
         return None
     window = window_of(evidence)
-    predicted = bool(_forecasts(evidence))
-    figure = style.blank(6.0 if predicted else 3.8)
-    rows = figure.subplots(3 if predicted else 2, 1, height_ratios=[0.55, 2, 1][: 3 if predicted else 2])
+    panels = 3 if predicted(evidence) else 2
+    figure = style.blank(0.4 + 1.85 * panels)
+    rows = figure.subplots(panels, 1, height_ratios=[0.55, 2, 1][:panels])
     draw_overview(rows[0], evidence, window)
     draw_window(rows[1], evidence, window)
-    if predicted:
+    if panels == 3:
         rows[1].sharex(rows[2])
         rows[1].tick_params(labelbottom=False)
         rows[1].set_xlabel("")
@@ -49,7 +49,7 @@ def draw(evidence: Evidence) -> Figure | None:
 
 def caption(evidence: Evidence) -> str:
     """Return what to see in the figure."""
-    if not _forecasts(evidence):
+    if not predicted(evidence):
         return "The recording; held-out part shaded, and a few periods of it drawn large."
     closing = (
         " The vermillion curve leaves the black one where the missing physics acts; the blue one should stay on it."
@@ -61,6 +61,11 @@ def caption(evidence: Evidence) -> str:
         "Middle: recording and free-running prediction, started anew from a filtered state at each triangle. "
         "Bottom: prediction minus recording." + closing
     )
+
+
+def predicted(evidence: Evidence) -> bool:
+    """Return whether there is a recording with a prediction of it."""
+    return evidence.has("time", "response") and bool(_forecasts(evidence))
 
 
 def window_of(evidence: Evidence) -> Window:

@@ -14,6 +14,7 @@ from lostmotion.report.evidence import Evidence
 from lostmotion.report.words import figures, probability, sentence, spoken
 
 MOST = 16
+MOST_BELOW = 20.0
 
 
 def draw(evidence: Evidence) -> Figure | None:
@@ -47,25 +48,32 @@ def draw_bars(axes: Axes, evidence: Evidence, rows: list[Mapping[str, Any]]) -> 
     """Draw one bar for each candidate, with its gain and its probability written beside it."""
     found = {entry.get("mechanism") for entry in evidence.fact("found") or []}
     gains = [_gain(entry, 0.0) for entry in rows]
-    top = max(*gains, 1.0, -0.2 * min(gains))
-    left = max(min(gains), -0.25 * top)
+    top, left = _reach(gains)
     colours = [style.AFTER if entry.get("mechanism") in found else style.QUIET for entry in rows]
     axes.barh(range(len(rows)), [max(gain, left) for gain in gains], color=colours, height=0.66)
     axes.axvline(0, color=style.RECORDED, linewidth=0.8)
     for row, entry in enumerate(rows):
-        _write_beside(axes, row, entry, 0.012 * top)
+        _write_beside(axes, row, entry, (left, 0.012 * (top - left)))
     axes.set_yticks(range(len(rows)), [sentence(spoken(str(entry.get("mechanism", "?")))) for entry in rows])
     axes.invert_yaxis()
-    axes.set_xlim(min(1.1 * left, 0), 1.2 * top)
+    axes.set_xlim(min(1.05 * left, 0), top + 0.2 * (top - left))
     axes.set_xlabel("log evidence gain over the model as it stands")
     axes.grid(visible=False, axis="y")
     axes.tick_params(axis="y", length=0)
     axes.text(1.02, 1.01, "probability", color="#444444", fontsize=8.5, va="bottom", transform=axes.transAxes)
 
 
-def _write_beside(axes: Axes, row: int, entry: Mapping[str, Any], gap: float) -> None:
+def _reach(gains: list[float]) -> tuple[float, float]:
+    """Return the ends of the bars; a hopeless candidate is cut short, lest it dwarf those that matter."""
+    top = max(*gains, 1.0)
+    return top, min(0.0, max(min(gains), -max(0.25 * top, MOST_BELOW)))
+
+
+def _write_beside(axes: Axes, row: int, entry: Mapping[str, Any], frame: tuple[float, float]) -> None:
+    left, gap = frame
     gain = _gain(entry, math.nan)
     words = "not fitted" if math.isnan(gain) else figures(gain, 4 if abs(gain) >= 1000 else 3)
+    words = f"◂ {words}" if gain < left else words
     at = max(gain, 0.0) + gap if math.isfinite(gain) else gap
     axes.text(at, row, words.replace("-", "−"), va="center", fontsize=8.5)
     beside = axes.text(1.02, row, probability(entry.get("probability")), va="center", fontsize=8.5)

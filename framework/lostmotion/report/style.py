@@ -54,6 +54,8 @@ RC: dict[Any, Any] = {
     "lines.solid_joinstyle": "round",
     "path.simplify_threshold": 0.3,
     "figure.facecolor": "white",
+    # Names come from files: a dollar sign in one is no formula.
+    "text.parse_math": False,
     "svg.fonttype": "path",
     "svg.hashsalt": "lostmotion",
 }

@@ -1,0 +1,221 @@
+"""The page: it opens with the answer, stands by itself, and bears what is absent or hostile."""
+
+from __future__ import annotations
+
+import importlib.util
+import re
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+import xarray as xr
+
+from lostmotion.errors import DataError
+from lostmotion.report import figure_hero, prediction, write_report
+from lostmotion.report.evidence import read_evidence
+from lostmotion.report.page import SECTIONS as PLAN
+
+SECTIONS = ("prediction", "missing", "ranking", "parameters", "portraits", "growth", "whiteness")
+
+
+def _load() -> ModuleType:
+    place = Path(__file__).with_name("report_fixture.py")
+    spec = importlib.util.spec_from_file_location("report_fixture", place)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+made = _load()
+
+
+@pytest.fixture(scope="module")
+def data() -> xr.Dataset:
+    return made.arrays(periods=30)
+
+
+@pytest.fixture(scope="module")
+def page(data, tmp_path_factory) -> str:
+    return _page(tmp_path_factory.mktemp("report"), made.mismatch(), data)
+
+
+def _page(folder, facts, data=None) -> str:
+    written = write_report(made.write(folder, facts, data))
+    assert written == folder / "report.html"
+    return written.read_text(encoding="utf-8")
+
+
+def _drawn(folder, facts, data) -> list[str]:
+    evidence = read_evidence(made.write(folder, facts, data))
+    return [section.name for section in PLAN if section.draw(evidence) is not None]
+
+
+def _sections(page) -> list[str]:
+    return re.findall(r'<section id="section-(\w+)">', page)
+
+
+def _heading(page) -> str:
+    return re.search(r"<h1>(.*?)</h1>", page)[1]
+
+
+def test_it_opens_with_the_sentences_of_the_diagnosis(page):
+    assert _heading(page) == "Dry friction of 3.01 N [2.97, 3.05] was left out."
+    assert "from 3.1 N to 0.05 N" in page
+
+
+def test_all_figures_stand_in_their_order(page):
+    assert _sections(page) == list(SECTIONS)
+    assert page.count("<figcaption>") == len(SECTIONS)
+    assert page.count("<svg") + page.count("<img") == len(SECTIONS)
+
+
+def test_it_refers_to_nothing_outside_itself(page):
+    assert "http" not in page
+    assert "<script" not in page
+    assert not re.search(r'(src|href)="(?!data:image/png;base64,|#)', page)
+    assert "@import" not in page
+
+
+def test_each_name_in_the_page_is_used_once(page):
+    names = re.findall(r'\bid="([^"]+)"', page)
+    assert len(names) == len(set(names))
+
+
+def test_each_reference_finds_its_target(page):
+    names = set(re.findall(r'\bid="([^"]+)"', page))
+    assert set(re.findall(r"url\(#([^)]+)\)", page)) <= names
+    assert set(re.findall(r'href="#([^"]+)"', page)) <= names
+
+
+def test_the_same_results_give_the_same_page(page, data, tmp_path):
+    assert _page(tmp_path, made.mismatch(), data) == page
+
+
+def test_known_values_stand_beside_the_parameters(page):
+    assert "Known value" in page
+    assert "inside" in page
+
+
+def test_a_known_value_outside_its_interval_is_said(tmp_path):
+    page = _page(tmp_path, made.mismatch() | {"truth": {"c": 9.0}})
+    assert '<td class="outside">outside</td>' in page
+
+
+def test_every_string_of_a_file_is_escaped(data, tmp_path):
+    hostile = "<script>alert('x')</script>"
+    facts = made.mismatch() | {"title": hostile, "says": [hostile], "notes": [hostile], "confused_with": [hostile]}
+    facts |= {"model": {"before": hostile, "after": hostile}, "provenance": {hostile: hostile}}
+    facts["found"][0] |= {"mechanism": hostile, "says": hostile, "at": hostile}
+    facts["ranking"][0] |= {"mechanism": hostile}
+    facts["whiteness"]["before"]["says"] = facts["where"]["summary"] = facts["response"]["quantity"] = hostile
+    facts["units"]["force"] = facts["unexplained"]["unit"] = hostile
+    assert "<script" not in _page(tmp_path, facts, data)
+
+
+def test_dollar_signs_in_names_are_not_taken_for_formulas(tmp_path):
+    facts = made.mismatch()
+    facts["ranking"][0]["mechanism"] = r"$\nosuch{$"
+    assert "section-ranking" in _page(tmp_path, facts)
+
+
+def test_an_adequate_model_has_nothing_missing_and_no_after(data, tmp_path):
+    page = _page(tmp_path, made.adequate(), made.alone(data))
+    assert _heading(page) == "Nothing is missing that this recording can show."
+    assert _sections(page) == list(SECTIONS)
+    assert "<th>After</th>" not in page
+    assert "Mechanism found" not in page
+
+
+def test_an_unknown_mismatch_says_what_it_depends_on(tmp_path):
+    page = _page(tmp_path, made.unknown())
+    assert _heading(page).startswith("Something is missing that no mechanism of the library explains")
+    assert "depends on position and velocity" in _heading(page)
+    assert "Mismatch, unknown" in page
+
+
+def test_a_mismatch_without_sentences_is_told_from_its_numbers(tmp_path):
+    page = _page(tmp_path, made.mismatch() | {"says": []})
+    assert _heading(page) == "Dry friction of 3.01 N [2.97, 3.05] opposes the motion, 3.0 % of the drive."
+    assert "With it the unexplained force falls from 3.1 N to 0.05 N" in page
+
+
+def test_without_arrays_there_are_still_words_ranking_and_parameters(tmp_path):
+    assert _sections(_page(tmp_path, made.mismatch())) == ["ranking", "parameters"]
+
+
+def test_the_contract_alone_is_enough(tmp_path):
+    assert "Nothing is missing" in _page(tmp_path, {"schema": "lostmotion.diagnosis/1", "verdict": "adequate"})
+
+
+@pytest.mark.parametrize(
+    ("prefix", "section"),
+    [
+        ("response", "prediction"),
+        ("before_", "missing"),
+        ("portrait_", None),
+        ("section_", None),
+        ("growth_", "growth"),
+        ("acf_", "whiteness"),
+        ("posterior_", "parameters"),
+        ("forecast_", None),
+    ],
+)
+def test_absent_arrays_leave_out_their_figure_only(data, tmp_path, prefix, section):
+    less = data.drop_vars([name for name in data.data_vars if name.startswith(prefix)])
+    assert _drawn(tmp_path, made.mismatch(), less) == [name for name in SECTIONS if name != section]
+
+
+def test_what_is_left_of_a_poor_result_is_still_one_page(data, tmp_path):
+    poor = data[["response", "portrait_recorded_x", "portrait_recorded_v", "acf_after", "posterior_before"]]
+    page = _page(tmp_path, made.mismatch(), poor)
+    assert _sections(page) == ["prediction", "ranking", "parameters", "portraits", "whiteness"]
+
+
+def test_arrays_of_nothing_but_nan_are_as_good_as_absent(data, tmp_path):
+    empty = data.copy()
+    for name in ("before_mean", "growth_before", "growth_after", "growth_floor", "forecast_after"):
+        empty[name] = empty[name] * float("nan")
+    assert set(SECTIONS) - set(_drawn(tmp_path, made.mismatch(), empty)) == {"missing", "growth"}
+
+
+def test_a_model_that_runs_away_does_not_blow_up_the_figures(data, tmp_path):
+    wild = data.copy(deep=True)
+    for name in ("forecast_before", "portrait_before_x", "section_before_v", "growth_before"):
+        wild[name] = wild[name] * 1e12
+    assert _sections(_page(tmp_path, made.mismatch(), wild)) == list(SECTIONS)
+
+
+def test_a_drive_without_period_and_numbers_that_are_null_are_borne(data, tmp_path):
+    facts = made.mismatch() | {"lyapunov": {"before": None, "after": None}, "unexplained_before": None, "fit": {}}
+    facts["drive"]["frequency"] = None
+    assert _sections(_page(tmp_path, facts, data)) == list(SECTIONS)
+
+
+def test_several_recordings_show_the_one_that_was_held_out(data, tmp_path):
+    two = data.copy(deep=True)
+    half = two.sizes["time"] // 2
+    two["record"][half:] = 1
+    two = two.assign_coords(time=("time", list(data["time"].values[:half]) * 2, {"units": "s"}))
+    evidence = read_evidence(made.write(tmp_path, made.mismatch(), two))
+    window = prediction.window_of(evidence)
+    assert window.record[0] == half
+    assert window.shown.size > made.PER_PERIOD
+    assert prediction.draw(evidence)
+
+
+def test_a_folder_without_a_diagnosis_is_refused_in_words(tmp_path):
+    with pytest.raises(DataError, match=r"no diagnosis\.json in .*: run `lostmotion diagnose"):
+        write_report(tmp_path)
+
+
+@pytest.mark.parametrize("text", ["{", "[]"])
+def test_a_broken_diagnosis_is_refused_in_words(tmp_path, text):
+    (tmp_path / "diagnosis.json").write_text(text, encoding="utf-8")
+    with pytest.raises(DataError, match="again"):
+        write_report(tmp_path)
+
+
+def test_the_hero_is_one_wide_picture(data, tmp_path):
+    picture = figure_hero(made.write(tmp_path, made.mismatch(), data))
+    assert picture.name == "hero.png"
+    assert picture.read_bytes().startswith(b"\x89PNG")

@@ -1,0 +1,81 @@
+"""Numbers, units and names as a reader meets them."""
+
+from __future__ import annotations
+
+import pytest
+
+from lostmotion.report.words import (
+    DASH,
+    Scale,
+    figures,
+    interval,
+    measured,
+    percent,
+    pretty,
+    probability,
+    readable,
+    spoken,
+)
+
+
+@pytest.mark.parametrize(
+    ("value", "said"),
+    [
+        (0.05, "0.05"),
+        (3.1, "3.1"),
+        (2003.1, "2003"),
+        (0, "0"),
+        (1e-9, "1e-9"),
+        (-1.9, "-1.9"),
+        (4e8, "4e8"),
+        (100.0, "100"),
+        (None, DASH),
+        (float("nan"), DASH),
+        ("x", DASH),
+    ],
+)
+def test_figures(value, said):
+    assert figures(value) == said
+
+
+def test_an_interval_has_as_many_decimals_as_it_deserves():
+    entry = {"median": 1.0184, "low": 0.9902, "high": 1.0531, "unit": "N"}
+    assert interval(entry) == "1.02 [0.99, 1.05] N"
+
+
+def test_small_lengths_are_read_in_millimetres():
+    assert interval({"median": 5e-3, "low": 4.998e-3, "high": 5.002e-3, "unit": "m"}) == "5.000 [4.998, 5.002] mm"
+
+
+def test_an_interval_without_width_or_without_numbers_is_borne():
+    assert interval({"median": 2.0, "low": 2.0, "high": 2.0, "unit": "1"}) == "2.000 [2.000, 2.000]"
+    assert interval(None) == DASH
+    assert interval({"median": None}) == DASH
+
+
+@pytest.mark.parametrize(
+    ("largest", "unit", "scale"),
+    [
+        (0.02, "m", Scale(1e3, "mm")),
+        (3e-6, "m", Scale(1e6, "µm")),
+        (2e4, "N", Scale(1e-3, "kN")),
+        (3.0, "N", Scale(1, "N")),
+        (0.01, "kg", Scale(1, "kg")),
+        (0.0, "m", Scale(1, "m")),
+        (float("nan"), "m", Scale(1, "m")),
+    ],
+)
+def test_prefixes_stand_only_where_they_help(largest, unit, scale):
+    assert readable(largest, unit) == scale
+
+
+def test_names_units_and_shares():
+    assert spoken("bouc_wen_hysteresis") == "Bouc–Wen hysteresis"
+    assert pretty("kg m^2") == "kg m²"
+    assert measured(3.0, "1") == "3"
+    assert percent(0.012) == "1.2 %"
+
+
+@pytest.mark.parametrize(("value", "said"), [(1.0, "> 0.999"), (0.0, "< 0.001"), (0.97, "0.970"), (None, DASH)])
+def test_a_probability_is_never_rounded_to_certainty(value, said):
+    assert probability(value) == said
