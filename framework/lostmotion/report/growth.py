@@ -7,12 +7,14 @@ from typing import NamedTuple
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import NullFormatter
+from matplotlib.ticker import LogLocator, NullFormatter
 
 from lostmotion.report import style
 from lostmotion.report.cast import versions
 from lostmotion.report.evidence import Evidence
 from lostmotion.report.words import figures, percent, sentence
+
+FEW_DECADES = 300.0
 
 
 class Clock(NamedTuple):
@@ -66,6 +68,8 @@ def draw_growth(axes: Axes, evidence: Evidence, clock: Clock) -> None:
     axes.set_ylabel("error / response s.d.")
     axes.yaxis.set_major_formatter(lambda value, _: percent(value))
     axes.yaxis.set_minor_formatter(NullFormatter())
+    low, high = axes.get_ylim()
+    axes.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if high < FEW_DECADES * low else (1.0,)))
     _mark_validity(axes, evidence, clock)
     if clock.name != "s":
         turns = (lambda lead: np.asarray(lead, float) / clock.rate, lambda at: np.asarray(at, float) * clock.rate)
@@ -81,7 +85,7 @@ def _curves(evidence: Evidence) -> list[tuple[str, str, str]]:
 def _mark_validity(axes: Axes, evidence: Evidence, clock: Clock) -> None:
     for row, (name, colour, _) in enumerate(_curves(evidence)):
         at = clock.rate * evidence.number("valid_prediction_time", name)
-        if not np.isfinite(at):
+        if not at <= axes.get_xlim()[1]:
             continue
         axes.axvline(at, color=colour, linestyle=":", linewidth=1.5)
         text = axes.text(at, 0.05 + 0.09 * row, f" {figures(at, 2)}", color=colour, fontsize=8.5)
@@ -112,7 +116,9 @@ def whiteness_caption(evidence: Evidence) -> str:
         if says or np.isfinite(p):
             said.append(f"{words} (p = {figures(p, 2)}): {says}" if says else f"{words}: p = {figures(p, 2)}.")
     opening = "Autocorrelation of the innovations, the part of each sample that the model did not expect."
-    return " ".join([opening, "White ones stay within the grey band.", *(sentence(part) for part in said)])
+    return " ".join(
+        [opening, "White ones stay within the grey band but for one lag in twenty.", *(sentence(part) for part in said)]
+    )
 
 
 def _draw_lags(axes: Axes, evidence: Evidence, name: str, colour: str) -> None:

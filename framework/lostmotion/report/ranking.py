@@ -32,10 +32,12 @@ def caption(evidence: Evidence) -> str:
     """Return what to see in the figure."""
     hidden = len(evidence.fact("ranking") or []) - MOST
     rest = f" The {hidden} candidates that rank lowest are not drawn." if hidden > 0 else ""
+    gains = [_gain(entry, 0.0) for entry in ranked(evidence)]
+    cut = " ◂ marks a bar that was cut short." if gains and min(gains) < _reach(gains)[1] else ""
     return (
         "Each candidate was fitted with all parameters of the model set free again. The bar is what the log evidence "
         "gains over the model as it stands; a gain of 5 is strong, and one near zero or below says that the term is "
-        "not needed. The column on the right is the posterior probability among all candidates." + rest
+        "not needed. The column on the right is the posterior probability among all candidates." + cut + rest
     )
 
 
@@ -75,7 +77,7 @@ def _write_beside(axes: Axes, row: int, entry: Mapping[str, Any], frame: tuple[f
     words = "not fitted" if math.isnan(gain) else figures(gain, 4 if abs(gain) >= 1000 else 3)
     words = f"◂ {words}" if gain < left else words
     at = max(gain, 0.0) + gap if math.isfinite(gain) else gap
-    axes.text(at, row, words.replace("-", "−"), va="center", fontsize=8.5)
+    axes.text(at, row, words, va="center", fontsize=8.5)
     beside = axes.text(1.02, row, probability(entry.get("probability")), va="center", fontsize=8.5)
     beside.set_transform(axes.get_yaxis_transform())
 

@@ -129,7 +129,7 @@ def save(figure: Figure, path: Path) -> Path:
 
 def _image(figure: Figure, name: str) -> str:
     pixels = io.BytesIO()
-    figure.savefig(pixels, format="png", dpi=190, metadata={"Software": None})
+    figure.savefig(pixels, format="png", dpi=150, metadata={"Software": None})
     return f'<img alt="{name}" src="data:image/png;base64,{base64.b64encode(pixels.getvalue()).decode()}">'
 
 

@@ -67,7 +67,7 @@ def figures(value: Any, digits: int = 3) -> str:
     if power < -4 or power > 6:
         mantissa, _, exponent = f"{value:.{digits - 1}e}".partition("e")
         return f"{mantissa.rstrip('0').rstrip('.') if '.' in mantissa else mantissa}e{int(exponent)}"
-    text = f"{value:.{max(0, digits - 1 - power)}f}"
+    text = _signed(f"{value:.{max(0, digits - 1 - power)}f}")
     return text.rstrip("0").rstrip(".") if "." in text else text
 
 
@@ -98,11 +98,16 @@ def interval(entry: Mapping[str, Any] | None, shown: Scale | None = None) -> str
     factor, unit = shown or readable(entry["median"], str(entry.get("unit", "")))
     ends = [factor * float(entry.get(key, entry["median"])) for key in ("median", "low", "high")]
     decimals = _decimals(ends[2] - ends[1], ends[0])
-    median, low, high = (f"{end:.{decimals}f}" for end in ends)
+    median, low, high = (_signed(f"{end:.{decimals}f}") for end in ends)
     return f"{median} [{low}, {high}] {pretty(unit)}".rstrip()
+
+
+def _signed(text: str) -> str:
+    """Return a number with a proper minus sign."""
+    return "−" + text[1:] if text.startswith("-") else text
 
 
 def _decimals(width: float, value: float) -> int:
     """Return the decimals that show two figures of a width, or four of the value where there is no width."""
-    size = width / 20 if width > 0 and math.isfinite(width) else abs(value) / 1e4
+    size = width / 30 if width > 0 and math.isfinite(width) else abs(value) / 1e4
     return min(12, max(0, -math.floor(math.log10(size)) - 1)) if size > 0 else 1
