@@ -137,6 +137,7 @@ def _inline(text: str, name: str) -> str:
     """Return the SVG without addresses, and with names of its own: all figures share one page."""
     text = re.sub(r"<metadata>.*?</metadata>", "", text[text.index("<svg") :], flags=re.DOTALL)
     text = re.sub(r'\s(xmlns(:\w+)?|width|height)="[^"]*"', "", text, count=4)
-    text = re.sub(r'\bid="', f'id="{name}-', text)
-    text = re.sub(r'(url\(#|href="#)', rf"\g<1>{name}-", text)
+    # Matplotlib hashes the last digits of the layout into its names, and these differ from run to run: count instead.
+    names = {old: f"{name}-{count}" for count, old in enumerate(dict.fromkeys(re.findall(r'\bid="([^"]+)"', text)))}
+    text = re.sub(r'(\bid="|url\(#|href="#)([^")]+)', lambda found: found[1] + names.get(found[2], found[2]), text)
     return text.replace("<svg", f'<svg role="img" aria-label="{name}"', 1)
