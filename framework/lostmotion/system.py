@@ -132,23 +132,22 @@ class System:
             start += len(term.states) if on[i] else 0
         return on, at
 
-    def pack(self, full: Array, step: float) -> tuple[Array, tuple[Array, ...]]:
-        """Return the parameters of the model, and for each term its own with what it needs behind them."""
+    def pack(self, full: Array, step: float) -> tuple[Array, Array]:
+        """Return the parameters of the model, and those of all terms, each with what it needs behind its own."""
         base = np.ascontiguousarray(full[: len(self.model.params)])
-        return base, tuple(
-            np.array([full[i] if i >= 0 else (step / full[inertia] if inertia >= 0 else step) for i, inertia in row])
-            for row in self._sources
-        )
+        mobility = [step / full[inertia] if inertia >= 0 else step for _, inertia in self._sources]
+        own = [full[i] if i >= 0 else m for (i, _), m in zip(self._sources, mobility, strict=True)]
+        return base, np.array(own, dtype=float)
 
     @cached_property
-    def _sources(self) -> tuple[tuple[tuple[int, int], ...], ...]:
+    def _sources(self) -> tuple[tuple[int, int], ...]:
         """Where each entry of a term's `p` comes from: an index, or -1 with the index of an inertia, or -1 twice."""
-        table = []
+        table: list[tuple[int, int]] = []
         for key, term in zip(self.keys, self.terms, strict=True):
             inertia = self.index[place_of(self.model, term).inertia]
             pseudo = {"step": (NUMB, NUMB), "mobility": (NUMB, inertia)}
             own = [(self.index[f"{key}.{q.name}"], NUMB) for q in term.params]
-            table.append((*own, *(pseudo.get(n) or (self.index[n], NUMB) for n in term.needs)))
+            table += [*own, *(pseudo.get(n) or (self.index[n], NUMB) for n in term.needs)]
         return tuple(table)
 
     def channel(self, name: str) -> tuple[int, int]:
@@ -175,13 +174,13 @@ class System:
         chosen = tuple(active)
         base, own = self.pack(full, 1.0)
         on, at = self.wiring(chosen)
-        slope_of = self.kernel(chosen).slope
+        derivative = self.kernel(chosen).derivative
         n, fastest = self.states(chosen), 0.0
         spread = 1e-6 * (np.ptp(states, axis=0) + 1e-12)
 
         def slope(y: Array, u: Array) -> Array:
             dydt = np.zeros(n)
-            slope_of(0.0, y, u, base, own, on, at, 0.0, dydt)
+            derivative(0.0, y, u, base, own, on, at, 0.0, dydt)
             return dydt
 
         for y, u in zip(states, inputs, strict=True):

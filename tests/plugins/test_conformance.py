@@ -5,10 +5,6 @@ from lostmotion.registry import Registry
 
 REGISTRY = Registry.discover()
 OURS = [e for e in REGISTRY.entries() if e.owner == "lostmotion"]
-KNOWN = {
-    f"{name}-functions_are_static": "observe = LinBacklash.observe is bound to the instance: wrap it in staticmethod"
-    for name in ("rigid_drive", "linear_oscillator")
-}
 
 
 def test_all_of_ours_are_ready():
@@ -16,6 +12,6 @@ def test_all_of_ours_are_ready():
     assert {e.kind for e in OURS} >= {"model", "term"}
 
 
-@testing.parametrize([REGISTRY.load(e.kind, e.name) for e in OURS], known_failures=KNOWN)
+@testing.parametrize([REGISTRY.load(e.kind, e.name) for e in OURS])
 def test_conforms(component, rule):
     testing.assert_conforms(component, rule)

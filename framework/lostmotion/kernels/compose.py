@@ -21,6 +21,13 @@ from types import ModuleType
 from typing import Any
 
 import numba
+import numpy as np
+
+from lostmotion.kernels.views import slow_view, view
+
+
+BARE = {"error_model": "numpy", "nogil": True, "_nrt": False}
+"""Without numba's run time nothing can be allocated in a kernel, and no references are counted: eight times faster."""
 
 
 @dataclass(frozen=True)
@@ -58,9 +65,9 @@ class Blueprint:
 
 @dataclass(frozen=True)
 class Compiled:
-    """The functions of one composed kernel: `slope` (derivative), `track` (filter), `run` (free simulation)."""
+    """The functions of one composed kernel: `derivative`, `track` (filter), `run` (free simulation)."""
 
-    slope: Callable[..., Any]
+    derivative: Callable[..., Any]
     track: Callable[..., Any]
     run: Callable[..., Any]
     source: str
@@ -75,33 +82,29 @@ def _parts(plan: Blueprint) -> dict[str, Callable[..., Any]]:
     return parts
 
 
-def _law_text(index: int, law: Law, place: Place) -> str:
+def _law_text(index: int, law: Law, place: Place, start: int) -> str:
     """Return the lines that add one law to `dydt`, behind its switch.
 
-    The states of a law go through small work arrays: a slice would cost more than the law itself (52 ns each).
+    Parameters and states go in as tuples of numbers: a slice counts references, which costs more than the law.
     """
-    i, states = index, range(law.states)
-    lines = [f"    if on[{i}]:", f"        x, v = motion_{law.place}(y, u)"]
-    lines += [f"        s{i}[{a}] = y[at[{i}] + {a}]" for a in states]
-    lines.append(f"        dydt[{place.row}] += force_{i}(t, x, v, u, w{i}, s{i}) / p[{place.inertia}]")
+    i = index
+    own = "".join(f"w[{start + a}], " for a in range(law.width))
+    states = "".join(f"y[at[{i}] + {a}], " for a in range(law.states))
+    lines = [
+        f"    if on[{i}]:",
+        f"        x, v = motion_{law.place}(y, u)",
+        f"        dydt[{place.row}] += force_{i}(t, x, v, u, ({own}), ({states})) / p[{place.inertia}]",
+    ]
     if law.states:
-        lines.append(f"        rate_{i}(t, x, v, u, w{i}, s{i}, d{i})")
-        lines += [f"        dydt[at[{i}] + {a}] = d{i}[{a}]" for a in states]
-    return "\n".join(lines)
-
-
-def _unpack_text(plan: Blueprint) -> str:
-    """Return the lines that take the parameters of each law out of the tuple `w` and lay out their work arrays."""
-    lines = [f"    w{i} = w[{i}]" for i in range(len(plan.laws))]
-    for i, law in enumerate(plan.laws):
-        lines += [f"    s{i} = np.zeros({law.states})", f"    d{i} = np.zeros({law.states})"]
+        lines.append(f"        rate_{i}(t, x, v, u, ({own}), ({states}), view(dydt, at[{i}], {law.states}))")
     return "\n".join(lines)
 
 
 def _text(plan: Blueprint) -> str:
     """Return the source of the composed kernel."""
     first = plan.places[0]
-    laws = [_law_text(i, law, plan.places[law.place]) for i, law in enumerate(plan.laws)]
+    starts = [sum(law.width for law in plan.laws[:i]) for i in range(len(plan.laws))]
+    laws = [_law_text(i, law, plan.places[law.place], starts[i]) for i, law in enumerate(plan.laws)]
     if plan.latent:
         laws.append(f"    dydt[{first.row}] += y[{plan.n - 1}] / p[{first.inertia}]")
         laws.append(f"    dydt[{plan.n - 1}] = -pace * y[{plan.n - 1}]")
@@ -111,8 +114,6 @@ def _text(plan: Blueprint) -> str:
         "@NOISY@": str(plan.n - 1 if plan.latent else first.row),
         "@NOISE_INERTIA@": "1.0" if plan.latent else f"p[{first.inertia}]",
         "@LAWS@": "\n".join(laws),
-        "@WORK@": "".join(f"w{i}, s{i}, d{i}, " for i in range(len(plan.laws))),
-        "@UNPACK@": _unpack_text(plan),
     }
     text = resources.files("lostmotion.kernels").joinpath("template.txt").read_text()
     for mark, value in values.items():
@@ -141,7 +142,7 @@ def _folders() -> tuple[Path, ...]:
 
 def _cached(text: str, parts: dict[str, Callable[..., Any]]) -> Path:
     """Return the file that holds `text`; its name changes with every function that is compiled into it."""
-    key = hashlib.sha256(text.encode() + numba.__version__.encode())
+    key = hashlib.sha256(f"{text}{numba.__version__}{BARE}".encode())
     for name in sorted(parts):
         key.update(name.encode() + _origin(parts[name]))
     for folder in _folders():
@@ -163,17 +164,25 @@ def build(plan: Blueprint, compiled: bool = True) -> Compiled:
     """Return the kernel of `plan`, compiled, or as the plain Python twin of the same text."""
     parts, text = _parts(plan), _text(plan)
     if not compiled:
-        return _run_text(text, "<slow twin>", {**parts, "jit": lambda f: f})
+        return _defined(plan, text, "<slow twin>", {**parts, "jit": lambda f: f, "view": slow_view})
     path = _cached(text, parts)
-    part = numba.njit(error_model="numpy", nogil=True)
-    whole = numba.njit(error_model="numpy", nogil=True, cache=True)
-    return _run_text(text, str(path), {**{name: part(f) for name, f in parts.items()}, "jit": whole})
+    part = numba.njit(**BARE)
+    whole = numba.njit(**BARE, cache=True)
+    return _defined(plan, text, str(path), {**{name: part(f) for name, f in parts.items()}, "jit": whole, "view": view})
 
 
-def _run_text(text: str, path: str, parts: dict[str, Any]) -> Compiled:
+def _defined(plan: Blueprint, text: str, path: str, parts: dict[str, Any]) -> Compiled:
     """Return the functions that `text` defines, in a module of its own: numba looks it up when it loads its cache."""
     module = ModuleType(Path(path).stem)
     module.__dict__.update(parts)
     sys.modules[module.__name__] = module
     exec(compile(text, path, "exec"), module.__dict__)  # noqa: S102 - our own template, filled with numbers only
-    return Compiled(module.__dict__["slope"], module.__dict__["track"], module.__dict__["run"], text)
+    space, n, wide = module.__dict__, plan.n, max(plan.n, plan.channels)
+
+    def track(*args: Any) -> int:
+        return int(space["track"](*args, np.zeros((13, wide)), np.zeros((5, n, n))))
+
+    def run(*args: Any) -> int:
+        return int(space["run"](*args, np.zeros((6, n))))
+
+    return Compiled(space["derivative"], track, run, text)

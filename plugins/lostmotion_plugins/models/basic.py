@@ -32,7 +32,7 @@ class RigidDrive(Model):
         dydt[0] = y[1]
         dydt[1] = (u[0] - p[1] * y[1]) / p[0]
 
-    observe = LinBacklash.observe
+    observe = staticmethod(LinBacklash.observe)
 
 
 @dataclass(frozen=True)
@@ -53,4 +53,4 @@ class LinearOscillator(Model):
         dydt[0] = y[1]
         dydt[1] = (u[0] - p[1] * y[1] - p[2] * y[0]) / p[0]
 
-    observe = LinBacklash.observe
+    observe = staticmethod(LinBacklash.observe)

@@ -1,0 +1,153 @@
+"""Terms as candidates: their priors in natural scales, a score test that costs a few filter runs, and their fits."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from lostmotion.contracts import Array, Param, Term
+from lostmotion.inference.fit import Fit, Sensitivity, maximise, restarted, sensitivity
+from lostmotion.inference.problem import Free, Problem, Scales
+from lostmotion.system import Slot
+
+SHAPES = (0.3, 1.0, 3.0)
+"""Where a shape parameter is tried, in units of its typical value."""
+
+
+@dataclass(frozen=True)
+class Hint:
+    """What a score test says of a term: the gain in log-likelihood it promises, and where to start its fit."""
+
+    key: str
+    gain: float
+    start: Mapping[str, float]
+    distinct: float
+
+
+def size_of(param: Param, scales: Scales) -> float:
+    """Return the typical size of a term's parameter in the natural scales of the recording."""
+    return param.typical * param.dimension.scale(scales.force, scales.length, scales.time)
+
+
+def frees_of(slots: list[Slot], scales: Scales, start: Mapping[str, float]) -> tuple[Free, ...]:
+    """Return the free parameters of a term: amplitudes normal about zero (half-normal if signed), shapes log-normal."""
+    return tuple(_free(slot, size_of(slot.param, scales), start.get(slot.key)) for slot in slots)
+
+
+def _free(slot: Slot, size: float, start: float | None) -> Free:
+    if slot.param.scale == "log":
+        middle = math.log(size)
+        begin = middle if start is None else math.log(start)
+        return Free(slot.key, slot.unit, begin, middle - 4.0, middle + 4.0, log=True, mean=middle, sd=1.5)
+    low = max(slot.param.low, -30.0 * size)
+    return Free(slot.key, slot.unit, start or 0.0, low, min(slot.param.high, 30.0 * size), mean=0.0, sd=size)
+
+
+def term_of(problem: Problem, key: str) -> tuple[Term, list[Slot]]:
+    """Return a term of the problem's system and the slots of its parameters."""
+    i = problem.system.keys.index(key)
+    return problem.system.terms[i], [s for s in problem.system.slots if s.term == i]
+
+
+def slopes_of(fit: Fit) -> Sensitivity:
+    """Return the sensitivities of a fit, which all its score tests share."""
+    return sensitivity(fit.problem, fit.theta, fit.local.steps)
+
+
+def screen(fit: Fit, slopes: Sensitivity, key: str) -> Hint:
+    """Return what adding the term `key` to a fit promises, the base parameters moving along (Rao's score test)."""
+    problem = fit.problem
+    _, slots = term_of(problem, key)
+    amplitudes = [s for s in slots if s.param.null is not None]
+    shapes = [s for s in slots if s.param.null is None]
+    hints = []
+    for factors in itertools.product(SHAPES, repeat=len(shapes)):
+        shape = {s.key: f * size_of(s.param, problem.scales) for s, f in zip(shapes, factors, strict=True)}
+        hints.append(_score(fit, slopes, Trial(key, amplitudes, shape)))
+    return max(hints, key=lambda h: h.gain)
+
+
+@dataclass(frozen=True)
+class Trial:
+    """A term to be tried: its key, its amplitudes, and the values of its shape parameters."""
+
+    key: str
+    amplitudes: list[Slot]
+    shape: Mapping[str, float]
+
+
+def _score(fit: Fit, slopes: Sensitivity, trial: Trial) -> Hint:
+    problem = fit.problem
+    known = problem.known.copy()
+    for name, value in trial.shape.items():
+        known[problem.system.index[name]] = value
+    wider = replace(problem, known=known).extended(frees_of(trial.amplitudes, problem.scales, {}), {trial.key})
+    sizes = np.array([size_of(s.param, problem.scales) for s in trial.amplitudes])
+    widths = 1e-3 * sizes
+    for _ in range(2):
+        joint = _joint(slopes, wider, widths)
+        curvature = np.diag(joint.information())[-len(widths) :]
+        widths = np.clip(0.5 / np.sqrt(np.maximum(curvature, 1e-300)), 1e-9 * sizes, sizes)
+    return _hint(fit, trial, joint)
+
+
+def _joint(slopes: Sensitivity, wider: Problem, widths: Array) -> Sensitivity:
+    """Return the sensitivities of base parameters and amplitudes together, at amplitude zero."""
+    zero = np.concatenate([slopes.theta, np.zeros(len(widths))])
+    points = [zero]
+    for i, width in enumerate(widths):
+        points.append(zero.copy())
+        points[-1][len(slopes.theta) + i] = width
+    here, *above = wider.many(points)
+    de = [(a.errors - here.errors) / w for a, w in zip(above, widths, strict=True)]
+    dv = [(a.variances - here.variances) / w for a, w in zip(above, widths, strict=True)]
+    steps = np.concatenate([slopes.steps, widths])
+    return Sensitivity(zero, here, np.vstack([slopes.errors, *de]), np.vstack([slopes.variances, *dv]), steps)
+
+
+def _hint(fit: Fit, trial: Trial, joint: Sensitivity) -> Hint:
+    key, amplitudes, shape = trial.key, trial.amplitudes, trial.shape
+    gradient, information = joint.gradient(), joint.information()
+    k = len(amplitudes)
+    base, cross, own = information[:-k, :-k], information[:-k, -k:], information[-k:, -k:]
+    base = base + np.diag([1.0 / f.sd**2 if math.isfinite(f.sd) else 0.0 for f in fit.problem.free])
+    pulled = np.linalg.lstsq(base, np.column_stack([cross, gradient[:-k]]), rcond=1e-12)[0]
+    schur = own - cross.T @ pulled[:, :k]
+    force = gradient[-k:] - cross.T @ pulled[:, k]
+    distinct = float(np.min(np.diag(schur) / np.maximum(np.diag(own), 1e-300)))
+    kept = list(range(k))
+    while kept:
+        estimate = np.linalg.lstsq(schur[np.ix_(kept, kept)], force[kept], rcond=1e-10)[0]
+        wrong = [i for i, a in zip(kept, estimate, strict=True) if a < amplitudes[i].param.low]
+        if not wrong:
+            break
+        kept = [i for i in kept if i not in wrong]
+    if not kept or not np.all(np.isfinite(force)):
+        return Hint(key, 0.0, dict(shape), distinct)
+    start = {amplitudes[i].key: float(a) for i, a in zip(kept, estimate, strict=True)}
+    return Hint(key, 0.5 * float(force[kept] @ estimate), {**shape, **start}, distinct)
+
+
+def fit_with(fit: Fit, hint: Hint) -> Fit:
+    """Return the fit with one more term, started where its score test points, and with half of that: the better one."""
+    _, slots = term_of(fit.problem, hint.key)
+    starts = [_scaled(hint, slots, factor) for factor in (1.0, 0.3)]
+    problems = [
+        restarted(fit).extended(frees_of(slots, fit.problem.scales, start), {hint.key}) for start in starts
+    ]
+    heights = [p.log_posterior(p.clip(p.start)) for p in problems]
+    first = int(np.argmax(heights))
+    best = maximise(problems[first])
+    if best.status == "converged" and best.log_likelihood > fit.log_likelihood - 1.0:
+        return best
+    return max((best, maximise(problems[1 - first])), key=lambda f: f.local.log_posterior)
+
+
+def _scaled(hint: Hint, slots: list[Slot], factor: float) -> dict[str, float]:
+    """Return the starting values of a hint with its amplitudes scaled."""
+    shapes = {s.key for s in slots if s.param.null is None}
+    return {name: value if name in shapes else factor * value for name, value in hint.start.items()}

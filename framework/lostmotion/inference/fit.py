@@ -1,0 +1,190 @@
+"""Fits by Fisher scoring on the innovations, and the evidence they leave.
+
+The expected information of a prediction-error likelihood needs first derivatives only (Schweppe 1965; Gupta, Mehra,
+IEEE Trans. Automatic Control 19 (1974) 774-783), so it is positive and survives the roughness of a filter through
+a kink, where a finite-difference Hessian does not.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from lostmotion.contracts import Array
+from lostmotion.inference.problem import Innovations, Problem
+
+STRIDE = 0.3
+"""Finite-difference step in conditional standard deviations: small against the posterior, large against roughness."""
+
+
+@dataclass(frozen=True)
+class Local:
+    """Value, gradient and expected information of the log posterior at a point, with the steps that were used."""
+
+    theta: Array
+    log_likelihood: float
+    log_posterior: float
+    gradient: Array
+    information: Array
+    steps: Array
+
+    @property
+    def covariance(self) -> Array:
+        """The covariance of the normal approximation to the posterior, in coordinates."""
+        return np.linalg.pinv(self.information, hermitian=True)
+
+
+@dataclass(frozen=True)
+class Fit:
+    """The maximum of a posterior: coordinates, local expansion, log evidence by Laplace's method, and a status."""
+
+    problem: Problem
+    local: Local
+    status: str
+    rounds: int
+
+    @property
+    def theta(self) -> Array:
+        """The coordinates of the maximum."""
+        return self.local.theta
+
+    @property
+    def log_likelihood(self) -> float:
+        """The log-likelihood at the maximum."""
+        return self.local.log_likelihood
+
+    @property
+    def values(self) -> dict[str, float]:
+        """The free parameters by key."""
+        return self.problem.values(self.theta)
+
+    @property
+    def log_evidence(self) -> float:
+        """The log marginal likelihood by Laplace's method."""
+        sign, logdet = np.linalg.slogdet(self.local.information)
+        if sign <= 0:
+            return -math.inf
+        return self.local.log_posterior + 0.5 * len(self.theta) * math.log(2.0 * math.pi) - 0.5 * float(logdet)
+
+    @property
+    def sd(self) -> dict[str, float]:
+        """The standard deviation of each coordinate by key."""
+        return dict(zip(self.problem.keys, np.sqrt(np.maximum(np.diag(self.local.covariance), 0.0)), strict=True))
+
+
+def first_steps(problem: Problem) -> Array:
+    """Return finite-difference steps to begin with: a thousandth of a logarithm, or of the prior width."""
+    return np.array([1e-3 if f.log or f.key.startswith("log_") else 1e-3 * min(f.sd, f.high - f.low) for f in problem.free])
+
+
+@dataclass(frozen=True)
+class Sensitivity:
+    """The innovations at a point, and the derivatives (parameters, samples) of errors and variances there."""
+
+    theta: Array
+    here: Innovations
+    errors: Array
+    variances: Array
+    steps: Array
+
+    def gradient(self) -> Array:
+        """Return the gradient of the log-likelihood."""
+        e, v = self.here.errors, self.here.variances
+        return np.asarray(self.errors @ (-e / v) + self.variances @ (0.5 * (e * e / v - 1.0) / v))
+
+    def information(self) -> Array:
+        """Return the expected information of the log-likelihood."""
+        v = self.here.variances
+        return np.asarray((self.errors / v) @ self.errors.T + 0.5 * (self.variances / v**2) @ self.variances.T)
+
+
+def sensitivity(problem: Problem, theta: Array, steps: Array) -> Sensitivity:
+    """Return innovations and their derivatives at `theta`, by central differences that stay within the bounds."""
+    low, high = problem.clip(theta - 1e300), problem.clip(theta + 1e300)
+    up, down = np.minimum(theta + steps, high), np.maximum(theta - steps, low)
+    points = [theta]
+    for i in range(len(theta)):
+        for end in (up, down):
+            point = theta.copy()
+            point[i] = end[i]
+            points.append(point)
+    here, *around = problem.many(points)
+    pairs = list(zip(around[::2], around[1::2], up - down, strict=True))
+    de = np.array([_difference(a.errors, b.errors, w) for a, b, w in pairs])
+    dv = np.array([_difference(a.variances, b.variances, w) for a, b, w in pairs])
+    return Sensitivity(theta, here, de, dv, steps)
+
+
+def _difference(above: Array, below: Array, width: float) -> Array:
+    return (above - below) / width if width > 0 else np.zeros_like(above)
+
+
+def expand(problem: Problem, theta: Array, steps: Array) -> Local:
+    """Return the log posterior at `theta` with its gradient and its expected information."""
+    slopes = sensitivity(problem, theta, steps)
+    gradient, information = slopes.gradient(), slopes.information()
+    for i, f in enumerate(problem.free):
+        if math.isfinite(f.sd):
+            gradient[i] -= (theta[i] - f.mean) / f.sd**2
+            information[i, i] += 1.0 / f.sd**2
+    log_likelihood = slopes.here.log_likelihood
+    return Local(theta, log_likelihood, log_likelihood + problem.log_prior(theta), gradient, information, steps)
+
+
+def _tuned(local: Local, problem: Problem) -> Array:
+    """Return steps of `STRIDE` conditional standard deviations, within reason."""
+    widths = np.array([min(f.sd, f.high - f.low) for f in problem.free])
+    curvature = np.maximum(np.diag(local.information), 1e-300)
+    return np.clip(STRIDE / np.sqrt(curvature), 1e-9 * widths, 0.05 * widths)
+
+
+def maximise(problem: Problem, theta: Array | None = None, *, rounds: int = 40, tolerance: float = 0.02) -> Fit:
+    """Return the maximum of the log posterior near `theta`, by damped Fisher scoring within the bounds.
+
+    It has converged when a full step promises a gain of less than `tolerance` in log posterior.
+    """
+    point = problem.clip(problem.start if theta is None else theta)
+    local = expand(problem, point, first_steps(problem))
+    if not math.isfinite(local.log_posterior):
+        return Fit(problem, local, "diverged", 0)
+    local = expand(problem, point, _tuned(local, problem))
+    damping = 1e-3
+    for turn in range(rounds):
+        step, promise = _step(problem, local, damping)
+        if promise < tolerance:
+            return Fit(problem, local, "converged", turn)
+        trial = problem.clip(local.theta + step)
+        gain = problem.log_posterior(trial) - local.log_posterior
+        if gain > 0.0:
+            damping = max(damping * (0.2 if gain > 0.5 * promise else 1.0), 1e-6)
+            local = expand(problem, trial, _tuned(local, problem))
+        else:
+            damping *= 8.0
+            if damping > 1e6:
+                return Fit(problem, local, "rough", turn)
+    return Fit(problem, local, "not converged", rounds)
+
+
+def _step(problem: Problem, local: Local, damping: float) -> tuple[Array, float]:
+    """Return the damped step and the gain it promises; coordinates that press against a bound stay there."""
+    low, high = problem.clip(local.theta - 1e300), problem.clip(local.theta + 1e300)
+    pressed = ((local.theta <= low) & (local.gradient < 0)) | ((local.theta >= high) & (local.gradient > 0))
+    loose = np.flatnonzero(~pressed)
+    step = np.zeros_like(local.theta)
+    if not len(loose):
+        return step, 0.0
+    info = local.information[np.ix_(loose, loose)]
+    damped = info + damping * np.diag(np.diag(info)) + 1e-12 * np.eye(len(loose))
+    step[loose] = np.linalg.lstsq(damped, local.gradient[loose], rcond=1e-12)[0]
+    limit = np.array([2.0 if f.log or f.key.startswith("log_") else math.inf for f in problem.free])
+    step = np.clip(step, -limit, limit)
+    clipped = problem.clip(local.theta + step) - local.theta
+    return clipped, 0.5 * float(local.gradient @ clipped)
+
+
+def restarted(fit: Fit) -> Problem:
+    """Return the problem of a fit with its maximum as the starting point."""
+    problem = fit.problem
+    return replace(problem, free=tuple(replace(f, start=float(c)) for f, c in zip(problem.free, fit.theta, strict=True)))

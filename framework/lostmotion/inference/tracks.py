@@ -1,0 +1,112 @@
+"""A recording made ready for the kernels, and its natural scales."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+
+from lostmotion.contracts import Array, Model
+from lostmotion.errors import CaseError
+from lostmotion.inference.splines import smoothing_spline
+from lostmotion.recording import Recording
+from lostmotion.system import Drive
+
+
+@dataclass(frozen=True)
+class Track:
+    """One recording as the kernels see it: response `z` (samples,), inputs (samples, inputs), sampled every `dt` s.
+
+    `begin` is where it starts in the recording; `held` says that the input is constant between the samples.
+    """
+
+    name: str
+    z: Array
+    inputs: Array
+    dt: float
+    channel: str
+    held: bool = False
+    begin: int = 0
+
+    @property
+    def samples(self) -> int:
+        """The number of samples."""
+        return len(self.z)
+
+    @property
+    def time(self) -> Array:
+        """The time of each sample from the start of the recording, in s."""
+        return (self.begin + np.arange(self.samples)) * self.dt
+
+    def part(self, start: int, stop: int) -> Track:
+        """Return the samples from `start` up to `stop` as a track of its own."""
+        return replace(self, z=self.z[start:stop], inputs=self.inputs[start:stop], begin=self.begin + start)
+
+    def drive(self, nsub: int) -> Drive:
+        """Return the inputs on the grid of an integrator that takes `nsub` steps between samples."""
+        columns = list(self.inputs.T)
+        if self.held:
+            return Drive.held(columns, self.dt, nsub, self.samples)
+        grid = np.arange(self.samples) * self.dt
+        return Drive.smooth([CubicSpline(grid, c) for c in columns], self.dt, nsub, self.samples)
+
+    @cached_property
+    def noise(self) -> float:
+        """The standard deviation of white noise in `z`, from fourth differences (an upper guess)."""
+        fourth = np.diff(self.z, 4)
+        fourth = fourth[np.isfinite(fourth)]
+        size = float(np.median(np.abs(fourth)) / 0.6745 / math.sqrt(70.0)) if len(fourth) else 0.0
+        return max(size, 1e-7 * self.amplitude)
+
+    @cached_property
+    def amplitude(self) -> float:
+        """The amplitude of the response: sqrt(2) times its standard deviation."""
+        return math.sqrt(2.0) * float(np.nanstd(self.z))
+
+    @cached_property
+    def first(self) -> tuple[float, float]:
+        """The response and its time derivative at the first sample, from a parabola through the first ones."""
+        z = self.z[:9]
+        kept = np.flatnonzero(np.isfinite(z))
+        bend = np.polynomial.Polynomial.fit(kept * self.dt, z[kept], 2)
+        return float(bend(0.0)), float(bend.deriv()(0.0))
+
+
+def track_of(recording: Recording, model: Model, *, held: bool = False) -> Track:
+    """Return the track of a recording for `model`; the velocity of a measured base motion comes from a spline."""
+    excitation = recording.data["excitation"]
+    u = np.asarray(excitation.values, dtype=float)
+    offered = "base_position" if excitation.attrs.get("quantity") == "base_position" else "force"
+    if offered not in model.inputs:
+        raise CaseError(
+            f"{model.name} is driven by {' and '.join(model.inputs)}, but the excitation of {recording.name} is a"
+            f" {excitation.attrs.get('quantity')}: choose another model or another column"
+        )
+    inputs = u[:, None]
+    if offered == "base_position":
+        spline = smoothing_spline(u, recording.dt)
+        t = np.arange(len(u)) * recording.dt
+        inputs = np.stack([spline(t), spline.derivative()(t)], axis=1)
+    response = recording.data["response"]
+    return Track(
+        recording.name, np.asarray(response.values, dtype=float), inputs, recording.dt, str(response.attrs["quantity"]), held
+    )
+
+
+def period_samples(track: Track) -> float | None:
+    """Return the period of the drive in samples, or None where no line stands out of the spectrum of the input."""
+    u = track.inputs[:, 0] - track.inputs[:, 0].mean()
+    if not u.any():
+        return None
+    size = len(u)
+    power = np.abs(np.fft.rfft(u * np.hanning(size))) ** 2
+    power[:2] = 0.0
+    peak = int(np.argmax(power))
+    if peak < 2 or power[max(peak - 3, 0) : peak + 4].sum() < 0.5 * power.sum():
+        return None
+    left, middle, right = np.log(power[peak - 1 : peak + 2] + 1e-300)
+    shift = 0.5 * (left - right) / (left - 2.0 * middle + right)
+    return float(size / (peak + shift))
