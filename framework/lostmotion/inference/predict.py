@@ -1,0 +1,161 @@
+"""Predictions of data that no fit has seen: one step ahead, running free, and how fast errors grow."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from lostmotion.contracts import Array
+from lostmotion.inference.problem import Problem
+from lostmotion.inference.tracks import Track, period_samples
+
+ENOUGH = 0.4
+"""A prediction is valid until its error exceeds this share of the standard deviation of the response."""
+
+
+@dataclass(frozen=True)
+class Filtered:
+    """A recording filtered at fixed parameters: states (samples, n), innovations, their variances."""
+
+    states: Array
+    errors: Array
+    variances: Array
+
+    def log_score(self, held: slice) -> float:
+        """Return the mean log density per sample of one-step predictions over the held-out part."""
+        e, v = self.errors[held], self.variances[held]
+        return float(np.mean(-0.5 * (e * e / v + np.log(2.0 * np.pi * v))))
+
+
+@dataclass(frozen=True)
+class FreeRuns:
+    """Free-running predictions from many starts: `lead` (steps,) in s, `error` (starts, steps) in response units."""
+
+    lead: Array
+    error: Array
+
+    def growth(self, scale: float) -> Array:
+        """Return the rms error over the starts at each lead, over `scale`."""
+        return np.asarray(np.sqrt(np.nanmean(self.error**2, axis=0)) / scale)
+
+    def valid_time(self, scale: float) -> float:
+        """Return the median time (s) until the error exceeds `ENOUGH` of `scale`."""
+        beyond = np.abs(self.error) > ENOUGH * scale
+        first = np.where(beyond.any(axis=1), beyond.argmax(axis=1), len(self.lead) - 1)
+        return float(np.median(self.lead[first]))
+
+
+def filtered(problem: Problem, theta: Array, index: int = 0) -> Filtered:
+    """Return one recording of a problem, filtered at the coordinates `theta`."""
+    system, track, drive = problem.system, problem.tracks[index], problem.drives[index]
+    n = system.states(problem.active)
+    base, own = system.pack(problem.full(theta), drive.dt / drive.nsub)
+    on, at = system.wiring(problem.active)
+    channel, direct = system.channel(track.channel)
+    intensity, variance = problem.noise(theta)
+    y0, cov = problem.initial(index, n)
+    rows = track.samples
+    seen, errors, variances = np.zeros((rows, n)), np.zeros(rows), np.ones(rows)
+    square = (rows, n, n)
+    system.kernel(problem.active).track(
+        track.z, drive.u, drive.dt, drive.nsub, base, own, on, at, 0.0, intensity, variance, y0, cov, channel, direct,
+        errors, variances, True, seen, np.zeros(square), np.zeros((rows, n)), np.zeros(square), np.zeros(square),
+    )  # fmt: skip
+    return Filtered(seen, errors, variances)
+
+
+def free_runs(problem: Problem, theta: Array, states: Array, starts: Array, steps: int, index: int = 0) -> FreeRuns:
+    """Return free predictions of `steps` samples from the filtered `states` at the sample numbers `starts`."""
+    track = problem.tracks[index]
+    error = np.full((len(starts), steps), np.nan)
+    for row, start in enumerate(starts):
+        seen = observed(problem, theta, free_run(problem, theta, states[start], int(start), steps), (int(start), index))
+        error[row] = seen - track.z[start : start + steps]
+    return FreeRuns(np.arange(steps) * track.dt, error)
+
+
+def free_run(problem: Problem, theta: Array, y0: Array, start: int, steps: int, index: int = 0) -> Array:
+    """Return the states (steps, n) of a free run that begins at sample `start` of a recording."""
+    system, drive = problem.system, problem.drives[index]
+    base, own = system.pack(problem.full(theta), drive.dt / drive.nsub)
+    on, at = system.wiring(problem.active)
+    states = np.full((steps, len(y0)), np.nan)
+    u = drive.u[3 * drive.nsub * start : 3 * drive.nsub * (start + steps)]
+    system.kernel(problem.active).run(y0, u, drive.dt, drive.nsub, base, own, on, at, 0.0, states)
+    return states
+
+
+def observed(problem: Problem, theta: Array, states: Array, where: tuple[int, int] = (0, 0)) -> Array:
+    """Return what the recorded channel would show of the `states` (steps, n), from sample `where[0]` of a recording."""
+    system, (start, index) = problem.system, where
+    track, drive = problem.tracks[index], problem.drives[index]
+    channel, direct = system.channel(track.channel)
+    if direct >= 0:
+        return states[:, direct]
+    base, own = system.pack(problem.full(theta), drive.dt / drive.nsub)
+    on, at = system.wiring(problem.active)
+    derivative = system.kernel(problem.active).derivative
+    seen, dydt = np.zeros(len(system.model.channels)), np.zeros(states.shape[1])
+    shown = np.empty(len(states))
+    for k, y in enumerate(states):
+        u = drive.u[3 * drive.nsub * (start + k)]
+        derivative(0.0, y, u, base, own, on, at, 0.0, dydt)
+        system.model.observe(0.0, y, dydt, u, base, seen)
+        shown[k] = seen[channel]
+    return shown
+
+
+def largest_exponent(problem: Problem, theta: Array, y0: Array, index: int = 0) -> float:
+    """Return the largest Lyapunov exponent (1/s, base e) under the recorded drive, by Benettin's method.
+
+    Two runs from `y0` a millionth of the motion apart are brought together again after each natural time;
+    Benettin, Galgani, Giorgilli, Strelcyn, Meccanica 15 (1980) 9-20. The first tenth is not counted.
+    """
+    track = problem.tracks[index]
+    piece = max(int(problem.scales.time * 3.0 / track.dt), 8)
+    unit = np.ones(len(y0))
+    unit[0], unit[1] = problem.scales.length, problem.scales.velocity
+    near, far = y0.copy(), y0 + 1e-6 * unit * _direction(len(y0))
+    growth, time = 0.0, 0.0
+    for start in range(0, track.samples - piece, piece):
+        near = free_run(problem, theta, near, start, piece + 1, index)[-1]
+        far = free_run(problem, theta, far, start, piece + 1, index)[-1]
+        gap = float(np.linalg.norm((far - near) / unit))
+        if not math.isfinite(gap) or gap == 0.0:
+            return math.nan
+        if start > 0.1 * track.samples:
+            growth, time = growth + math.log(gap / 1e-6), time + piece * track.dt
+        far = near + (far - near) * (1e-6 / gap)
+    return growth / time if time > 0 else math.nan
+
+
+def _direction(n: int) -> Array:
+    direction = np.zeros(n)
+    direction[0] = direction[1] = math.sqrt(0.5)
+    return direction
+
+
+@dataclass(frozen=True)
+class Horizon:
+    """Over what time a free prediction is judged: `steps` samples, `number` of `unit` ("Lyapunov times" or another)."""
+
+    steps: int
+    number: float
+    unit: str
+    unit_time: float
+
+
+def horizon_of(track: Track, exponent: float, natural: float) -> Horizon:
+    """Return half a Lyapunov time when the motion is chaotic, else one drive period, else one natural cycle."""
+    period = period_samples(track)
+    cycle = period * track.dt if period else 2.0 * math.pi * natural
+    if math.isfinite(exponent) and exponent * cycle > 0.1:
+        return Horizon(_steps(0.5 / exponent, track), 0.5, "Lyapunov times", 1.0 / exponent)
+    unit = "drive periods" if period else "natural periods"
+    return Horizon(_steps(cycle, track), 1.0, unit, cycle)
+
+
+def _steps(time: float, track: Track) -> int:
+    return int(min(max(round(time / track.dt), 2), track.samples // 4))

@@ -1,0 +1,181 @@
+"""Which terms are missing: forward selection with swaps, a backward check, and probabilities over what was visited."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from lostmotion.contracts import Term
+from lostmotion.inference.candidates import Hint, fit_with, screen, slopes_of, term_of
+from lostmotion.inference.fit import Fit, maximise
+
+PROMISING = 3.0
+"""A term is fitted when its score test promises at least this gain in log-likelihood."""
+MOST_FITTED = 6
+MOST_TERMS = 5
+DECISIVE = math.log(20.0)
+"""A term is taken when it makes the posterior odds of the model twenty times better."""
+SAME = 1e-4
+"""Below this share of its own information a term cannot be told from parameters that are estimated anyway."""
+
+Progress = Callable[[str], None]
+
+
+@dataclass(frozen=True)
+class Visit:
+    """A set of terms with its fit and its log posterior weight (log evidence plus log prior of the set)."""
+
+    terms: frozenset[str]
+    fit: Fit
+    weight: float
+
+
+@dataclass
+class Selection:
+    """The course of a selection: the nominal fit, every set visited, the hints of the first round, the set chosen."""
+
+    nominal: Fit
+    chosen: Fit
+    visits: dict[frozenset[str], Visit] = field(default_factory=dict)
+    hints: dict[str, Hint] = field(default_factory=dict)
+
+    def probabilities(self) -> dict[frozenset[str], float]:
+        """Return the posterior probability of each set among those visited."""
+        top = max(v.weight for v in self.visits.values())
+        raw = {k: math.exp(v.weight - top) for k, v in self.visits.items()}
+        total = sum(raw.values())
+        return {k: w / total for k, w in raw.items()}
+
+    def inclusion(self, key: str) -> float:
+        """Return the posterior probability that a term is at work."""
+        return sum(p for terms, p in self.probabilities().items() if key in terms)
+
+    def gain(self, key: str) -> float:
+        """Return the log evidence that the term alone adds to the nominal model, or what its score test bounds."""
+        alone = self.visits.get(frozenset({key}))
+        if alone:
+            return alone.fit.log_evidence - self.nominal.log_evidence
+        return self.hints[key].gain - 5.0 if key in self.hints else 0.0
+
+
+class Selector:
+    """Carries out one selection; `say` is told what is being tried."""
+
+    def __init__(self, nominal: Fit, candidates: Iterable[str], say: Progress) -> None:
+        self.candidates = tuple(candidates)
+        self.say = say
+        self.course = Selection(nominal, nominal)
+        self._visit(nominal)
+
+    def run(self) -> Selection:
+        """Return the finished selection."""
+        while len(self.course.chosen.problem.active) < MOST_TERMS and self._forward():
+            pass
+        while self._backward():
+            pass
+        return self.course
+
+    def _visit(self, fit: Fit) -> Visit:
+        """Note a fitted set; the prior makes each term cost as much as there are candidates, and a factor e."""
+        terms = fit.problem.active
+        price = len(terms) * (math.log(max(len(self.candidates), 1)) + 1.0)
+        visit = Visit(terms, fit, fit.log_evidence - price)
+        known = self.course.visits.get(terms)
+        if known is None or visit.weight > known.weight:
+            self.course.visits[terms] = visit
+        return self.course.visits[terms]
+
+    def _forward(self) -> bool:
+        """Take the best addition or swap, if it is decisive."""
+        here = self.course.visits[self.course.chosen.problem.active]
+        trials = [self._visit(fit) for fit in (*self._additions(here.fit), *self._swaps(here.fit))]
+        if not trials:
+            return False
+        best = max(trials, key=lambda v: v.weight)
+        needed = DECISIVE if len(best.terms) > len(here.terms) else 0.0
+        if best.weight < here.weight + needed:
+            return False
+        self.course.chosen = best.fit
+        return True
+
+    def _additions(self, fit: Fit) -> list[Fit]:
+        slopes = slopes_of(fit)
+        open_keys = [k for k in self.candidates if k not in fit.problem.active and not self._kin(fit, k)]
+        hints = []
+        for key in open_keys:
+            self.say(f"score test of {key}")
+            hint = screen(fit, slopes, key)
+            hints.append(hint)
+            if not fit.problem.active:
+                self.course.hints[key] = hint
+        good = sorted((h for h in hints if h.gain > PROMISING and h.distinct > SAME), key=lambda h: -h.gain)
+        fits = []
+        for hint in good[:MOST_FITTED]:
+            self.say(f"fit with {hint.key}")
+            fits.append(fit_with(fit, hint))
+        return fits
+
+    def _swaps(self, fit: Fit) -> list[Fit]:
+        """Fit each relative of a term in place of it, so that one that only stands in for another gives way."""
+        fits = []
+        for key in fit.problem.active:
+            without = maximise(fit.problem.reduced(key, fit.values))
+            self._visit(without)
+            slopes = slopes_of(without)
+            for other in self.candidates:
+                terms = without.problem.active | {other}
+                if other in fit.problem.active or terms in self.course.visits or not self._related(fit, key, other):
+                    continue
+                self.say(f"{other} in place of {key}")
+                hint = screen(without, slopes, other)
+                if hint.gain > PROMISING and hint.distinct > SAME:
+                    fits.append(fit_with(without, hint))
+        return fits
+
+    def _backward(self) -> bool:
+        """Drop a term without which the set has more weight."""
+        chosen = self.course.chosen
+        here = self.course.visits[chosen.problem.active]
+        for key in sorted(chosen.problem.active):
+            terms = chosen.problem.active - {key}
+            self.say(f"without {key}")
+            visit = self.course.visits.get(terms) or self._visit(maximise(chosen.problem.reduced(key, chosen.values)))
+            if visit.weight + DECISIVE > here.weight:
+                self.course.chosen = visit.fit
+                return True
+        return False
+
+    def _kin(self, fit: Fit, key: str) -> bool:
+        return any(self._related(fit, mine, key) for mine in fit.problem.active)
+
+    @staticmethod
+    def _related(fit: Fit, mine: str, other: str) -> bool:
+        """Return whether two terms tell the same story at the same place."""
+        a, b = term_of(fit.problem, mine)[0], term_of(fit.problem, other)[0]
+        return a.at == b.at and _same_story(a, b)
+
+
+def _same_story(a: Term, b: Term) -> bool:
+    return b.name in a.resembles or a.name in b.resembles
+
+
+def significant_random_force(fit: Fit, usual: float) -> float:
+    """Return the log-likelihood that a random force beyond three times the usual noise of the drive adds."""
+    from dataclasses import replace
+
+    from lostmotion.inference.problem import RANDOM
+
+    problem = fit.problem
+    i = problem.keys.index(RANDOM)
+    cap = usual + 2.0 * math.log(3.0)
+    if fit.theta[i] <= cap:
+        return 0.0
+    frees = list(problem.free)
+    frees[i] = replace(frees[i], high=cap, start=cap)
+    theta = fit.theta.copy()
+    theta[i] = cap
+    capped = maximise(replace(problem, free=tuple(frees)), theta)
+    return float(np.maximum(fit.log_likelihood - capped.log_likelihood, 0.0))

@@ -1,0 +1,1 @@
+"""The verbs: each takes data and nouns, and returns a frozen result."""

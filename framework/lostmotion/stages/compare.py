@@ -1,0 +1,123 @@
+"""Compare: what a fit predicts of data that no fit has seen."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from lostmotion.contracts import Array
+from lostmotion.inference.fit import Fit
+from lostmotion.inference.locate import autocorrelation, whiteness
+from lostmotion.inference.predict import (
+    Horizon,
+    filtered,
+    free_run,
+    free_runs,
+    horizon_of,
+    largest_exponent,
+    observed,
+)
+from lostmotion.inference.problem import Problem
+from lostmotion.inference.tracks import Track
+
+STARTS = 150
+REACH = 8.0
+"""Error growth is followed over this many Lyapunov times or periods."""
+SEGMENT = 3.0
+
+
+@dataclass(frozen=True)
+class Piece:
+    """A stretch of held-out data: the recording it stands in, and the sample where it begins there."""
+
+    track: Track
+    begin: int
+
+
+@dataclass(frozen=True)
+class Prediction:
+    """How one model predicts held-out data: scores, error growth (steps,), a forecast of the first piece, innovations."""
+
+    log_score: float
+    nrmse: float
+    exponent: float
+    lead: Array
+    growth: Array
+    valid_time: float
+    forecast: Array
+    restarts: Array
+    acf: Array
+    white: float
+
+
+def pieces_of(tracks: Sequence[Track], held: Sequence[Track]) -> tuple[Piece, ...]:
+    """Return the held-out pieces: the end of the only recording, or whole recordings after a short settling."""
+    if len(tracks) == 1:
+        return (Piece(tracks[0], tracks[0].samples - held[0].samples),)
+    return tuple(Piece(t, max(t.samples // 20, 5)) for t in held)
+
+
+def exponent_of(fit: Fit, tracks: Sequence[Track]) -> float:
+    """Return the largest exponent (1/s) of a fit under the recorded drive."""
+    problem = fit.problem.on((tracks[0],))
+    y0, _ = problem.initial(0, problem.system.states(problem.active))
+    return largest_exponent(problem, fit.theta, y0)
+
+
+def predict(fit: Fit, pieces: Sequence[Piece], horizon: Horizon, exponent: float) -> Prediction:
+    """Return the predictions of one model on the held-out pieces, judged over `horizon`."""
+    scale = float(np.nanstd(np.concatenate([p.track.z[p.begin :] for p in pieces])))
+    runs, scores = [], []
+    for piece in pieces:
+        problem = fit.problem.on((piece.track,))
+        seen = filtered(problem, fit.theta)
+        scores.append((seen.log_score(slice(piece.begin, None)), piece.track.samples - piece.begin))
+        runs.append(_runs(problem, fit, seen.states, piece, horizon))
+    shortest = min(r.error.shape[1] for r in runs)
+    joint = replace(runs[0], lead=runs[0].lead[:shortest], error=np.vstack([r.error[:, :shortest] for r in runs]))
+    judged = joint.error[:, : horizon.steps + 1]
+    first = filtered(fit.problem.on((pieces[0].track,)), fit.theta)
+    forecast, restarts = _forecast(fit, first.states, pieces[0], horizon)
+    tail = slice(pieces[0].begin, None)
+    return Prediction(
+        log_score=float(np.average([s for s, _ in scores], weights=[n for _, n in scores])),
+        nrmse=float(np.sqrt(np.nanmean(judged**2)) / scale),
+        exponent=exponent,
+        lead=joint.lead,
+        growth=joint.growth(scale),
+        valid_time=joint.valid_time(scale),
+        forecast=forecast,
+        restarts=restarts,
+        acf=autocorrelation(first.errors[tail], first.variances[tail]),
+        white=whiteness(first.errors[tail], first.variances[tail]),
+    )
+
+
+def _runs(problem: Problem, fit: Fit, states: Array, piece: Piece, horizon: Horizon):  # type: ignore[no-untyped-def]
+    """Return free runs from starts that are spread over a held-out piece."""
+    track = piece.track
+    left = track.samples - piece.begin
+    steps = int(min(max(REACH * horizon.unit_time / track.dt, horizon.steps + 1), left // 2))
+    last = track.samples - steps
+    starts = np.unique(np.linspace(piece.begin, last, min(STARTS, max(last - piece.begin, 1))).astype(int))
+    return free_runs(problem, fit.theta, states, starts, steps)
+
+
+def _forecast(fit: Fit, states: Array, piece: Piece, horizon: Horizon) -> tuple[Array, Array]:
+    """Return a free-running prediction (samples,) over a piece, begun anew every few units of time, and where."""
+    track, problem = piece.track, fit.problem.on((piece.track,))
+    length = max(int(SEGMENT * horizon.unit_time / track.dt), horizon.steps, 2)
+    forecast, restarts = np.full(track.samples, np.nan), np.zeros(track.samples)
+    for start in range(piece.begin, track.samples - 1, length):
+        steps = min(length, track.samples - start)
+        run = free_run(problem, fit.theta, states[start], start, steps)
+        forecast[start : start + steps] = observed(problem, fit.theta, run, (start, 0))
+        restarts[start] = 1.0
+    return forecast, restarts
+
+
+def horizon_for(fit: Fit, pieces: Sequence[Piece], exponent: float) -> Horizon:
+    """Return the horizon over which predictions are judged, from the exponent of the better model."""
+    return horizon_of(pieces[0].track, exponent, fit.problem.scales.time)

@@ -1,0 +1,167 @@
+"""Diagnose: locate the mismatch, say which physics was left out, and model it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from lostmotion.case import Case
+from lostmotion.contracts import Array, Model, Term
+from lostmotion.inference.fit import Fit, maximise
+from lostmotion.inference.latent import Missing, missing_force
+from lostmotion.inference.locate import Curve, covariates, curve, edges_of, shares, summary
+from lostmotion.inference.problem import NOISE, RANDOM
+from lostmotion.inference.selection import Selection, Selector, significant_random_force
+from lostmotion.inference.setup import problem_of, search, split, stepped, usual_intensity
+from lostmotion.inference.tracks import Track
+from lostmotion.system import System
+
+SIGNIFICANT = 8.0
+"""A random force beyond the usual noise of the drive counts when it gains this much log-likelihood."""
+STRUCTURED = 0.1
+FINE = 0.02
+"""Final estimates integrate with steps of this accuracy: a third of those of the search (a kink makes RK4 first order)."""
+
+
+@dataclass(frozen=True)
+class Located:
+    """A force over time and over each covariate, and what each covariate explains of it."""
+
+    missing: Missing
+    curves: dict[str, Curve]
+    shares: dict[str, float]
+    summary: str
+
+
+@dataclass(frozen=True)
+class Diagnosis:
+    """What was found: the fits before and after, the selection, the missing force before and what is left after.
+
+    `shown` is the recording (or the first held-out one) that curves and figures are about; `law` (samples,) is the
+    force of the found terms along it. `random_gain` is the log-likelihood that a random force beyond the usual adds.
+    """
+
+    before: Fit
+    after: Fit
+    selection: Selection
+    shown: Track
+    located: Located
+    left: Located | None
+    law: Array
+    law_curves: dict[str, Curve]
+    random_gain: float
+    train: tuple[Track, ...]
+    held: tuple[Track, ...]
+
+    @property
+    def found(self) -> tuple[str, ...]:
+        """The keys of the terms that were left out, most probable first."""
+        return tuple(sorted(self.after.problem.active, key=lambda k: -self.selection.inclusion(k)))
+
+    @property
+    def unexplained(self) -> bool:
+        """Whether a random force beyond the usual noise of the drive is left."""
+        return self.random_gain > SIGNIFICANT
+
+    @property
+    def unknown(self) -> bool:
+        """Whether something is missing, with structure, that no term of the library explains."""
+        return not self.found and self.unexplained and max(self.located.shares.values()) > STRUCTURED
+
+
+def candidates_of(model: Model, terms: Sequence[type[Term]]) -> tuple[Term, ...]:
+    """Return each term at each place of the model where it can act."""
+    tried = (term(at=place.name) for place in model.interfaces for term in terms)  # type: ignore[call-arg]
+    return tuple(term for term in tried if term.fits(model))
+
+
+def diagnose(
+    case: Case,
+    tracks: Sequence[Track],
+    system: System,
+    *,
+    rng: np.random.Generator,
+    jobs: int = 2,
+    say: Callable[[str], None] = lambda _: None,
+) -> Diagnosis:
+    """Return the diagnosis of a case; `system` holds the model and every term that is to be tried."""
+    train, held = split(tracks)
+    say("fit of the nominal model")
+    nominal = search(problem_of(system, case, train, jobs=jobs), rng)
+    selection = Selector(nominal, system.keys, say).run()
+    say("final estimates")
+    before = polish(nominal)
+    after = polish(selection.chosen) if selection.chosen is not nominal else before
+    gain = significant_random_force(after, usual_intensity(train, after.problem.scales))
+    say("missing force")
+    shown = tracks[0] if len(tracks) == 1 else held[0]
+    return _located(Diagnosis(before, after, selection, shown, _NOWHERE, None, _NO, {}, gain, train, held))
+
+
+_NO = np.zeros(0)
+_NOWHERE = Located(Missing(_NO, _NO, np.zeros((0, 2)), 0.0, 0.0, 0.0), {}, {}, "")
+
+
+def polish(fit: Fit) -> Fit:
+    """Return the fit with finer integration steps."""
+    problem = stepped(fit.problem, fit.theta, accuracy=FINE)
+    finer = maximise(problem, fit.theta)
+    return finer if finer.status in ("converged", "rough") else fit
+
+
+def _located(bare: Diagnosis) -> Diagnosis:
+    """Return the diagnosis with the missing force located: found terms taken out first, then with them."""
+    after, shown = bare.after, bare.shown
+    honest = after.problem.on((shown,))
+    if not bare.found:
+        located = locate(shown, missing_force(honest, after.theta))
+        return replace(bare, located=located)
+    left = missing_force(honest, after.theta)
+    without, theta = taken_out(after)
+    located = locate(shown, missing_force(without.problem.on((shown,)), theta))
+    law = law_of(after, shown, left.states)
+    table = covariates(shown, left)
+    curves = {k: curve(v, law, edges_of(table[k])) for k, v in table.items()}
+    return replace(bare, located=located, left=locate(shown, left), law=law, law_curves=curves)
+
+
+def taken_out(fit: Fit) -> tuple[Fit, Array]:
+    """Return a fit with its terms switched off and all else as it is, and its coordinates."""
+    kept = [i for i, f in enumerate(fit.problem.free) if "." not in f.key]
+    problem = replace(fit.problem, free=tuple(fit.problem.free[i] for i in kept), active=frozenset())
+    return replace(fit, problem=problem), fit.theta[kept]
+
+
+def locate(track: Track, missing: Missing) -> Located:
+    """Return where a missing force lives."""
+    table = covariates(track, missing)
+    found = shares(table, missing.force)
+    curves = {name: curve(values, missing.force) for name, values in table.items()}
+    return Located(missing, curves, found, summary(table, missing.force, found))
+
+
+def law_of(fit: Fit, track: Track, states: Array) -> Array:
+    """Return the force (samples,) of the terms of a fit along the smoothed `states` of a recording."""
+    problem = fit.problem.on((track,))
+    system, drive = problem.system, problem.drives[0]
+    full = problem.full(fit.theta)
+    base, own = system.pack(full, drive.dt / drive.nsub)
+    on, at = system.wiring(problem.active)
+    off = np.zeros_like(on)
+    derivative = system.kernel(problem.active).derivative
+    place = system.model.interfaces[0]
+    inertia = full[system.index[place.inertia]]
+    force, with_terms, without = np.empty(len(states)), np.zeros(states.shape[1]), np.zeros(states.shape[1])
+    for k, y in enumerate(states):
+        u = drive.u[3 * drive.nsub * k]
+        derivative(0.0, y, u, base, own, on, at, 0.0, with_terms)
+        derivative(0.0, y, u, base, own, off, at, 0.0, without)
+        force[k] = (with_terms[place.row] - without[place.row]) * inertia
+    return force
+
+
+def base_keys(fit: Fit) -> list[str]:
+    """Return the keys of the physical parameters of a fit, noise levels left out."""
+    return [k for k in fit.problem.keys if k not in (RANDOM, NOISE)]
