@@ -1,0 +1,80 @@
+"""Files that are whole or not there: tables as CSV or netCDF. The one door to xarray's writers."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lostmotion.errors import DataError
+
+ENDINGS = (".csv", ".nc")
+"""The endings of a table, which tell its format."""
+
+
+def save_table(
+    path: Path, columns: Mapping[str, NDArray[np.float64]], units: Mapping[str, str], attrs: Mapping[str, str]
+) -> None:
+    """Write `columns`, each (rows,), to a .csv or .nc file that appears whole or not at all.
+
+    A netCDF has the first column as its dimension, the `units` on each variable, and `attrs` on the file; a CSV has
+    one header line and the shortest text that gives each number back exactly.
+    """
+    require_ending(path)
+    with whole(path) as spare:
+        if path.suffix == ".nc":
+            _write_netcdf(spare, columns, units, attrs)
+        else:
+            _write_csv(spare, columns)
+
+
+def require_ending(path: Path) -> None:
+    """Raise `DataError` unless the ending of `path` is one that a table can have."""
+    if path.suffix not in ENDINGS:
+        raise DataError(f"{path.name} ends in {path.suffix or 'nothing'!r}: a table is written as .csv or .nc")
+
+
+@contextmanager
+def whole(path: Path) -> Iterator[Path]:
+    """Yield a spare file beside `path`, which takes its name once it is on the disk, or vanishes after an error."""
+    spare = path.with_name(f".{path.stem}.{os.getpid()}{path.suffix}")
+    try:
+        yield spare
+        _settle(spare)
+        spare.replace(path)
+        _settle(path.parent)
+    except OSError as err:
+        raise DataError(f"{path} cannot be written ({err.strerror or err}): choose another place") from err
+    finally:
+        spare.unlink(missing_ok=True)
+
+
+def _settle(path: Path) -> None:
+    """Wait until a file or folder is on the disk."""
+    handle = os.open(path, os.O_RDONLY)
+    try:
+        os.fsync(handle)
+    finally:
+        os.close(handle)
+
+
+def _write_csv(path: Path, columns: Mapping[str, NDArray[np.float64]]) -> None:
+    rows = zip(*(np.asarray(c, dtype=float).tolist() for c in columns.values()), strict=True)
+    with path.open("w", encoding="utf-8", newline="\n") as stream:
+        stream.write(",".join(columns) + "\n")
+        stream.writelines(",".join(map(repr, row)) + "\n" for row in rows)
+
+
+def _write_netcdf(
+    path: Path, columns: Mapping[str, NDArray[np.float64]], units: Mapping[str, str], attrs: Mapping[str, str]
+) -> None:
+    import xarray
+
+    index, *rest = columns
+    table = {name: (index, columns[name], {"units": units[name]}) for name in rest}
+    axis = {index: (index, columns[index], {"units": units[index]})}
+    xarray.Dataset(table, coords=axis, attrs=dict(attrs)).to_netcdf(path, engine="h5netcdf")
