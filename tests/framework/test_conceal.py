@@ -22,7 +22,7 @@ def test_encoders_show_a_link_that_rattles_in_the_gap(concealed):
     twist = concealed.position - concealed.base_position
     assert len(concealed.time) == pytest.approx(60 * RATE / FREQUENCY, abs=1)
     assert np.diff(concealed.time) == pytest.approx(1.0 / RATE)
-    assert (twist.max() > gap) and (twist.min() < -gap)
+    assert twist.min() < -gap < gap < twist.max()
     assert np.mean(np.abs(twist) < gap) > 0.5
     assert 0.003 < 0.01 / concealed.position.std() < 0.01
 
@@ -45,7 +45,7 @@ def test_one_seed_makes_one_recording(concealed):
 
 @pytest.mark.parametrize(("friction", "low", "high"), [(FRICTION, 0.8, 1.6), (0.0, 2.0, 2.9)])
 def test_two_neighbours_part_exponentially(friction, low, high):
-    """Largest exponent (1/s) from pairs 1e-7 deg apart; their doubling is followed up to 1e-3 deg, far below the gap."""
+    """Largest exponent (1/s) from pairs 1e-7 deg apart, followed up to 1e-3 deg, which is far below the gap."""
     rates = [divergence(friction, start) for start in np.linspace(-0.4, 0.4, 10)]
     assert low < np.median(rates) < high
 

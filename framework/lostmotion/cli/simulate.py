@@ -1,0 +1,96 @@
+"""`lostmotion simulate`: a table of what a machine would do, with or without extra physics."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from lostmotion.cli._lazy import PluginName, examples, registry_of
+
+_JOINT = "--set m=0.05 --set c=0.15 --set k0=180 --set x0=0.0131"
+
+
+@click.command(
+    epilog=examples(
+        "lostmotion simulate lin_backlash --set m=1 --set c=8 --set k0=4e4 --set x0=0.005 \\",
+        "    --term coulomb_friction:force=3 --drive harmonic:amplitude=100,omega=40 \\",
+        "    --duration 15 --rate 1000 --noise 0.01 --out friction.csv",
+        f"lostmotion simulate robot_joint {_JOINT} \\",
+        "    --term coulomb_friction@base:force=0.03 --drive harmonic:amplitude=0.05236,frequency=1.54 \\",
+        "    --initial position=0.05 --duration 39 --rate 200 --out joint.nc",
+        "lostmotion plugins show lin_backlash     its parameters, with units",
+    )
+)
+@click.argument("model", type=PluginName("model"))
+@click.option("--set", "sets", metavar="NAME=VALUE", multiple=True, help="A parameter of the model or of a term.")
+@click.option(
+    "--term",
+    "terms",
+    metavar="NAME[@PLACE][:PARAM=VALUE,...]",
+    multiple=True,
+    help="Physics to add; it acts at the ground unless a PLACE of the model is given.",
+)
+@click.option(
+    "--drive",
+    "drives",
+    metavar="KIND:KEY=VALUE,...",
+    multiple=True,
+    required=True,
+    help="What moves the machine: the force (N, N m), or the motion of the base (m, rad) where the model has one. "
+    "Several add up. Below, Hz and s.",
+)
+@click.option("--duration", type=float, required=True, metavar="S", help="How long, in s.")
+@click.option("--rate", type=float, required=True, metavar="HZ", help="Samples per second.")
+@click.option("--initial", metavar="STATE=VALUE", multiple=True, help="Where the machine starts; at zero if not given.")
+@click.option("--noise", type=float, default=0.0, metavar="SHARE", help="Noise on each channel, over its deviation.")
+@click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="The same seed, the same file.")
+@click.option(
+    "--out",
+    type=click.Path(dir_okay=False, path_type=Path),
+    required=True,
+    metavar="FILE.csv|FILE.nc",
+    help="Where to write `time`, the inputs and the channels.",
+)
+@click.pass_context
+def command(
+    ctx: click.Context,
+    /,
+    model: str,
+    sets: tuple[str, ...],
+    terms: tuple[str, ...],
+    initial: tuple[str, ...],
+    out: Path,
+    **settings: object,
+) -> None:
+    r"""Simulate MODEL, and write what went in and what its sensors show.
+
+    \b
+    Drives:
+      harmonic   amplitude, omega (rad/s) or frequency (Hz), phase, harmonics=SHARE2/SHARE3/...
+      sweep      amplitude, start, stop (Hz): a sine from one to the other over the duration
+      multisine  rms, low, high (Hz), lines: equal lines with random phases
+      step       size, at, rise (s)
+      noise      rms, bandwidth (Hz)
+
+    A parameter of the model that may be zero, such as k1 or mgl, is zero when it is not set.
+    """
+    from lostmotion.storage import require_ending
+    from lostmotion.workflow.simulate import Plan, assembly_of, simulate
+
+    require_ending(out)
+    assembly, values = assembly_of(registry_of(ctx), model, terms)
+    values |= _numbers(sets, "--set")
+    plan = Plan(assembly, values, initial=_numbers(initial, "--initial"), **settings)  # type: ignore[arg-type]
+    table = simulate(plan)
+    table.save(out)
+    rows = len(table.columns["time"])
+    click.echo(f"{out}: {rows} samples of {assembly.label} at {plan.rate:g} Hz ({table.nsub} steps between samples)")
+
+
+def _numbers(texts: tuple[str, ...], option: str) -> dict[str, float]:
+    """Return the `NAME=VALUE` of an option given several times; one text may hold several, with commas between."""
+    from lostmotion.workflow.drives import number, pairs
+
+    found = pairs(",".join(texts), option)
+    return {name: number(value, f"{name} of {option}") for name, value in found.items()}

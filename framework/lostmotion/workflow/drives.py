@@ -1,0 +1,170 @@
+"""What moves a simulated machine: signals with their exact derivative, made from texts such as `harmonic:omega=40`."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+
+from lostmotion.contracts import Array
+from lostmotion.errors import CaseError, nearest
+
+Function = Callable[[Array], Array]
+
+
+@dataclass(frozen=True)
+class Signal:
+    """A function of time (s) and its exact derivative, both of arrays."""
+
+    value: Function
+    slope: Function
+
+    def __add__(self, other: Signal) -> Signal:
+        return Signal(lambda t: self.value(t) + other.value(t), lambda t: self.slope(t) + other.slope(t))
+
+
+def signal_of(text: str, *, duration: float, rng: np.random.Generator) -> Signal:
+    """Return the signal that `kind:key=value,...` stands for; `rng` draws phases and noise."""
+    kind, _, rest = text.partition(":")
+    if kind not in KINDS:
+        raise CaseError(f"there is no drive {kind!r}{nearest(kind, KINDS)}: the drives are {', '.join(KINDS)}")
+    make, keys, defaults = KINDS[kind]
+    options = pairs(rest, f"drive {text!r}")
+    for key in options:
+        if key not in keys:
+            raise CaseError(f"drive {kind} has no {key!r}{nearest(key, keys)}: it has {', '.join(keys)}")
+    return make(Options(kind, {**defaults, **options}), duration, rng)
+
+
+def pairs(text: str, whose: str) -> dict[str, str]:
+    """Return `key=value,key=value` as a dictionary; `whose` begins the sentence when it is something else."""
+    found: dict[str, str] = {}
+    for piece in filter(None, text.split(",")):
+        key, equals, value = (part.strip() for part in piece.partition("="))
+        if not equals or not key or not value:
+            raise CaseError(f"{whose} has {piece!r}: write key=value, with commas between several")
+        if key in found:
+            raise CaseError(f"{whose} gives {key} twice: keep one")
+        found[key] = value
+    return found
+
+
+def number(text: str, whose: str) -> float:
+    """Return a finite number; `whose` begins the sentence when it is none."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value):
+        raise CaseError(f"{whose} is {text!r}: wanted a finite number, such as 0.5 or 4e4")
+    return value
+
+
+@dataclass(frozen=True)
+class Options:
+    """The keys of one drive, asked for as numbers."""
+
+    kind: str
+    texts: Mapping[str, str]
+
+    def number(self, key: str, *, positive: bool = False) -> float:
+        """Return the number under `key`, which must be there."""
+        if key not in self.texts:
+            raise CaseError(f"drive {self.kind} lacks {key}: write {self.kind}:{key}=...")
+        value = number(self.texts[key], f"{key} of drive {self.kind}")
+        if positive and value <= 0.0:
+            raise CaseError(f"{key} of drive {self.kind} is {value:g}: wanted more than zero")
+        return value
+
+    def shares(self) -> list[float]:
+        """Return the amplitudes of the second, third, ... harmonic as shares of the first."""
+        text = self.texts["harmonics"]
+        return [number(part, f"harmonics of drive {self.kind}") for part in text.split("/") if part]
+
+    def omega(self) -> float:
+        """Return the angular frequency (rad/s), given as `omega` or as `frequency` (Hz)."""
+        if ("omega" in self.texts) == ("frequency" in self.texts):
+            found = "both omega and frequency" if "omega" in self.texts else "neither omega nor frequency"
+            raise CaseError(f"drive {self.kind} has {found}: give one, omega in rad/s or frequency in Hz")
+        if "omega" in self.texts:
+            return self.number("omega", positive=True)
+        return 2.0 * math.pi * self.number("frequency", positive=True)
+
+    def band(self) -> tuple[float, float]:
+        """Return `low` and `high` (Hz), in this order."""
+        low, high = self.number("low", positive=True), self.number("high", positive=True)
+        if low >= high:
+            raise CaseError(f"drive {self.kind} has low = {low:g} and high = {high:g}: low must lie below high")
+        return low, high
+
+
+def _waves(waves: Sequence[tuple[float, float, float]]) -> Signal:
+    """Return the sum of `amplitude * cos(omega t + phase)`."""
+    return Signal(
+        lambda t: sum((a * np.cos(w * t + f) for a, w, f in waves), np.zeros(len(t))),
+        lambda t: sum((-a * w * np.sin(w * t + f) for a, w, f in waves), np.zeros(len(t))),
+    )
+
+
+def _harmonic(options: Options, duration: float, rng: np.random.Generator) -> Signal:
+    """Return amplitude * cos(omega t + phase) with shares of its harmonics, all with a crest at the same time."""
+    amplitude, omega, phase = options.number("amplitude"), options.omega(), options.number("phase")
+    return _waves([(amplitude * s, n * omega, n * phase) for n, s in enumerate([1.0, *options.shares()], start=1)])
+
+
+def _sweep(options: Options, duration: float, rng: np.random.Generator) -> Signal:
+    """Return a sine whose frequency goes evenly from `start` to `stop` (Hz) over the whole time."""
+    amplitude = options.number("amplitude")
+    first, last = (2.0 * math.pi * options.number(key, positive=True) for key in ("start", "stop"))
+    pace = (last - first) / duration
+    return Signal(
+        lambda t: amplitude * np.sin((first + 0.5 * pace * t) * t),
+        lambda t: amplitude * (first + pace * t) * np.cos((first + 0.5 * pace * t) * t),
+    )
+
+
+def _multisine(options: Options, duration: float, rng: np.random.Generator) -> Signal:
+    """Return equal lines from `low` to `high` (Hz) with random phases."""
+    rms, lines = options.number("rms"), options.number("lines", positive=True)
+    if lines != round(lines):
+        raise CaseError(f"lines of drive multisine is {lines:g}: wanted a whole number")
+    omegas = 2.0 * math.pi * np.linspace(*options.band(), round(lines))
+    phases = rng.uniform(0.0, 2.0 * math.pi, len(omegas))
+    amplitude = rms * math.sqrt(2.0 / len(omegas))
+    return _waves([(amplitude, w, f) for w, f in zip(omegas.tolist(), phases.tolist(), strict=True)])
+
+
+def _step(options: Options, duration: float, rng: np.random.Generator) -> Signal:
+    """Return zero, then `size` from the time `at` (s) on; it rises within `rise` (s) with a smooth acceleration."""
+    size, at, rise = options.number("size"), options.number("at"), options.number("rise", positive=True)
+
+    def share(t: Array) -> Array:
+        return np.clip((t - at) / rise, 0.0, 1.0)
+
+    return Signal(
+        lambda t: size * share(t) ** 3 * (10.0 - 15.0 * share(t) + 6.0 * share(t) ** 2),
+        lambda t: size / rise * 30.0 * (share(t) * (1.0 - share(t))) ** 2,
+    )
+
+
+def _noise(options: Options, duration: float, rng: np.random.Generator) -> Signal:
+    """Return a spline through normal values, so that little lies above `bandwidth` (Hz)."""
+    rms, bandwidth = options.number("rms"), options.number("bandwidth", positive=True)
+    knots = np.arange(math.ceil(2.0 * bandwidth * duration) + 8) / (2.0 * bandwidth)
+    values = rng.standard_normal(len(knots))
+    spline = CubicSpline(knots, rms * values / values.std())
+    return Signal(spline, spline.derivative())
+
+
+Maker = Callable[[Options, float, np.random.Generator], Signal]
+KINDS: Mapping[str, tuple[Maker, tuple[str, ...], Mapping[str, str]]] = {
+    "harmonic": (_harmonic, ("amplitude", "omega", "frequency", "phase", "harmonics"), {"phase": "0", "harmonics": ""}),
+    "sweep": (_sweep, ("amplitude", "start", "stop"), {}),
+    "multisine": (_multisine, ("rms", "low", "high", "lines"), {"lines": "20"}),
+    "step": (_step, ("size", "at", "rise"), {"at": "0", "rise": "0.01"}),
+    "noise": (_noise, ("rms", "bandwidth"), {}),
+}
+"""For each drive: what makes it, the keys it has, and the values of those that need not be given."""
