@@ -132,8 +132,8 @@ def _hint(fit: Fit, trial: Trial, joint: Sensitivity) -> Hint:
     return Hint(key, 0.5 * float(force[kept] @ estimate), {**shape, **start}, distinct)
 
 
-def fit_with(fit: Fit, hint: Hint) -> Fit:
-    """Return the fit with one more term, started where its score test points, and with half of that: the better one."""
+def fit_with(fit: Fit, hint: Hint, *, hopeless: float = -math.inf) -> Fit:
+    """Return the fit with one more term, started where its score test points, or with less of it: the better one."""
     _, slots = term_of(fit.problem, hint.key)
     starts = [_scaled(hint, slots, factor) for factor in (1.0, 0.3)]
     problems = [
@@ -141,10 +141,10 @@ def fit_with(fit: Fit, hint: Hint) -> Fit:
     ]
     heights = [p.log_posterior(p.clip(p.start)) for p in problems]
     first = int(np.argmax(heights))
-    best = maximise(problems[first])
-    if best.status == "converged" and best.log_likelihood > fit.log_likelihood - 1.0:
+    best = maximise(problems[first], hopeless=hopeless)
+    if best.status in ("converged", "abandoned") and best.log_likelihood > fit.log_likelihood - 1.0:
         return best
-    return max((best, maximise(problems[1 - first])), key=lambda f: f.local.log_posterior)
+    return max((best, maximise(problems[1 - first], hopeless=hopeless)), key=lambda f: f.local.log_posterior)
 
 
 def _scaled(hint: Hint, slots: list[Slot], factor: float) -> dict[str, float]:

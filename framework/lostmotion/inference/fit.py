@@ -140,10 +140,13 @@ def _tuned(local: Local, problem: Problem) -> Array:
     return np.clip(STRIDE / np.sqrt(curvature), 1e-9 * widths, 0.05 * widths)
 
 
-def maximise(problem: Problem, theta: Array | None = None, *, rounds: int = 40, tolerance: float = 0.02) -> Fit:
+def maximise(
+    problem: Problem, theta: Array | None = None, *, rounds: int = 40, tolerance: float = 0.02, hopeless: float = -math.inf
+) -> Fit:
     """Return the maximum of the log posterior near `theta`, by damped Fisher scoring within the bounds.
 
-    It has converged when a full step promises a gain of less than `tolerance` in log posterior.
+    It has converged when a full step promises a gain of less than `tolerance` in log posterior, and is abandoned
+    when after a few rounds five times the promise would not reach `hopeless`.
     """
     point = problem.clip(problem.start if theta is None else theta)
     local = expand(problem, point, first_steps(problem))
@@ -155,6 +158,8 @@ def maximise(problem: Problem, theta: Array | None = None, *, rounds: int = 40, 
         step, promise = _step(problem, local, damping)
         if promise < tolerance:
             return Fit(problem, local, "converged", turn)
+        if turn >= 3 and local.log_posterior + 5.0 * promise < hopeless:
+            return Fit(problem, local, "abandoned", turn)
         trial = problem.clip(local.theta + step)
         gain = problem.log_posterior(trial) - local.log_posterior
         if gain > 0.0:

@@ -16,6 +16,7 @@ PROMISING = 3.0
 """A term is fitted when its score test promises at least this gain in log-likelihood."""
 MOST_FITTED = 6
 MOST_TERMS = 5
+BEAM = 3
 DECISIVE = math.log(20.0)
 """A term is taken when it makes the posterior odds of the model twenty times better."""
 SAME = 1e-4
@@ -89,39 +90,53 @@ class Selector:
         return self.course.visits[terms]
 
     def _forward(self) -> bool:
-        """Take the best addition or swap, if it is decisive."""
+        """Take the best of what additions and swaps lead to, if it is decisive."""
         here = self.course.visits[self.course.chosen.problem.active]
-        trials = [self._visit(fit) for fit in (*self._additions(here.fit), *self._swaps(here.fit))]
-        if not trials:
-            return False
-        best = max(trials, key=lambda v: v.weight)
-        needed = DECISIVE if len(best.terms) > len(here.terms) else 0.0
-        if best.weight < here.weight + needed:
+        for visit in self._beam(here):
+            self._additions(visit.fit)
+        self._swaps(here.fit)
+        best = max(self.course.visits.values(), key=lambda v: v.weight)
+        needed = DECISIVE if best.terms > here.terms else 0.0
+        if best.terms == here.terms or best.weight < here.weight + needed:
             return False
         self.course.chosen = best.fit
         return True
 
-    def _additions(self, fit: Fit) -> list[Fit]:
+    def _beam(self, here: Visit) -> list[Visit]:
+        """Return the sets to build on: the chosen one, and others of its size that explain at least half as much.
+
+        One term can stand in for two others until both are in.
+        """
+        if not here.terms:
+            return [here]
+        bottom = self.course.visits[frozenset()].weight
+        rivals = [v for v in self.course.visits.values() if len(v.terms) == len(here.terms) and v.terms != here.terms]
+        rivals = [v for v in rivals if v.weight - bottom > 0.5 * (here.weight - bottom)]
+        return [here, *sorted(rivals, key=lambda v: -v.weight)[: BEAM - 1]]
+
+    def _additions(self, fit: Fit) -> None:
+        """Fit the terms whose score tests promise most on top of a fit, those first that promise most."""
         slopes = slopes_of(fit)
-        open_keys = [k for k in self.candidates if k not in fit.problem.active and not self._kin(fit, k)]
         hints = []
-        for key in open_keys:
+        for key in self.candidates:
+            if key in fit.problem.active or self._kin(fit, key) or fit.problem.active | {key} in self.course.visits:
+                continue
             self.say(f"score test of {key}")
-            hint = screen(fit, slopes, key)
-            hints.append(hint)
-            if not fit.problem.active:
-                self.course.hints[key] = hint
+            hints.append(screen(fit, slopes, key))
+        if not fit.problem.active:
+            self.course.hints = {h.key: h for h in hints}
         good = sorted((h for h in hints if h.gain > PROMISING and h.distinct > SAME), key=lambda h: -h.gain)
-        fits = []
         for hint in good[:MOST_FITTED]:
             self.say(f"fit with {hint.key}")
-            fits.append(fit_with(fit, hint))
-        return fits
+            self._visit(fit_with(fit, hint, hopeless=self._hopeless()))
 
-    def _swaps(self, fit: Fit) -> list[Fit]:
+    def _hopeless(self) -> float:
+        """Return the log posterior below which a fit cannot matter any more."""
+        return max(v.fit.local.log_posterior for v in self.course.visits.values()) - 30.0
+
+    def _swaps(self, fit: Fit) -> None:
         """Fit each relative of a term in place of it, so that one that only stands in for another gives way."""
-        fits = []
-        for key in fit.problem.active:
+        for key in sorted(fit.problem.active):
             without = maximise(fit.problem.reduced(key, fit.values))
             self._visit(without)
             slopes = slopes_of(without)
@@ -132,8 +147,7 @@ class Selector:
                 self.say(f"{other} in place of {key}")
                 hint = screen(without, slopes, other)
                 if hint.gain > PROMISING and hint.distinct > SAME:
-                    fits.append(fit_with(without, hint))
-        return fits
+                    self._visit(fit_with(without, hint, hopeless=self._hopeless()))
 
     def _backward(self) -> bool:
         """Drop a term without which the set has more weight."""

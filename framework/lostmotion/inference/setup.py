@@ -21,6 +21,9 @@ HELD_OUT = 0.3
 BIG = 2.0 * math.log(0.3 / USUAL)
 """Where a search begins: with a random force of 0.3 of the drive the filter follows whatever the parameters."""
 
+LEAST = 2.0 * math.log(0.1)
+"""The random force is never less than a tenth of the usual: without any, a filter trusts its linearisation too far."""
+
 
 def split(tracks: Sequence[Track]) -> tuple[tuple[Track, ...], tuple[Track, ...]]:
     """Return what is fitted and what is held out: the last 30 % of one recording, or the last 30 % of several."""
@@ -72,7 +75,7 @@ def noise_frees(tracks: Sequence[Track], scales: Scales) -> tuple[Free, Free]:
     usual = usual_intensity(tracks, scales)
     noise = math.log(float(np.median([t.noise for t in tracks])))
     return (
-        Free(RANDOM, "1", usual + BIG, usual - 8.0, usual + BIG + 6.0, mean=usual, sd=4.0),
+        Free(RANDOM, "1", usual + BIG, usual + LEAST, usual + BIG + 6.0, mean=usual, sd=4.0),
         Free(NOISE, "1", noise, noise - 7.0, noise + 3.0),
     )
 

@@ -21,8 +21,8 @@ from lostmotion.system import System
 SIGNIFICANT = 8.0
 """A random force beyond the usual noise of the drive counts when it gains this much log-likelihood."""
 STRUCTURED = 0.1
-FINE = 0.02
-"""Final estimates integrate with steps of this accuracy: a third of those of the search (a kink makes RK4 first order)."""
+FINE = 0.015
+"""Final estimates integrate with steps of this accuracy: a quarter of those of the search (a kink makes RK4 first order)."""
 
 
 @dataclass(frozen=True)
