@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import json
+import math
 import os
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -78,3 +81,52 @@ def _write_netcdf(
     table = {name: (index, columns[name], {"units": units[name]}) for name in rest}
     axis = {index: (index, columns[index], {"units": units[index]})}
     xarray.Dataset(table, coords=axis, attrs=dict(attrs)).to_netcdf(path, engine="h5netcdf")
+
+
+def save_json(path: Path, content: Mapping[str, object]) -> None:
+    """Write `content` as JSON that appears whole or not at all; what is not finite becomes null."""
+    with whole(path) as spare:
+        spare.write_text(json.dumps(_finite(content), indent=2, ensure_ascii=False, allow_nan=False) + "\n", encoding="utf-8")
+
+
+def _finite(value: object) -> object:
+    if isinstance(value, Mapping):
+        return {str(k): _finite(v) for k, v in value.items()}
+    if isinstance(value, list | tuple):
+        return [_finite(v) for v in value]
+    if isinstance(value, np.generic):
+        value = value.item()
+    return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+@dataclass(frozen=True)
+class Column:
+    """An array to be stored: its dimensions, values, SI unit and what it is."""
+
+    dims: tuple[str, ...]
+    values: object
+    unit: str = "1"
+    long_name: str = ""
+
+
+def save_arrays(path: Path, arrays: Mapping[str, Column], coords: Mapping[str, Column], attrs: Mapping[str, str]) -> None:
+    """Write arrays with their dimensions and units to a netCDF file that appears whole or not at all."""
+    import xarray
+
+    def laid_out(table: Mapping[str, Column]) -> dict[str, tuple[tuple[str, ...], object, dict[str, str]]]:
+        return {k: (c.dims, c.values, {"units": c.unit, "long_name": c.long_name or k}) for k, c in table.items()}
+
+    with whole(path) as spare:
+        xarray.Dataset(laid_out(arrays), laid_out(coords), dict(attrs)).to_netcdf(spare, engine="h5netcdf")
+
+
+def folder_for(path: Path) -> Path:
+    """Return the folder `path`, made if need be; a place that cannot be written is refused before the work begins."""
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+        probe = path / f".probe.{os.getpid()}"
+        probe.touch()
+        probe.unlink()
+    except OSError as err:
+        raise DataError(f"{path} cannot be written ({err.strerror or err}): choose another place") from err
+    return path

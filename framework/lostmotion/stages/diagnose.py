@@ -50,6 +50,7 @@ class Diagnosis:
     located: Located
     left: Located | None
     law: Array
+    laws: dict[str, Array]
     law_curves: dict[str, Curve]
     random_gain: float
     train: tuple[Track, ...]
@@ -97,7 +98,7 @@ def diagnose(
     gain = significant_random_force(after, usual_intensity(train, after.problem.scales))
     say("missing force")
     shown = tracks[0] if len(tracks) == 1 else held[0]
-    return _located(Diagnosis(before, after, selection, shown, _NOWHERE, None, _NO, {}, gain, train, held))
+    return _located(Diagnosis(before, after, selection, shown, _NOWHERE, None, _NO, {}, {}, gain, train, held))
 
 
 _NO = np.zeros(0)
@@ -121,10 +122,11 @@ def _located(bare: Diagnosis) -> Diagnosis:
     left = missing_force(honest, after.theta)
     without, theta = taken_out(after)
     located = locate(shown, missing_force(without.problem.on((shown,)), theta))
-    law = law_of(after, shown, left.states)
+    laws = {key: law_of(after, shown, left.states, key) for key in bare.found}
+    law = np.sum(list(laws.values()), axis=0)
     table = covariates(shown, left)
     curves = {k: curve(v, law, edges_of(table[k])) for k, v in table.items()}
-    return replace(bare, located=located, left=locate(shown, left), law=law, law_curves=curves)
+    return replace(bare, located=located, left=locate(shown, left), law=law, laws=laws, law_curves=curves)
 
 
 def taken_out(fit: Fit) -> tuple[Fit, Array]:
@@ -142,14 +144,15 @@ def locate(track: Track, missing: Missing) -> Located:
     return Located(missing, curves, found, summary(table, missing.force, found))
 
 
-def law_of(fit: Fit, track: Track, states: Array) -> Array:
-    """Return the force (samples,) of the terms of a fit along the smoothed `states` of a recording."""
+def law_of(fit: Fit, track: Track, states: Array, key: str) -> Array:
+    """Return the force (samples,) of one term of a fit along the smoothed `states` of a recording."""
     problem = fit.problem.on((track,))
     system, drive = problem.system, problem.drives[0]
     full = problem.full(fit.theta)
     base, own = system.pack(full, drive.dt / drive.nsub)
     on, at = system.wiring(problem.active)
-    off = np.zeros_like(on)
+    off = on.copy()
+    off[system.keys.index(key)] = False
     derivative = system.kernel(problem.active).derivative
     place = system.model.interfaces[0]
     inertia = full[system.index[place.inertia]]

@@ -1,0 +1,148 @@
+"""The arrays behind a diagnosis, as they are stored and drawn."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from lostmotion.contracts import Array
+from lostmotion.inference.fit import Fit
+from lostmotion.inference.predict import filtered, free_run
+from lostmotion.inference.tracks import Track, period_samples
+from lostmotion.stages.diagnose import Diagnosis, Located, base_keys
+from lostmotion.storage import Column
+from lostmotion.workflow.verdict import Outcome
+
+PORTRAIT = 3000
+
+
+def arrays_of(outcome: Outcome) -> tuple[dict[str, Column], dict[str, Column]]:
+    """Return the variables and the coordinates of `arrays.nc`."""
+    d = outcome.diagnosis
+    variables = {**_series(outcome), **_curves(d), **_portraits(d), **_growth(outcome), **_draws(outcome)}
+    coords = {
+        "time": Column(("time",), d.shown.time, "s", "time from the start of the recording"),
+        "covariate": Column(("covariate",), list(d.located.curves)),
+        "lead": Column(("lead",), outcome.before.lead, "s", "time from the start of a free run"),
+        "lag": Column(("lag",), np.arange(1, len(outcome.before.acf) + 1), "1", "lag in samples"),
+        "parameter": Column(("parameter",), base_keys(d.before)),
+        "parameter_after": Column(("parameter_after",), base_keys(d.after)),
+    }
+    return variables, coords
+
+
+def units_of(d: Diagnosis) -> dict[str, str]:
+    """Return the SI units of position, velocity, acceleration and force in the model of a diagnosis."""
+    if d.after.problem.system.model.motion == "rotation":
+        return {"position": "rad", "velocity": "rad/s", "acceleration": "rad/s^2", "force": "N m"}
+    return {"position": "m", "velocity": "m/s", "acceleration": "m/s^2", "force": "N"}
+
+
+def _series(outcome: Outcome) -> dict[str, Column]:
+    d, units = outcome.diagnosis, units_of(outcome.diagnosis)
+    shown, missing = d.shown, d.located.missing
+    drive = "force" if "force" in d.after.problem.system.model.inputs else "position"
+    seen = units[shown.channel]
+    heldout = np.ones(shown.samples)
+    if shown.samples > d.held[0].samples:
+        heldout[: shown.samples - d.held[0].samples] = 0.0
+    time = ("time",)
+    table = {
+        "excitation": Column(time, shown.inputs[:, 0], units[drive], "measured input"),
+        "response": Column(time, shown.z, seen, f"recorded {shown.channel}"),
+        "heldout": Column(time, heldout, "1", "1 where no fit has seen the data"),
+        "record": Column(time, np.zeros(shown.samples), "1", "number of the recording"),
+        "position": Column(time, missing.position, units["position"], "smoothed position"),
+        "velocity": Column(time, missing.velocity, units["velocity"], "smoothed velocity"),
+        "missing_force": Column(time, missing.force, units["force"], "missing force, found terms taken out"),
+        "missing_force_sd": Column(time, missing.sd, units["force"], "standard deviation of the missing force"),
+        "forecast_before": Column(time, outcome.before.forecast, seen, "free-running prediction of the nominal model"),
+        "restart": Column(time, outcome.before.restarts, "1", "1 where a free run begins"),
+    }
+    if d.left is not None:
+        left = d.left.missing
+        table["left_force"] = Column(time, left.force, units["force"], "force left unexplained")
+        table["left_force_sd"] = Column(time, left.sd, units["force"], "standard deviation of the force left")
+        table["law"] = Column(time, d.law, units["force"], "force of the found terms")
+        table["forecast_after"] = Column(time, outcome.after.forecast, seen, "free-running prediction of the augmented model")
+    return table
+
+
+def _curves(d: Diagnosis) -> dict[str, Column]:
+    units = {**units_of(d), "phase": "cycles", "time": "s"}
+    names = list(d.located.curves)
+    width = max(len(c.mean) for c in d.located.curves.values())
+    force = units["force"]
+
+    def stacked(located: Located, part: str) -> Array:
+        return np.array([_padded(getattr(located.curves[n], part), width) for n in names])
+
+    dims = ("covariate", "bin")
+    table = {"bin_center": Column(dims, stacked(d.located, "center"), "1", "middle of each bin, in covariate_unit")}
+    table["covariate_unit"] = Column(("covariate",), [units[n] for n in names])
+    for part in ("mean", "low", "high"):
+        table[f"before_{part}"] = Column(dims, stacked(d.located, part), force, f"missing force, {part}")
+        if d.left is not None:
+            table[f"after_{part}"] = Column(dims, stacked(d.left, part), force, f"force left, {part}")
+    if d.law_curves:
+        means = np.array([_padded(d.law_curves[n].mean, width) for n in names])
+        table["law_mean"] = Column(dims, means, force, "force of the found terms")
+    return table
+
+
+def _padded(values: Array, width: int) -> Array:
+    return np.concatenate([values[:width], np.full(max(width - len(values), 0), np.nan)])
+
+
+def _growth(outcome: Outcome) -> dict[str, Column]:
+    lead, lag = ("lead",), ("lag",)
+    said = "rms error over the standard deviation of the response"
+    table = {
+        "growth_before": Column(lead, outcome.before.growth, "1", said),
+        "acf_before": Column(lag, outcome.before.acf, "1", "autocorrelation of standardised one-step errors"),
+        "acf_limit": Column((), 1.96 / np.sqrt(outcome.diagnosis.held[0].samples)),
+    }
+    if outcome.diagnosis.found:
+        table["growth_after"] = Column(lead, outcome.after.growth, "1", said)
+        table["acf_after"] = Column(lag, outcome.after.acf, "1", "autocorrelation of standardised one-step errors")
+    return table
+
+
+def _draws(outcome: Outcome) -> dict[str, Column]:
+    return {
+        "posterior_before": Column(("draw", "parameter"), outcome.draws_before),
+        "posterior_after": Column(("draw", "parameter_after"), outcome.draws_after),
+    }
+
+
+def _portraits(d: Diagnosis) -> dict[str, Column]:
+    """Return phase portraits and stroboscopic sections of the recording and of free runs of both models."""
+    smoothed = (d.left or d.located).missing.states
+    runs = {"recorded": smoothed, "before": _free(d.before, d.shown)}
+    if d.found:
+        runs["after"] = _free(d.after, d.shown)
+    units, period = units_of(d), period_samples(d.shown)
+    table = {}
+    for name, states in runs.items():
+        tail = states[-PORTRAIT:]
+        points = _section(states, period) if period else None
+        for axis, column, unit in (("x", 0, units["position"]), ("v", 1, units["velocity"])):
+            table[f"portrait_{name}_{axis}"] = Column(("portrait",), tail[:, column], unit)
+            if points is not None:
+                table[f"section_{name}_{axis}"] = Column(("section",), points[:, column], unit)
+    return table
+
+
+def _free(fit: Fit, track: Track) -> Array:
+    """Return the states (samples, n) of a free run over a whole recording, from its first filtered state."""
+    problem = fit.problem.on((track,))
+    first = min(20, track.samples - 1)
+    states = filtered(problem, fit.theta).states
+    run = free_run(problem, fit.theta, states[first], first, track.samples - first)
+    return np.vstack([states[:first], run])
+
+
+def _section(states: Array, period: float) -> Array:
+    """Return position and velocity (points, 2) once each drive period, interpolated between samples."""
+    at = np.arange(0.0, len(states) - 1, period)
+    grid = np.arange(len(states))
+    return np.stack([np.interp(at, grid, states[:, i]) for i in (0, 1)], axis=1)

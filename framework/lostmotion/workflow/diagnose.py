@@ -1,0 +1,71 @@
+"""The whole way of a diagnosis: case in, `diagnosis.json`, `arrays.nc` and `report.html` out."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from lostmotion.inference.fit import Fit
+from lostmotion.provenance import provenance
+from lostmotion.registry import Registry
+from lostmotion.report import write_report
+from lostmotion.stages.compare import exponent_of, horizon_for, pieces_of, predict
+from lostmotion.stages.diagnose import Diagnosis, diagnose
+from lostmotion.storage import folder_for, save_arrays, save_json
+from lostmotion.system import System
+from lostmotion.workflow.arrays import arrays_of
+from lostmotion.workflow.prepare import Prepared, prepare
+from lostmotion.workflow.verdict import Outcome, draws_of, verdict
+
+Say = Callable[[str], None]
+
+
+def run_diagnosis(
+    path: Path, out: Path, registry: Registry, *, seed: int = 0, jobs: int = 2, say: Say = lambda _: None
+) -> Mapping[str, Any]:
+    """Return the content of `diagnosis.json` after writing it, `arrays.nc` and `report.html` into the folder `out`."""
+    say("reading the case")
+    prepared = prepare(path, registry)
+    folder = folder_for(out)
+    rng = np.random.default_rng(seed)
+    system = System(prepared.model, prepared.terms)
+    diagnosis = diagnose(prepared.case, prepared.tracks, system, rng=rng, jobs=jobs, say=say)
+    say("held-out predictions")
+    outcome = judged(diagnosis, prepared, rng)
+    content = {"title": prepared.case.title, **verdict(outcome), **_background(prepared, seed)}
+    say("report")
+    variables, coords = arrays_of(outcome)
+    save_arrays(folder / "arrays.nc", variables, coords, {"title": prepared.case.title})
+    save_json(folder / "diagnosis.json", content)
+    write_report(folder)
+    return content
+
+
+def judged(diagnosis: Diagnosis, prepared: Prepared, rng: np.random.Generator) -> Outcome:
+    """Return the diagnosis with what both models predict of the held-out data."""
+    pieces = pieces_of(prepared.tracks, diagnosis.held)
+    same = diagnosis.after is diagnosis.before
+    exponents = [exponent_of(diagnosis.before, prepared.tracks)]
+    exponents.append(exponents[0] if same else exponent_of(diagnosis.after, prepared.tracks))
+    horizon = horizon_for(diagnosis.after, pieces, exponents[1])
+
+    def predicted(fit: Fit, exponent: float):  # type: ignore[no-untyped-def]
+        return predict(fit, pieces, horizon, exponent)
+
+    before = predicted(diagnosis.before, exponents[0])
+    after = before if same else predicted(diagnosis.after, exponents[1])
+    draws = draws_of(diagnosis.before, rng)
+    return Outcome(diagnosis, before, after, horizon, draws, draws if same else draws_of(diagnosis.after, rng))
+
+
+def _background(prepared: Prepared, seed: int) -> dict[str, Any]:
+    case = prepared.case
+    settings = {"model": case.model, "known": dict(case.known), "terms": [f"{t.name}@{t.at}" for t in prepared.terms]}
+    return {
+        "truth": dict(case.truth),
+        "notes": list(prepared.notes),
+        "provenance": provenance("diagnose", settings, seed, prepared.inputs),
+    }

@@ -1,0 +1,57 @@
+"""From a case file to what the stages work on."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from lostmotion.case import Case, load_case
+from lostmotion.contracts import Model, Term
+from lostmotion.errors import CaseError
+from lostmotion.inference.tracks import Track, track_of
+from lostmotion.recording import Recording, load_recording
+from lostmotion.registry import Registry
+from lostmotion.stages.diagnose import candidates_of
+
+
+@dataclass(frozen=True)
+class Prepared:
+    """A case with its recordings, its model, and every term that could act in that model."""
+
+    case: Case
+    recordings: tuple[Recording, ...]
+    tracks: tuple[Track, ...]
+    model: Model
+    terms: tuple[Term, ...]
+
+    @property
+    def inputs(self) -> dict[str, str]:
+        """The digests of what went in, by file name."""
+        return {"case": self.case.digest, **{r.name: r.digest for r in self.recordings}}
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What the recordings have to say of themselves."""
+        several = len(self.recordings) > 1
+        return tuple(f"{r.name}: {n}" if several else n for r in self.recordings for n in r.notes)
+
+
+def prepare(path: Path, registry: Registry) -> Prepared:
+    """Return the case at `path`, ready for the stages; whatever cannot be meant is refused here."""
+    case = load_case(path)
+    for plugin in case.plugins:
+        registry.add_file(case.folder / plugin)
+    model: Model = registry.make("model", case.model)
+    recordings = tuple(load_recording(spec, case.folder) for spec in case.recordings)
+    tracks = tuple(track_of(r, model) for r in recordings)
+    _alike(recordings)
+    terms = candidates_of(model, [registry.load("term", name) for name in registry.names("term")])
+    return Prepared(case, recordings, tracks, model, terms)
+
+
+def _alike(recordings: Sequence[Recording]) -> None:
+    """Refuse recordings of different quantities."""
+    kinds = {str(r.data["response"].attrs["quantity"]) for r in recordings}
+    if len(kinds) > 1:
+        raise CaseError(f"the recordings show {' and '.join(sorted(kinds))}: put recordings of one quantity into a case")
