@@ -24,12 +24,18 @@ def test_encoders_show_a_link_that_rattles_in_the_gap(concealed):
     assert np.diff(concealed.time) == pytest.approx(1.0 / RATE)
     assert twist.min() < -gap < gap < twist.max()
     assert np.mean(np.abs(twist) < gap) > 0.5
-    assert 0.003 < 0.01 / concealed.position.std() < 0.01
+    assert 0.005 < 0.015 / concealed.position.std() < 0.01
 
 
 def test_friction_sticks_and_nothing_sticks_without_it(concealed):
     assert 0.002 < concealed.stuck < 0.2
     assert conceal_joint(np.random.default_rng(3), periods=5, friction=0.0).stuck == 0.0
+
+
+def test_encoders_add_what_they_are_said_to(concealed):
+    quiet = conceal_joint(np.random.default_rng(3), noise=0.0)
+    assert np.std(concealed.position - quiet.position) == pytest.approx(0.015, rel=0.05)
+    assert np.std(concealed.base_position - quiet.base_position) == pytest.approx(0.003, rel=0.05)
 
 
 def test_truth_is_complete(concealed):

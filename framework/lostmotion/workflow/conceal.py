@@ -29,7 +29,8 @@ FREQUENCY = 1.54
 AMPLITUDE = 3.0
 """Base motion (Hz, deg): the link rattles chaotically, with an exponent of 1.2 1/s, and of 2.4 without friction."""
 COUNT = 360.0 / 2**17
-"""One count of an encoder (deg)."""
+FINER = 5.0
+"""One count of the link's encoder (deg), and how much finer the other one is: it sits on the motor, before the gear."""
 FINE = 200
 SETTLE = 30
 """Steps between samples, and periods that pass before the recording begins."""
@@ -58,11 +59,12 @@ def conceal_joint(
     periods: int = 60,
     rate: float = 200.0,
     friction: float = FRICTION,
-    noise: float = 0.01,
+    noise: float = 0.015,
 ) -> Concealed:
     """Return a recording (degrees, `rate` in Hz) of a joint that hides `friction` (N m); with 0 nothing is hidden.
 
-    `noise` (deg) is the standard deviation of what both encoders add; they also round to whole counts.
+    `noise` (deg) is the standard deviation of what the encoder of the link adds, 0.6 % of that of the motion; the one
+    of the motor adds a fifth. Both round to whole counts.
     """
     phase, start = rng.uniform(0.0, 2.0 * math.pi), rng.uniform(-0.5, 0.5)
     settle = round(SETTLE * rate / FREQUENCY)
@@ -71,8 +73,8 @@ def conceal_joint(
     base, seen = base[settle:], seen[settle:]
     return Concealed(
         time=np.arange(len(base)) / rate,
-        base_position=_encoded(base, noise, rng),
-        position=_encoded(base + seen[:, 0], noise, rng),
+        base_position=_encoded(base, 1.0 / FINER, noise, rng),
+        position=_encoded(base + seen[:, 0], 1.0, noise, rng),
         stuck=float(seen[:, 2].mean()),
         truth={**JOINT, HIDDEN: friction},
         nominal=_nominal(),
@@ -101,9 +103,10 @@ def write_case(concealed: Concealed, folder: Path) -> Path:
     return path
 
 
-def _encoded(angle: Array, noise: float, rng: np.random.Generator) -> Array:
-    """Return an angle (deg) as an encoder shows it."""
-    shown = COUNT * np.round((angle + noise * rng.standard_normal(len(angle))) / COUNT)
+def _encoded(angle: Array, coarse: float, noise: float, rng: np.random.Generator) -> Array:
+    """Return an angle (deg) as an encoder shows it whose noise and count are `coarse` times those of the link's."""
+    count = coarse * COUNT
+    shown = count * np.round((angle + coarse * noise * rng.standard_normal(len(angle))) / count)
     return np.round(shown, DIGITS)
 
 
