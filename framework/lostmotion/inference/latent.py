@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from lostmotion.contracts import Array
-from lostmotion.inference.problem import Problem
+from lostmotion.inference.problem import PACE, RANDOM, Free, Kept, Problem
 from lostmotion.kernels import smooth
 
 SHARES = (1e-3, 3e-3, 1e-2, 3e-2, 1e-1, 3e-1)
@@ -50,37 +50,39 @@ def missing_force(problem: Problem, theta: Array, index: int = 0) -> Missing:
     Alvarez, Luengo, Lawrence (2009); Rogers, Friis, MSSP 2022 (arXiv 2109.10681). Locate with it, do not name with it:
     a force that correlates with a base parameter is shrunk by it.
     """
+    single = problem.on((problem.tracks[index],))
     grid = [(s, p) for p in PACES for s in SHARES]
-    heights = [_filter(problem, theta, index, choice, keep=False)[0] for choice in grid]
+    trials = [_with_force(single, theta, *choice) for choice in grid]
+    heights = [p.innovations(t).log_likelihood for p, t in trials]
     best = int(np.argmax(heights))
-    _, arrays = _filter(problem, theta, index, grid[best], keep=True)
-    states, cov = smooth(*arrays)
+    kept, _, _ = kept_by(*trials[best])
+    states, cov = smooth(*kept)
     base = min(h for (s, _), h in zip(grid, heights, strict=True) if s == SHARES[0])
     sd = np.sqrt(np.maximum(cov[:, -1, -1], 0.0))
     share, pace = grid[best]
     return Missing(states[:, -1], sd, states[:, :-1], share, problem.scales.time / pace, heights[best] - base)
 
 
-def _filter(
-    problem: Problem, theta: Array, index: int, choice: tuple[float, float], *, keep: bool
-) -> tuple[float, tuple[Array, ...]]:
-    """Return the log-likelihood with a latent force of (share, pace), and what the smoother needs."""
-    system, track, drive = problem.system, problem.tracks[index], problem.drives[index]
-    n = system.states(problem.active) + 1
-    base, own = system.pack(problem.full(theta), drive.dt / drive.nsub)
-    on, at = system.wiring(problem.active)
-    channel, direct = system.channel(track.channel)
-    pace = choice[1] / problem.scales.time
-    variance = (choice[0] * problem.scales.force) ** 2
-    y0, cov = problem.initial(index, n)
-    cov[-1, -1] = variance
-    rows = track.samples if keep else 1
-    arrays = (np.zeros((rows, n)), np.zeros((rows, n, n)), np.zeros((rows, n)), np.zeros((rows, n, n)), np.zeros((rows, n, n)))
-    errors, variances = np.zeros(track.samples), np.ones(track.samples)
-    done = system.kernel(problem.active, latent=True).track(
-        track.z, drive.u, drive.dt, drive.nsub, base, own, on, at, pace, 2.0 * variance * pace,
-        problem.noise(theta)[1], y0, cov, channel, direct, errors, variances, keep, *arrays,
-    )  # fmt: skip
-    if done < track.samples:
-        return -math.inf, arrays
-    return float(-0.5 * np.sum(errors**2 / variances + np.log(2.0 * np.pi * variances))), arrays
+def kept_by(problem: Problem, theta: Array) -> tuple[Kept, Array, Array]:
+    """Return what a smoother needs of the first recording, and the innovations with their variances."""
+    rows = problem.tracks[0].samples
+    n = problem.system.states(problem.active) + problem.coloured
+    square = (rows, n, n)
+    kept = (np.zeros((rows, n)), np.zeros(square), np.zeros((rows, n)), np.zeros(square), np.zeros(square))
+    errors, variances = np.zeros(rows), np.ones(rows)
+    problem.track(0, theta, errors, variances, kept)
+    return kept, errors, variances
+
+
+def _with_force(problem: Problem, theta: Array, share: float, pace: float) -> tuple[Problem, Array]:
+    """Return the problem and coordinates with a latent force of the given share of the drive and pace."""
+    pace = pace / problem.scales.time
+    intensity = 2.0 * (share * problem.scales.force) ** 2 / pace
+    kept = [i for i, key in enumerate(problem.keys) if key not in (RANDOM, PACE)]
+    frees = (*(problem.free[i] for i in kept), fixed(RANDOM), fixed(PACE))
+    return replace(problem, free=frees), np.append(theta[kept], [math.log(intensity), math.log(pace)])
+
+
+def fixed(key: str) -> Free:
+    """Return a level without bounds, for a point that is given and not estimated."""
+    return Free(key, "1", 0.0, -math.inf, math.inf)

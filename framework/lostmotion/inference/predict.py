@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from lostmotion.contracts import Array
+from lostmotion.inference.latent import kept_by
 from lostmotion.inference.problem import Problem
 from lostmotion.inference.tracks import Track, period_samples
 
@@ -47,23 +48,10 @@ class FreeRuns:
         return float(np.median(self.lead[first]))
 
 
-def filtered(problem: Problem, theta: Array, index: int = 0) -> Filtered:
-    """Return one recording of a problem, filtered at the coordinates `theta`."""
-    system, track, drive = problem.system, problem.tracks[index], problem.drives[index]
-    n = system.states(problem.active)
-    base, own = system.pack(problem.full(theta), drive.dt / drive.nsub)
-    on, at = system.wiring(problem.active)
-    channel, direct = system.channel(track.channel)
-    intensity, variance = problem.noise(theta)
-    y0, cov = problem.initial(index, n)
-    rows = track.samples
-    seen, errors, variances = np.zeros((rows, n)), np.zeros(rows), np.ones(rows)
-    square = (rows, n, n)
-    system.kernel(problem.active).track(
-        track.z, drive.u, drive.dt, drive.nsub, base, own, on, at, 0.0, intensity, variance, y0, cov, channel, direct,
-        errors, variances, True, seen, np.zeros(square), np.zeros((rows, n)), np.zeros(square), np.zeros(square),
-    )  # fmt: skip
-    return Filtered(seen, errors, variances)
+def filtered(problem: Problem, theta: Array) -> Filtered:
+    """Return the first recording of a problem, filtered at the coordinates `theta`."""
+    kept, errors, variances = kept_by(problem, theta)
+    return Filtered(kept[0][:, : problem.system.states(problem.active)], errors, variances)
 
 
 def free_runs(problem: Problem, theta: Array, states: Array, starts: Array, steps: int, index: int = 0) -> FreeRuns:
@@ -81,6 +69,7 @@ def free_run(problem: Problem, theta: Array, y0: Array, start: int, steps: int, 
     system, drive = problem.system, problem.drives[index]
     base, own = system.pack(problem.full(theta), drive.dt / drive.nsub)
     on, at = system.wiring(problem.active)
+    y0 = y0[: system.states(problem.active)]
     states = np.full((steps, len(y0)), np.nan)
     u = drive.u[3 * drive.nsub * start : 3 * drive.nsub * (start + steps)]
     system.kernel(problem.active).run(y0, u, drive.dt, drive.nsub, base, own, on, at, 0.0, states)

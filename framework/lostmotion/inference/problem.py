@@ -16,6 +16,9 @@ from lostmotion.system import Drive, System
 
 RANDOM = "log_random_force"
 NOISE = "log_noise"
+PACE = "log_random_pace"
+LEVELS = (RANDOM, NOISE, PACE)
+"""The free parameters that are no physics: intensity and pace of a random force, and the measurement noise."""
 USUAL = 1e-3
 """The noise of a measured excitation as a share of the drive that is usual, and no mechanism left out."""
 _NONE = np.zeros((1, 1))
@@ -89,9 +92,17 @@ class Innovations:
         return float(-0.5 * np.sum(self.errors**2 / self.variances + np.log(2.0 * np.pi * self.variances)))
 
 
+Kept = tuple[Array, Array, Array, Array, Array]
+"""What a smoother needs: states and covariances after and before each sample, and the steps between."""
+
+
 @dataclass(frozen=True)
 class Problem:
-    """Recordings, a system, what is known of it (`known`, full vector) and what is free."""
+    """Recordings, a system, what is known of it (`known`, full vector) and what is free.
+
+    The random force is white, or, when `PACE` is among the free parameters, an Ornstein-Uhlenbeck force of the same
+    intensity at low frequency: it stands for what no term explains, and keeps slow leftovers from posing as evidence.
+    """
 
     system: System
     tracks: tuple[Track, ...]
@@ -101,6 +112,11 @@ class Problem:
     active: frozenset[str] = frozenset()
     nsub: int = 3
     jobs: int = 2
+
+    @property
+    def coloured(self) -> bool:
+        """Whether the random force has a memory."""
+        return PACE in self.keys
 
     @property
     def keys(self) -> tuple[str, ...]:
@@ -121,7 +137,7 @@ class Problem:
         """Return the full parameter vector of the system at the coordinates `theta`."""
         full = self.known.copy()
         for f, coordinate in zip(self.free, theta, strict=True):
-            if f.key not in (RANDOM, NOISE):
+            if f.key not in LEVELS:
                 full[self.system.index[f.key]] = f.value(coordinate)
         return full
 
@@ -172,19 +188,35 @@ class Problem:
             cov[1, 1] *= 0.25
         return y0, cov
 
+    def random(self, theta: Array) -> tuple[float, float]:
+        """Return pace (1/s; zero when white) and noise intensity of the random force as the kernel takes them."""
+        intensity, _ = self.noise(theta)
+        if not self.coloured:
+            return 0.0, intensity
+        pace = math.exp(theta[self.keys.index(PACE)])
+        return pace, intensity * pace**2
+
     def _filter(self, index: int, theta: Array) -> tuple[Array, Array, bool]:
+        track = self.tracks[index]
+        errors, variances = np.zeros(track.samples), np.ones(track.samples)
+        done = self.track(index, theta, errors, variances, None)
+        return errors, variances, bool(done == track.samples)
+
+    def track(self, index: int, theta: Array, errors: Array, variances: Array, kept: Kept | None) -> int:
+        """Run the filter over one recording into the given arrays; return how many samples it got through."""
         track, drive, system = self.tracks[index], self.drives[index], self.system
         base, own = system.pack(self.full(theta), drive.dt / drive.nsub)
         on, at = system.wiring(self.active)
         channel, direct = system.channel(track.channel)
-        intensity, variance = self.noise(theta)
-        y0, cov = self.initial(index, system.states(self.active))
-        errors, variances = np.zeros(track.samples), np.ones(track.samples)
-        done = system.kernel(self.active).track(
-            track.z, drive.u, drive.dt, drive.nsub, base, own, on, at, 0.0, intensity, variance, y0, cov,
-            channel, direct, errors, variances, False, _NONE, _NONE3, _NONE, _NONE3, _NONE3,
+        pace, intensity = self.random(theta)
+        y0, cov = self.initial(index, system.states(self.active) + self.coloured)
+        if self.coloured:
+            cov[-1, -1] = 0.5 * intensity / pace
+        arrays = kept or (_NONE, _NONE3, _NONE, _NONE3, _NONE3)
+        return system.kernel(self.active, latent=self.coloured).track(
+            track.z, drive.u, drive.dt, drive.nsub, base, own, on, at, pace, intensity, self.noise(theta)[1], y0, cov,
+            channel, direct, errors, variances, kept is not None, *arrays,
         )  # fmt: skip
-        return errors, variances, bool(done == track.samples)
 
     def extended(self, more: Iterable[Free], active: Iterable[str]) -> Problem:
         """Return the problem with further free parameters and terms."""

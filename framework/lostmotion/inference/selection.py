@@ -63,16 +63,19 @@ class Selection:
 
 
 class Selector:
-    """Carries out one selection; `say` is told what is being tried."""
+    """Carries out one selection from the `nominal` fit, or on from an earlier choice `begun`; `say` is told what is tried."""
 
-    def __init__(self, nominal: Fit, candidates: Iterable[str], say: Progress) -> None:
+    def __init__(self, nominal: Fit, candidates: Iterable[str], say: Progress, begun: Fit | None = None) -> None:
         self.candidates = tuple(candidates)
         self.say = say
-        self.course = Selection(nominal, nominal)
+        self.course = Selection(nominal, begun or nominal)
         self._visit(nominal)
+        self._visit(self.course.chosen)
 
     def run(self) -> Selection:
         """Return the finished selection."""
+        while self._backward():
+            pass
         while len(self.course.chosen.problem.active) < MOST_TERMS and self._forward():
             pass
         while self._backward():

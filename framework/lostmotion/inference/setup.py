@@ -12,8 +12,8 @@ from scipy.stats import qmc
 from lostmotion.case import Case, Prior
 from lostmotion.contracts import Array
 from lostmotion.errors import CaseError, ContractError
-from lostmotion.inference.fit import Fit, maximise
-from lostmotion.inference.problem import NOISE, RANDOM, USUAL, Free, Problem, Scales
+from lostmotion.inference.fit import Fit, maximise, restarted
+from lostmotion.inference.problem import LEVELS, NOISE, PACE, RANDOM, USUAL, Free, Problem, Scales
 from lostmotion.inference.tracks import Track
 from lostmotion.system import Slot, System, substeps
 
@@ -80,6 +80,21 @@ def noise_frees(tracks: Sequence[Track], scales: Scales) -> tuple[Free, Free]:
     )
 
 
+def coloured(fit: Fit) -> Fit:
+    """Return the fit anew with a random force that has a memory, of between a step and ten natural times."""
+    problem = fit.problem
+    if problem.coloured:
+        return fit
+    step = problem.tracks[0].dt / problem.nsub
+    low, high = math.log(0.1 / problem.scales.time), math.log(0.3 / step)
+    middle = math.log(10.0 / problem.scales.time)
+    pace = Free(PACE, "1", min(middle, high), min(low, high - 1.0), high, mean=middle, sd=3.0)
+    memory = replace(restarted(fit), free=(*restarted(fit).free, pace))
+    starts = (middle, high - 0.1)
+    fits = [maximise(memory, np.append(fit.theta, min(s, high))) for s in starts]
+    return max(fits, key=lambda f: f.local.log_posterior)
+
+
 def usual_intensity(tracks: Sequence[Track], scales: Scales) -> float:
     """Return the log intensity of the random force that the usual noise of a measured excitation makes."""
     return math.log((USUAL * scales.force) ** 2 * tracks[0].dt)
@@ -125,7 +140,7 @@ def stepped(problem: Problem, theta: Array, *, accuracy: float = 0.06) -> Proble
 def search(problem: Problem, rng: np.random.Generator, *, points: int = 48, finalists: int = 4) -> Fit:
     """Return the best fit of several starts: a Latin hypercube on the beginning of the recording, then all of it."""
     beginning = problem.on(tuple(t.part(0, min(t.samples, 3000)) for t in problem.tracks[:1]))
-    base = [i for i, f in enumerate(problem.free) if f.key not in (RANDOM, NOISE)]
+    base = [i for i, f in enumerate(problem.free) if f.key not in LEVELS]
     starts = np.repeat(problem.start[None], points, axis=0)
     if base:
         cube = qmc.LatinHypercube(len(base), rng=rng).random(points - 1)

@@ -13,7 +13,7 @@ from lostmotion.contracts import Array
 from lostmotion.inference.candidates import term_of
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.predict import Horizon
-from lostmotion.inference.problem import NOISE, RANDOM
+from lostmotion.inference.problem import LEVELS
 from lostmotion.inference.tracks import period_samples
 from lostmotion.results import Interval
 from lostmotion.stages.compare import Prediction
@@ -43,7 +43,7 @@ def draws_of(fit: Fit, rng: np.random.Generator) -> Array:
     root = vectors * np.sqrt(np.maximum(values, 0.0))
     theta = fit.theta + rng.standard_normal((DRAWS, len(fit.theta))) @ root.T
     theta = np.clip(theta, [f.low for f in problem.free], [f.high for f in problem.free])
-    kept = [i for i, f in enumerate(problem.free) if f.key not in (RANDOM, NOISE)]
+    kept = [i for i, f in enumerate(problem.free) if f.key not in LEVELS]
     return np.array([[problem.free[i].value(row[i]) for i in kept] for row in theta])
 
 
