@@ -15,6 +15,7 @@ import numpy as np
 from lostmotion.contracts import Array
 from lostmotion.inference.problem import Innovations, Problem
 
+BLOCKS = 40
 STRIDE = 0.3
 """Finite-difference step in conditional standard deviations: small against the posterior, large against roughness."""
 
@@ -93,6 +94,11 @@ class Sensitivity:
         """Return the gradient of the log-likelihood."""
         e, v = self.here.errors, self.here.variances
         return np.asarray(self.errors @ (-e / v) + self.variances @ (0.5 * (e * e / v - 1.0) / v))
+
+    def scores(self) -> Array:
+        """Return what each sample contributes to the gradient, (parameters, samples)."""
+        e, v = self.here.errors, self.here.variances
+        return np.asarray(self.errors * (-e / v) + self.variances * (0.5 * (e * e / v - 1.0) / v))
 
     def information(self) -> Array:
         """Return the expected information of the log-likelihood."""
@@ -193,3 +199,19 @@ def restarted(fit: Fit) -> Problem:
     """Return the problem of a fit with its maximum as the starting point."""
     problem = fit.problem
     return replace(problem, free=tuple(replace(f, start=float(c)) for f, c in zip(problem.free, fit.theta, strict=True)))
+
+
+def robust_covariance(fit: Fit) -> Array:
+    """Return the covariance of the estimate that holds when something is left over that the model does not explain.
+
+    The sandwich of Huber (1967) and White, Econometrica 50 (1982) 1-25, with scores added up over contiguous blocks,
+    so that leftovers with a memory count for as little as they should. Never smaller than the usual covariance.
+    """
+    scores = sensitivity(fit.problem, fit.theta, fit.local.steps).scores()
+    edges = np.linspace(0, scores.shape[1], BLOCKS + 1).astype(int)[:-1]
+    sums = np.add.reduceat(scores, edges, axis=1)
+    sums -= sums.mean(axis=1, keepdims=True)
+    usual = fit.local.covariance
+    sandwich = usual @ (sums @ sums.T * BLOCKS / (BLOCKS - 1.0)) @ usual
+    factor = np.sqrt(np.maximum(np.diag(sandwich) / np.maximum(np.diag(usual), 1e-300), 1.0))
+    return np.asarray(usual * np.outer(factor, factor))

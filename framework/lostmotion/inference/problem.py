@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cache, cached_property
 
 import numpy as np
 
@@ -23,6 +23,11 @@ USUAL = 1e-3
 """The noise of a measured excitation as a share of the drive that is usual, and no mechanism left out."""
 _NONE = np.zeros((1, 1))
 _NONE3 = np.zeros((1, 1, 1))
+
+
+@cache
+def _pool(jobs: int) -> ThreadPoolExecutor:
+    return ThreadPoolExecutor(jobs)
 
 
 @dataclass(frozen=True)
@@ -169,8 +174,7 @@ class Problem:
         points = list(thetas)
         if self.jobs < 2 or len(points) < 2:
             return [self.innovations(p) for p in points]
-        with ThreadPoolExecutor(self.jobs) as pool:
-            return list(pool.map(self.innovations, points))
+        return list(_pool(self.jobs).map(self.innovations, points))
 
     def noise(self, theta: Array) -> tuple[float, float]:
         """Return the intensity of the random force (N^2 s) and the variance of the measurement noise."""

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from lostmotion.contracts import Term
 from lostmotion.inference.candidates import Hint, fit_with, screen, slopes_of, term_of
-from lostmotion.inference.fit import Fit, maximise
+from lostmotion.inference.fit import Fit, maximise, robust_covariance
+from lostmotion.inference.problem import RANDOM
 
 PROMISING = 3.0
 """A term is fitted when its score test promises at least this gain in log-likelihood."""
@@ -19,6 +20,10 @@ MOST_TERMS = 5
 BEAM = 3
 DECISIVE = math.log(20.0)
 """A term is taken when it makes the posterior odds of the model twenty times better."""
+CERTAIN = 3.0
+"""An amplitude counts when it is this many robust standard deviations from nothing."""
+REMEMBERS = 2.0
+WORTH = 0.2
 SAME = 1e-4
 """Below this share of its own information a term cannot be told from parameters that are estimated anyway."""
 
@@ -36,17 +41,23 @@ class Visit:
 
 @dataclass
 class Selection:
-    """The course of a selection: the nominal fit, every set visited, the hints of the first round, the set chosen."""
+    """The course of a selection: the nominal fit, every set visited, the hints of the first round, the set chosen.
+
+    `declined` names terms with evidence that was not believed, since what is left over has a memory.
+    """
 
     nominal: Fit
     chosen: Fit
     visits: dict[frozenset[str], Visit] = field(default_factory=dict)
     hints: dict[str, Hint] = field(default_factory=dict)
+    declined: set[str] = field(default_factory=set)
 
     def probabilities(self) -> dict[frozenset[str], float]:
-        """Return the posterior probability of each set among those visited."""
-        top = max(v.weight for v in self.visits.values())
-        raw = {k: math.exp(v.weight - top) for k, v in self.visits.items()}
+        """Return the posterior probability of each set among those visited, but for sets that were not believed."""
+        doubted = self.declined - self.chosen.problem.active
+        believed = {k: v for k, v in self.visits.items() if not k & doubted}
+        top = max(v.weight for v in believed.values())
+        raw = {k: math.exp(v.weight - top) for k, v in believed.items()}
         total = sum(raw.values())
         return {k: w / total for k, w in raw.items()}
 
@@ -63,19 +74,17 @@ class Selection:
 
 
 class Selector:
-    """Carries out one selection from the `nominal` fit, or on from an earlier choice `begun`; `say` is told what is tried."""
+    """Carries out one selection from the `nominal` fit; `say` is told what is being tried."""
 
-    def __init__(self, nominal: Fit, candidates: Iterable[str], say: Progress, begun: Fit | None = None) -> None:
+    def __init__(self, nominal: Fit, candidates: Iterable[str], say: Progress) -> None:
         self.candidates = tuple(candidates)
         self.say = say
-        self.course = Selection(nominal, begun or nominal)
+        self.course = Selection(nominal, nominal)
+        self._sure: dict[frozenset[str], tuple[float, float]] = {}
         self._visit(nominal)
-        self._visit(self.course.chosen)
 
     def run(self) -> Selection:
         """Return the finished selection."""
-        while self._backward():
-            pass
         while len(self.course.chosen.problem.active) < MOST_TERMS and self._forward():
             pass
         while self._backward():
@@ -98,12 +107,29 @@ class Selector:
         for visit in self._beam(here):
             self._additions(visit.fit)
         self._swaps(here.fit)
-        best = max(self.course.visits.values(), key=lambda v: v.weight)
-        needed = DECISIVE if best.terms > here.terms else 0.0
-        if best.terms == here.terms or best.weight < here.weight + needed:
-            return False
-        self.course.chosen = best.fit
-        return True
+        for visit in sorted(self.course.visits.values(), key=lambda v: -v.weight):
+            needed = DECISIVE if visit.terms > here.terms else 0.0
+            if visit.terms == here.terms or visit.weight < here.weight + needed:
+                return False
+            if self._certain(visit, here):
+                self.course.chosen = visit.fit
+                self.course.declined.clear()
+                return True
+            self.course.declined.update(visit.terms - here.terms)
+        return False
+
+    def _certain(self, visit: Visit, here: Visit) -> bool:
+        """Return whether a better set may be believed where something with a memory is left over.
+
+        Then samples are not independent, the evidence is overstated, and a term that resembles the leftovers a little
+        always gains. So each amplitude has to stand out of its robust standard deviation; and where that is more than
+        `REMEMBERS` times the usual one, the set has to take a share of at least `WORTH` off the random force.
+        """
+        if visit.terms not in self._sure:
+            self._sure[visit.terms] = _standing(visit.fit)
+        least, memory = self._sure[visit.terms]
+        levels = [v.fit.theta[v.fit.problem.keys.index(RANDOM)] for v in (visit, here)]
+        return least > CERTAIN and (memory < REMEMBERS or levels[0] < levels[1] + math.log(1.0 - WORTH))
 
     def _beam(self, here: Visit) -> list[Visit]:
         """Return the sets to build on: the chosen one, and others of its size that explain at least half as much.
@@ -179,12 +205,17 @@ def _same_story(a: Term, b: Term) -> bool:
     return b.name in a.resembles or a.name in b.resembles
 
 
+def _standing(fit: Fit) -> tuple[float, float]:
+    """Return the least amplitude of any term in robust standard deviations, and how much wider those are than usual."""
+    robust, usual = (np.sqrt(np.diag(c)) for c in (robust_covariance(fit), fit.local.covariance))
+    keys = [s.key for term in fit.problem.active for s in term_of(fit.problem, term)[1] if s.param.null is not None]
+    at = [fit.problem.keys.index(key) for key in keys]
+    sizes = np.abs(fit.theta[at]) / np.maximum(robust[at], 1e-300)
+    return float(np.min(sizes, initial=math.inf)), float(np.max(robust[at] / np.maximum(usual[at], 1e-300), initial=1.0))
+
+
 def significant_random_force(fit: Fit, usual: float) -> float:
     """Return the log-likelihood that a random force beyond three times the usual noise of the drive adds."""
-    from dataclasses import replace
-
-    from lostmotion.inference.problem import RANDOM
-
     problem = fit.problem
     i = problem.keys.index(RANDOM)
     cap = usual + 2.0 * math.log(3.0)

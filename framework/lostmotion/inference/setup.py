@@ -12,8 +12,8 @@ from scipy.stats import qmc
 from lostmotion.case import Case, Prior
 from lostmotion.contracts import Array
 from lostmotion.errors import CaseError, ContractError
-from lostmotion.inference.fit import Fit, maximise, restarted
-from lostmotion.inference.problem import LEVELS, NOISE, PACE, RANDOM, USUAL, Free, Problem, Scales
+from lostmotion.inference.fit import Fit, maximise
+from lostmotion.inference.problem import LEVELS, NOISE, RANDOM, USUAL, Free, Problem, Scales
 from lostmotion.inference.tracks import Track
 from lostmotion.system import Slot, System, substeps
 
@@ -78,21 +78,6 @@ def noise_frees(tracks: Sequence[Track], scales: Scales) -> tuple[Free, Free]:
         Free(RANDOM, "1", usual + BIG, usual + LEAST, usual + BIG + 6.0, mean=usual, sd=4.0),
         Free(NOISE, "1", noise, noise - 7.0, noise + 3.0),
     )
-
-
-def coloured(fit: Fit) -> Fit:
-    """Return the fit anew with a random force that has a memory, of between a step and ten natural times."""
-    problem = fit.problem
-    if problem.coloured:
-        return fit
-    step = problem.tracks[0].dt / problem.nsub
-    low, high = math.log(0.1 / problem.scales.time), math.log(0.3 / step)
-    middle = math.log(10.0 / problem.scales.time)
-    pace = Free(PACE, "1", min(middle, high), min(low, high - 1.0), high, mean=middle, sd=3.0)
-    memory = replace(restarted(fit), free=(*restarted(fit).free, pace))
-    starts = (middle, high - 0.1)
-    fits = [maximise(memory, np.append(fit.theta, min(s, high))) for s in starts]
-    return max(fits, key=lambda f: f.local.log_posterior)
 
 
 def usual_intensity(tracks: Sequence[Track], scales: Scales) -> float:

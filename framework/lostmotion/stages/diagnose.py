@@ -14,7 +14,7 @@ from lostmotion.inference.latent import Missing, missing_force
 from lostmotion.inference.locate import Curve, covariates, curve, edges_of, shares, summary
 from lostmotion.inference.problem import LEVELS
 from lostmotion.inference.selection import Selection, Selector, significant_random_force
-from lostmotion.inference.setup import coloured, problem_of, search, split, stepped, usual_intensity
+from lostmotion.inference.setup import problem_of, search, split, stepped, usual_intensity
 from lostmotion.inference.tracks import Track
 from lostmotion.system import System
 
@@ -91,7 +91,7 @@ def diagnose(
     train, held = split(tracks)
     say("fit of the nominal model")
     nominal = search(problem_of(system, case, train, jobs=jobs), rng)
-    selection = select(nominal, system, say)
+    selection = Selector(nominal, system.keys, say).run()
     say("final estimates")
     before = polish(selection.nominal)
     after = polish(selection.chosen) if selection.chosen.problem.active else before
@@ -99,20 +99,6 @@ def diagnose(
     say("missing force")
     shown = tracks[0] if len(tracks) == 1 else held[0]
     return _located(Diagnosis(before, after, selection, shown, _NOWHERE, None, _NO, {}, {}, gain, train, held))
-
-
-def select(nominal: Fit, system: System, say: Callable[[str], None]) -> Selection:
-    """Return the selection of terms; where a random force is left, made anew with one that has a memory.
-
-    White leftovers make every slow one look like evidence; a coloured random force takes that evidence away again.
-    """
-    selection = Selector(nominal, system.keys, say).run()
-    usual = usual_intensity(nominal.problem.tracks, nominal.problem.scales)
-    if significant_random_force(selection.chosen, usual) <= SIGNIFICANT:
-        return selection
-    say("leftovers with a memory")
-    again = Selector(coloured(nominal), system.keys, say, coloured(selection.chosen)).run()
-    return replace(again, hints=selection.hints)
 
 
 _NO = np.zeros(0)

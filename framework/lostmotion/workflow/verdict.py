@@ -11,7 +11,7 @@ import numpy as np
 
 from lostmotion.contracts import Array
 from lostmotion.inference.candidates import term_of
-from lostmotion.inference.fit import Fit
+from lostmotion.inference.fit import Fit, robust_covariance
 from lostmotion.inference.predict import Horizon
 from lostmotion.inference.problem import LEVELS
 from lostmotion.inference.tracks import period_samples
@@ -37,9 +37,12 @@ class Outcome:
 
 
 def draws_of(fit: Fit, rng: np.random.Generator) -> Array:
-    """Return draws (DRAWS, keys) of the physical parameters from the normal approximation to the posterior."""
+    """Return draws (DRAWS, keys) of the physical parameters from the normal approximation to the posterior.
+
+    Its covariance is the robust one, so that intervals widen when something with a memory is left over.
+    """
     problem = fit.problem
-    values, vectors = np.linalg.eigh(fit.local.covariance)
+    values, vectors = np.linalg.eigh(robust_covariance(fit))
     root = vectors * np.sqrt(np.maximum(values, 0.0))
     theta = fit.theta + rng.standard_normal((DRAWS, len(fit.theta))) @ root.T
     theta = np.clip(theta, [f.low for f in problem.free], [f.high for f in problem.free])
