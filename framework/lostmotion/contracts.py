@@ -21,6 +21,8 @@ from lostmotion.quantities import Dimension
 from lostmotion.results import Embedding, Estimate
 
 Array = NDArray[np.float64]
+Values = tuple[float, ...]
+"""What a term is handed for its parameters and states: numbers to be indexed, nothing to be written."""
 PSEUDO_NEEDS = ("step", "mobility")
 """What a term may need that is no parameter: `step`, the integration step in s, and `mobility`, step / inertia:
 the velocity that a unit force gives the body in one step. A law that jumps at zero velocity is as wide as
@@ -113,11 +115,11 @@ class Term(ABC):
 
     @staticmethod
     @abstractmethod
-    def force(t: float, x: float, v: float, u: Array, p: Array, s: Array) -> float:
+    def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
         """Return the force (N or N m) on the body in positive direction."""
 
-    @staticmethod
-    def rate(t: float, x: float, v: float, u: Array, p: Array, s: Array, dsdt: Array) -> None:
+    @staticmethod  # noqa: B027 - most terms have no states of their own
+    def rate(t: float, x: float, v: float, u: Array, p: Values, s: Values, dsdt: Array) -> None:
         """Write the time derivative of the own states into `dsdt`; a term without states leaves this alone."""
 
     def null(self) -> dict[str, float]:

@@ -86,7 +86,9 @@ def _write_netcdf(
 def save_json(path: Path, content: Mapping[str, object]) -> None:
     """Write `content` as JSON that appears whole or not at all; what is not finite becomes null."""
     with whole(path) as spare:
-        spare.write_text(json.dumps(_finite(content), indent=2, ensure_ascii=False, allow_nan=False) + "\n", encoding="utf-8")
+        spare.write_text(
+            json.dumps(_finite(content), indent=2, ensure_ascii=False, allow_nan=False) + "\n", encoding="utf-8"
+        )
 
 
 def _finite(value: object) -> object:
@@ -109,7 +111,9 @@ class Column:
     long_name: str = ""
 
 
-def save_arrays(path: Path, arrays: Mapping[str, Column], coords: Mapping[str, Column], attrs: Mapping[str, str]) -> None:
+def save_arrays(
+    path: Path, arrays: Mapping[str, Column], coords: Mapping[str, Column], attrs: Mapping[str, str]
+) -> None:
     """Write arrays with their dimensions and units to a netCDF file that appears whole or not at all."""
     import xarray
 

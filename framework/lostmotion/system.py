@@ -89,7 +89,9 @@ class System:
             if name == slot.key or (slot.term is None and name in slot.param.aliases):
                 return slot
         known = [slot.key for slot in self.slots if slot.term is None]
-        raise ContractError(f"{self.model.name} has no parameter {name!r}{nearest(name, known)}: it has {', '.join(known)}")
+        raise ContractError(
+            f"{self.model.name} has no parameter {name!r}{nearest(name, known)}: it has {', '.join(known)}"
+        )
 
     def vector(self, values: Mapping[str, float]) -> Array:
         """Return the full parameter vector; what is not given is `null`, or one for a shape parameter, or zero."""
@@ -124,7 +126,9 @@ class System:
         """Return the switches of the terms, and where in `y` the states of each begin."""
         chosen = set(active)
         if unknown := chosen - set(self.keys):
-            raise ContractError(f"no term {sorted(unknown)[0]!r} in this system{nearest(sorted(unknown)[0], self.keys)}")
+            raise ContractError(
+                f"no term {sorted(unknown)[0]!r} in this system{nearest(sorted(unknown)[0], self.keys)}"
+            )
         on = np.array([key in chosen for key in self.keys], dtype=np.bool_)
         at, start = np.zeros(len(self.terms), dtype=np.int64), len(self.model.states)
         for i, term in enumerate(self.terms):
@@ -154,7 +158,9 @@ class System:
         """Return the index of an observed channel, and that of the state it shows directly (-1 when it is none)."""
         if name not in self.model.channels:
             known = ", ".join(self.model.channels)
-            raise ContractError(f"{self.model.name} does not show {name!r}{nearest(name, self.model.channels)}: it shows {known}")
+            raise ContractError(
+                f"{self.model.name} does not show {name!r}{nearest(name, self.model.channels)}: it shows {known}"
+            )
         direct = self.model.states.index(name) if name in self.model.states else NUMB
         return self.model.channels.index(name), direct
 
@@ -187,7 +193,9 @@ class System:
             full_y = np.zeros(n)
             full_y[: len(y)] = y
             m = len(y)
-            jac = np.array([(slope(full_y + _unit(n, a) * spread[a], u) - slope(full_y, u)) / spread[a] for a in range(m)])
+            jac = np.array(
+                [(slope(full_y + _unit(n, a) * spread[a], u) - slope(full_y, u)) / spread[a] for a in range(m)]
+            )
             fastest = max(fastest, float(np.abs(np.linalg.eigvals(jac[:, :m])).max()))
         return fastest
 

@@ -11,7 +11,13 @@ def progress(what: str, *, quiet: bool) -> Iterator[Callable[[str], None]]:
     """Yield a function that is told each step; it shows nothing when `quiet` or when nobody watches."""
     from tqdm import tqdm
 
-    with tqdm(desc=what, unit=" steps", leave=False, disable=True if quiet else None, bar_format="{desc} {elapsed} · {n} steps · {postfix}") as bar:
+    with tqdm(
+        desc=what,
+        unit=" steps",
+        leave=False,
+        disable=True if quiet else None,
+        bar_format="{desc} {elapsed} · {n} steps · {postfix}",
+    ) as bar:
 
         def say(step: str) -> None:
             bar.set_postfix_str(step, refresh=False)

@@ -17,7 +17,13 @@ from lostmotion.cli._progress import progress
     )
 )
 @click.argument("case", metavar="CASE.toml", type=click.Path(path_type=Path))
-@click.option("--out", required=True, metavar="DIR", type=click.Path(file_okay=False, path_type=Path), help="Where the results go.")
+@click.option(
+    "--out",
+    required=True,
+    metavar="DIR",
+    type=click.Path(file_okay=False, path_type=Path),
+    help="Where the results go.",
+)
 @click.option("--seed", default=0, show_default=True, help="Seed of the starting points and of the posterior draws.")
 @click.option("--jobs", default=2, show_default=True, type=click.IntRange(1), help="How many cores to use.")
 @click.option("--quiet", is_flag=True, help="Show no progress.")

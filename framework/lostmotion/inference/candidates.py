@@ -136,9 +136,7 @@ def fit_with(fit: Fit, hint: Hint, *, hopeless: float = -math.inf) -> Fit:
     """Return the fit with one more term, started where its score test points, or with less of it: the better one."""
     _, slots = term_of(fit.problem, hint.key)
     starts = [_scaled(hint, slots, factor) for factor in (1.0, 0.3)]
-    problems = [
-        restarted(fit).extended(frees_of(slots, fit.problem.scales, start), {hint.key}) for start in starts
-    ]
+    problems = [restarted(fit).extended(frees_of(slots, fit.problem.scales, start), {hint.key}) for start in starts]
     heights = [p.log_posterior(p.clip(p.start)) for p in problems]
     first = int(np.argmax(heights))
     best = maximise(problems[first], hopeless=hopeless)

@@ -34,7 +34,7 @@ class Local:
     @property
     def covariance(self) -> Array:
         """The covariance of the normal approximation to the posterior, in coordinates."""
-        return np.linalg.pinv(self.information, hermitian=True)
+        return np.asarray(np.linalg.pinv(self.information, hermitian=True), dtype=float)
 
 
 @dataclass(frozen=True)
@@ -77,7 +77,9 @@ class Fit:
 
 def first_steps(problem: Problem) -> Array:
     """Return finite-difference steps to begin with: a thousandth of a logarithm, or of the prior width."""
-    return np.array([1e-3 if f.log or f.key.startswith("log_") else 1e-3 * min(f.sd, f.high - f.low) for f in problem.free])
+    return np.array(
+        [1e-3 if f.log or f.key.startswith("log_") else 1e-3 * min(f.sd, f.high - f.low) for f in problem.free]
+    )
 
 
 @dataclass(frozen=True)
@@ -147,7 +149,12 @@ def _tuned(local: Local, problem: Problem) -> Array:
 
 
 def maximise(
-    problem: Problem, theta: Array | None = None, *, rounds: int = 40, tolerance: float = 0.02, hopeless: float = -math.inf
+    problem: Problem,
+    theta: Array | None = None,
+    *,
+    rounds: int = 40,
+    tolerance: float = 0.02,
+    hopeless: float = -math.inf,
 ) -> Fit:
     """Return the maximum of the log posterior near `theta`, by damped Fisher scoring within the bounds.
 
@@ -198,7 +205,9 @@ def _step(problem: Problem, local: Local, damping: float) -> tuple[Array, float]
 def restarted(fit: Fit) -> Problem:
     """Return the problem of a fit with its maximum as the starting point."""
     problem = fit.problem
-    return replace(problem, free=tuple(replace(f, start=float(c)) for f, c in zip(problem.free, fit.theta, strict=True)))
+    return replace(
+        problem, free=tuple(replace(f, start=float(c)) for f, c in zip(problem.free, fit.theta, strict=True))
+    )
 
 
 def robust_covariance(fit: Fit) -> Array:

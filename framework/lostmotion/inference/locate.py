@@ -79,7 +79,7 @@ def shares(table: Mapping[str, Array], force: Array) -> dict[str, float]:
 
 
 def parity(found: Curve) -> str:
-    """Return "odd", "even" or "neither": how a curve over position or velocity changes when its argument is reversed."""
+    """Return "odd", "even" or "neither": how a curve changes when position or velocity is reversed."""
     good = np.isfinite(found.center) & np.isfinite(found.mean)
     if good.sum() < 6:
         return "neither"

@@ -61,7 +61,7 @@ def free_runs(problem: Problem, theta: Array, states: Array, starts: Array, step
     for row, start in enumerate(starts):
         seen = observed(problem, theta, free_run(problem, theta, states[start], int(start), steps), (int(start), index))
         error[row] = seen - track.z[start : start + steps]
-    return FreeRuns(np.arange(steps) * track.dt, error)
+    return FreeRuns(np.asarray(np.arange(steps) * track.dt, dtype=float), error)
 
 
 def free_run(problem: Problem, theta: Array, y0: Array, start: int, steps: int, index: int = 0) -> Array:

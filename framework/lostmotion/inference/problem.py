@@ -62,18 +62,25 @@ class Free:
             return -math.inf
         if math.isinf(self.sd):
             return -math.log(self.high - self.low)
-        kept = 0.5 * (math.erf((self.high - self.mean) / self.sd / math.sqrt(2)) - math.erf((self.low - self.mean) / self.sd / math.sqrt(2)))
+        kept = 0.5 * (
+            math.erf((self.high - self.mean) / self.sd / math.sqrt(2))
+            - math.erf((self.low - self.mean) / self.sd / math.sqrt(2))
+        )
         z = (coordinate - self.mean) / self.sd
         return -0.5 * z * z - math.log(self.sd * math.sqrt(2.0 * math.pi) * max(kept, 1e-300))
 
 
 @dataclass(frozen=True)
 class Scales:
-    """The natural sizes of a recorded motion, as amplitudes: generalised force, length, time."""
+    """The natural sizes of a recorded motion, as amplitudes: generalised force, length, time.
+
+    `usual` is the log intensity (N^2 s) of the random force that the usual noise of a measured excitation makes.
+    """
 
     force: float
     length: float
     time: float
+    usual: float = 0.0
 
     @property
     def velocity(self) -> float:
@@ -83,7 +90,7 @@ class Scales:
 
 @dataclass(frozen=True)
 class Innovations:
-    """One-step prediction errors and their variances, all recordings one after the other; `finite` says it did not diverge."""
+    """One-step errors and their variances, all recordings one after the other; `finite`: it did not diverge."""
 
     errors: Array
     variances: Array
@@ -217,10 +224,11 @@ class Problem:
         if self.coloured:
             cov[-1, -1] = 0.5 * intensity / pace
         arrays = kept or (_NONE, _NONE3, _NONE, _NONE3, _NONE3)
-        return system.kernel(self.active, latent=self.coloured).track(
+        done: int = system.kernel(self.active, latent=self.coloured).track(
             track.z, drive.u, drive.dt, drive.nsub, base, own, on, at, pace, intensity, self.noise(theta)[1], y0, cov,
             channel, direct, errors, variances, kept is not None, *arrays,
         )  # fmt: skip
+        return done
 
     def extended(self, more: Iterable[Free], active: Iterable[str]) -> Problem:
         """Return the problem with further free parameters and terms."""

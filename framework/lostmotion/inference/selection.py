@@ -211,14 +211,16 @@ def _standing(fit: Fit) -> tuple[float, float]:
     keys = [s.key for term in fit.problem.active for s in term_of(fit.problem, term)[1] if s.param.null is not None]
     at = [fit.problem.keys.index(key) for key in keys]
     sizes = np.abs(fit.theta[at]) / np.maximum(robust[at], 1e-300)
-    return float(np.min(sizes, initial=math.inf)), float(np.max(robust[at] / np.maximum(usual[at], 1e-300), initial=1.0))
+    return float(np.min(sizes, initial=math.inf)), float(
+        np.max(robust[at] / np.maximum(usual[at], 1e-300), initial=1.0)
+    )
 
 
-def significant_random_force(fit: Fit, usual: float) -> float:
+def significant_random_force(fit: Fit) -> float:
     """Return the log-likelihood that a random force beyond three times the usual noise of the drive adds."""
     problem = fit.problem
     i = problem.keys.index(RANDOM)
-    cap = usual + 2.0 * math.log(3.0)
+    cap = problem.scales.usual + 2.0 * math.log(3.0)
     if fit.theta[i] <= cap:
         return 0.0
     frees = list(problem.free)

@@ -28,7 +28,7 @@ LEAST = 2.0 * math.log(0.1)
 def split(tracks: Sequence[Track]) -> tuple[tuple[Track, ...], tuple[Track, ...]]:
     """Return what is fitted and what is held out: the last 30 % of one recording, or the last 30 % of several."""
     if len(tracks) == 1:
-        cut = int(round((1.0 - HELD_OUT) * tracks[0].samples))
+        cut = round((1.0 - HELD_OUT) * tracks[0].samples)
         return (tracks[0].part(0, cut),), (tracks[0].part(cut, tracks[0].samples),)
     kept = max(1, len(tracks) - max(1, round(HELD_OUT * len(tracks))))
     return tuple(tracks[:kept]), tuple(tracks[kept:])
@@ -54,7 +54,9 @@ def _rate(track: Track) -> float:
     floor = 3.0 * float(np.median(power[-len(power) // 5 :]))
     power = np.maximum(power - floor, 0.0)
     omega = 2.0 * math.pi * np.fft.rfftfreq(len(z), track.dt)
-    return float(math.sqrt(np.sum(power * omega**2) / max(np.sum(power), 1e-300))) or 2.0 * math.pi / (len(z) * track.dt)
+    return float(math.sqrt(np.sum(power * omega**2) / max(np.sum(power), 1e-300))) or 2.0 * math.pi / (
+        len(z) * track.dt
+    )
 
 
 def free_of(slot: Slot, prior: Prior) -> Free:
@@ -67,12 +69,25 @@ def free_of(slot: Slot, prior: Prior) -> Free:
     return Free(slot.key, slot.unit, 0.5 * (low + high), low, high, log=log)
 
 
+def usual_of(problem: Problem, rate: float) -> float:
+    """Return the log intensity of the random force that the usual noise of a measured excitation makes.
+
+    The noise of a base motion enters through the stiffness of the joint, of which `rate` (1/s) is the fastest motion.
+    """
+    system, track = problem.system, problem.tracks[0]
+    size = USUAL * problem.scales.force
+    if "force" not in system.model.inputs:
+        inertia = problem.known[system.index[system.model.interfaces[0].inertia]]
+        size = USUAL * math.sqrt(2.0) * float(np.std(track.inputs[:, 0])) * inertia * rate**2
+    return math.log(max(size, 1e-300) ** 2 * track.dt)
+
+
 def noise_frees(tracks: Sequence[Track], scales: Scales) -> tuple[Free, Free]:
     """Return the two noise levels: the intensity of a random force, and the measurement noise, as logarithms.
 
     The random force has a broad normal prior about the usual noise of a measured excitation.
     """
-    usual = usual_intensity(tracks, scales)
+    usual = scales.usual
     noise = math.log(float(np.median([t.noise for t in tracks])))
     return (
         Free(RANDOM, "1", usual + BIG, usual + LEAST, usual + BIG + 6.0, mean=usual, sd=4.0),
@@ -80,13 +95,8 @@ def noise_frees(tracks: Sequence[Track], scales: Scales) -> tuple[Free, Free]:
     )
 
 
-def usual_intensity(tracks: Sequence[Track], scales: Scales) -> float:
-    """Return the log intensity of the random force that the usual noise of a measured excitation makes."""
-    return math.log((USUAL * scales.force) ** 2 * tracks[0].dt)
-
-
 def known_of(system: System, case: Case) -> Array:
-    """Return the full parameter vector of what a case says is known; estimated ones stand at the middle of the prior."""
+    """Return the full parameter vector of what a case says is known; the rest stands at the middle of its prior."""
     try:
         values = {system.slot(name).key: value for name, value in case.known.items()}
         guesses = {system.slot(name).key: prior.start() for name, prior in case.estimate.items()}
@@ -94,9 +104,13 @@ def known_of(system: System, case: Case) -> Array:
         raise CaseError(str(err)) from err
     if twice := set(values) & set(guesses):
         raise CaseError(f"{sorted(twice)[0]} is both known and to be estimated: keep one of them")
-    lacking = [s.key for s in system.slots if s.term is None and s.param.scale == "log" and s.key not in {*values, *guesses}]
+    lacking = [
+        s.key for s in system.slots if s.term is None and s.param.scale == "log" and s.key not in {*values, *guesses}
+    ]
     if lacking:
-        raise CaseError(f"{system.model.name} needs {', '.join(lacking)}: give each in [model.known] or in [model.estimate]")
+        raise CaseError(
+            f"{system.model.name} needs {', '.join(lacking)}: give each in [model.known] or in [model.estimate]"
+        )
     return system.vector({**values, **guesses})
 
 
@@ -105,21 +119,28 @@ def problem_of(system: System, case: Case, tracks: tuple[Track, ...], *, jobs: i
     known = known_of(system, case)
     scales = scales_of(system, tracks, known)
     frees = [free_of(system.slot(name), prior) for name, prior in case.estimate.items()]
-    problem = Problem(system, tracks, scales, known, (*frees, *noise_frees(tracks, scales)), jobs=jobs)
+    problem = Problem(system, tracks, scales, known, tuple(frees), jobs=jobs)
+    scales = replace(scales, usual=usual_of(problem, rate_of(problem, problem.start)))
+    problem = replace(problem, scales=scales, free=(*frees, *noise_frees(tracks, scales)))
     return stepped(problem, problem.start)
+
+
+def rate_of(problem: Problem, theta: Array) -> float:
+    """Return the fastest rate (1/s) of the linearised motion over the region that the recording covers."""
+    system, scales, track = problem.system, problem.scales, problem.tracks[0]
+    grid = np.linspace(-1.5, 1.5, 7)
+    states = np.zeros((len(grid) * 3, len(system.model.states)))
+    states[:, 0] = np.repeat(grid, 3) * scales.length
+    states[:, 1] = np.tile([-1.0, 0.03, 1.0], len(grid)) * scales.velocity
+    middle = np.repeat(np.mean(track.inputs, axis=0)[None], len(states), axis=0)
+    rate = system.stiffness(problem.full(theta), problem.active, states, middle)
+    return max(rate, 1.0 / scales.time)
 
 
 def stepped(problem: Problem, theta: Array, *, accuracy: float = 0.06) -> Problem:
     """Return the problem with as many steps between samples as the stiffness along the recorded motion asks for."""
-    system, scales, track = problem.system, problem.scales, problem.tracks[0]
-    grid = np.linspace(-1.5, 1.5, 7)
-    states = np.array([[a * scales.length, b * scales.velocity] for a in grid for b in (-1.0, 0.03, 1.0)])
-    padded = np.zeros((len(states), len(system.model.states)))
-    padded[:, : states.shape[1]] = states
-    middle = np.repeat(np.mean(track.inputs, axis=0)[None], len(states), axis=0)
-    rate = system.stiffness(problem.full(theta), problem.active, padded, middle)
-    rate = max(rate, 1.0 / scales.time)
-    return replace(problem, nsub=substeps(rate, track.dt, accuracy=accuracy))
+    rate = rate_of(problem, theta)
+    return replace(problem, nsub=substeps(rate, problem.tracks[0].dt, accuracy=accuracy))
 
 
 def search(problem: Problem, rng: np.random.Generator, *, points: int = 48, finalists: int = 4) -> Fit:

@@ -17,7 +17,7 @@ def smoothing_spline(x: Array, dt: float) -> BSpline:
 
     Cost is linear in n. A series without visible noise is interpolated.
     """
-    t = np.arange(len(x)) * dt
+    t: Array = np.arange(len(x), dtype=float) * dt
     best, fit, worse = math.inf, make_interp_spline(t, x, k=DEGREE), 0
     floor = 1e-12 * float(np.var(x))
     for spacing in reversed(_spacings(len(x))):

@@ -39,7 +39,7 @@ class Track:
     @property
     def time(self) -> Array:
         """The time of each sample from the start of the recording, in s."""
-        return (self.begin + np.arange(self.samples)) * self.dt
+        return np.asarray((self.begin + np.arange(self.samples)) * self.dt, dtype=float)
 
     def part(self, start: int, stop: int) -> Track:
         """Return the samples from `start` up to `stop` as a track of its own."""
@@ -92,7 +92,12 @@ def track_of(recording: Recording, model: Model, *, held: bool = False) -> Track
         inputs = np.stack([spline(t), spline.derivative()(t)], axis=1)
     response = recording.data["response"]
     return Track(
-        recording.name, np.asarray(response.values, dtype=float), inputs, recording.dt, str(response.attrs["quantity"]), held
+        recording.name,
+        np.asarray(response.values, dtype=float),
+        inputs,
+        recording.dt,
+        str(response.attrs["quantity"]),
+        held,
     )
 
 

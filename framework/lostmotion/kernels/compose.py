@@ -25,8 +25,7 @@ import numpy as np
 
 from lostmotion.kernels.views import slow_view, view
 
-
-BARE = {"error_model": "numpy", "nogil": True, "_nrt": False}
+BARE: dict[str, Any] = {"error_model": "numpy", "nogil": True, "_nrt": False}
 """Without numba's run time nothing can be allocated in a kernel, and no references are counted: eight times faster."""
 
 

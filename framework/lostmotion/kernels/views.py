@@ -8,10 +8,11 @@ import numpy as np
 from numba import types
 from numba.core import cgutils
 from numba.extending import intrinsic
+from numpy.typing import NDArray
 
 
 @intrinsic
-def view(typingctx: Any, array: Any, start: Any, size: Any) -> Any:  # noqa: ARG001 - numba's signature
+def view(typingctx: Any, array: Any, start: Any, size: Any) -> Any:
     """Return `array[start:start + size]` of a contiguous vector; the vector must outlive it.
 
     An ordinary slice counts references with atomic operations, which costs more than a force law.
@@ -26,8 +27,8 @@ def view(typingctx: Any, array: Any, start: Any, size: Any) -> Any:  # noqa: ARG
         context.populate_array(
             window,
             data=builder.gep(source.data, [args[1]]),
-            shape=cgutils.pack_array(builder, [args[2]]),
-            strides=cgutils.pack_array(builder, [item]),
+            shape=_packed(builder, args[2]),
+            strides=_packed(builder, item),
             itemsize=item,
             meminfo=None,
         )
@@ -36,6 +37,10 @@ def view(typingctx: Any, array: Any, start: Any, size: Any) -> Any:  # noqa: ARG
     return signature, codegen
 
 
-def slow_view(array: np.ndarray, start: int, size: int) -> np.ndarray:  # type: ignore[type-arg]
+def _packed(builder: Any, value: Any) -> Any:
+    return cgutils.pack_array(builder, [value])  # type: ignore[no-untyped-call]
+
+
+def slow_view(array: NDArray[np.float64], start: int, size: int) -> NDArray[np.float64]:
     """Return the same window in plain Python."""
     return array[start : start + size]

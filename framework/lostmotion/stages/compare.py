@@ -38,7 +38,7 @@ class Piece:
 
 @dataclass(frozen=True)
 class Prediction:
-    """How one model predicts held-out data: scores, error growth (steps,), a forecast of the first piece, innovations."""
+    """How one model predicts held-out data: scores, error growth (steps,), a forecast, the innovations."""
 
     log_score: float
     nrmse: float

@@ -14,7 +14,7 @@ from lostmotion.inference.latent import Missing, missing_force
 from lostmotion.inference.locate import Curve, covariates, curve, edges_of, shares, summary
 from lostmotion.inference.problem import LEVELS
 from lostmotion.inference.selection import Selection, Selector, significant_random_force
-from lostmotion.inference.setup import problem_of, search, split, stepped, usual_intensity
+from lostmotion.inference.setup import problem_of, search, split, stepped
 from lostmotion.inference.tracks import Track
 from lostmotion.system import System
 
@@ -22,7 +22,7 @@ SIGNIFICANT = 8.0
 """A random force beyond the usual noise of the drive counts when it gains this much log-likelihood."""
 STRUCTURED = 0.1
 FINE = 0.015
-"""Final estimates integrate with steps of this accuracy: a quarter of those of the search (a kink makes RK4 first order)."""
+"""Final estimates take steps a quarter as long as those of the search: a kink makes RK4 first order."""
 
 
 @dataclass(frozen=True)
@@ -95,7 +95,7 @@ def diagnose(
     say("final estimates")
     before = polish(selection.nominal)
     after = polish(selection.chosen) if selection.chosen.problem.active else before
-    gain = significant_random_force(after, usual_intensity(train, after.problem.scales))
+    gain = significant_random_force(after)
     say("missing force")
     shown = tracks[0] if len(tracks) == 1 else held[0]
     return _located(Diagnosis(before, after, selection, shown, _NOWHERE, None, _NO, {}, {}, gain, train, held))

@@ -19,13 +19,13 @@ _STEPS = 5
 
 def pull(term: Term, point: Point, function: Any = None) -> Any:
     """Return the force at a point."""
-    return (function or type(term).force)(point.t, point.x, point.v, point.u, point.p, point.y)
+    return (function or type(term).force)(point.t, point.x, point.v, point.u, tuple(point.p), tuple(point.y))
 
 
 def pace(term: Term, point: Point, function: Any = None, *, over: float = math.nan) -> Array:
     """Return the time derivative of the own states, written over `over`."""
     dsdt = np.full(len(term.states), over)
-    (function or type(term).rate)(point.t, point.x, point.v, point.u, point.p, point.y, dsdt)
+    (function or type(term).rate)(point.t, point.x, point.v, point.u, tuple(point.p), tuple(point.y), dsdt)
     return dsdt
 
 

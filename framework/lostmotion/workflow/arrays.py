@@ -63,7 +63,9 @@ def _series(outcome: Outcome) -> dict[str, Column]:
         table["left_force"] = Column(time, left.force, units["force"], "force left unexplained")
         table["left_force_sd"] = Column(time, left.sd, units["force"], "standard deviation of the force left")
         table["law"] = Column(time, d.law, units["force"], "force of the found terms")
-        table["forecast_after"] = Column(time, outcome.after.forecast, seen, "free-running prediction of the augmented model")
+        table["forecast_after"] = Column(
+            time, outcome.after.forecast, seen, "free-running prediction of the augmented model"
+        )
     return table
 
 

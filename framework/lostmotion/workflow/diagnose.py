@@ -66,8 +66,8 @@ def _background(prepared: Prepared, diagnosis: Diagnosis, seed: int) -> dict[str
     declined = sorted(diagnosis.selection.declined - set(diagnosis.found))
     held_back = (
         [
-            f"{', '.join(declined)} would raise the likelihood further, but what is left over has a memory and that rise"
-            " is not believed: a recording of a different motion would decide."
+            f"{', '.join(declined)} would raise the likelihood further, but what is left over has a memory and that"
+            " rise is not believed: a recording of a different motion would decide."
         ]
         if declined
         else []

@@ -54,4 +54,6 @@ def _alike(recordings: Sequence[Recording]) -> None:
     """Refuse recordings of different quantities."""
     kinds = {str(r.data["response"].attrs["quantity"]) for r in recordings}
     if len(kinds) > 1:
-        raise CaseError(f"the recordings show {' and '.join(sorted(kinds))}: put recordings of one quantity into a case")
+        raise CaseError(
+            f"the recordings show {' and '.join(sorted(kinds))}: put recordings of one quantity into a case"
+        )

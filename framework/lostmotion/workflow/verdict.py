@@ -26,7 +26,7 @@ WORTH_NAMING = 0.05
 
 @dataclass(frozen=True)
 class Outcome:
-    """A diagnosis with its predictions, the horizon they are judged over, and draws of both posteriors (draws, keys)."""
+    """A diagnosis, its predictions, the horizon they are judged over, draws (draws, keys) of both posteriors."""
 
     diagnosis: Diagnosis
     before: Prediction
@@ -115,7 +115,9 @@ def _setting(outcome: Outcome) -> dict[str, Any]:
 
 def _white(p: float) -> str:
     if p < 0.01:
-        return f"One-step errors are not white (Ljung-Box p = {p:.2g}): they still hold something that can be predicted."
+        return (
+            f"One-step errors are not white (Ljung-Box p = {p:.2g}): they still hold something that can be predicted."
+        )
     return f"One-step errors cannot be told from white noise (Ljung-Box p = {p:.2g})."
 
 
@@ -155,7 +157,9 @@ def _entry(d: Diagnosis, key: str, after: Mapping[str, Interval]) -> dict[str, A
         "probability": d.selection.inclusion(key),
         "parameters": {name: interval.as_dict() for name, interval in own.items()},
         "share_of_drive": share,
-        "says": f"{sentence}, at most {share:.2g} of the drive." if share < 0.001 else f"{sentence}, at most {share:.1%} of the drive.",
+        "says": f"{sentence}, at most {share:.2g} of the drive."
+        if share < 0.001
+        else f"{sentence}, at most {share:.1%} of the drive.",
     }
 
 
@@ -172,7 +176,7 @@ def _unnamed(d: Diagnosis, depends: list[str]) -> dict[str, Any]:
         "probability": 1.0 - math.exp(-d.random_gain),
         "parameters": {"rms": gain.as_dict()},
         "depends_on": depends,
-        "says": f"A force of {rms:.3g} {unit} rms, {share:.1%} of the drive, is missing that no term explains; it {on}.",
+        "says": f"A force of {rms:.3g} {unit} rms, {share:.1%} of the drive, is missing; no term explains it; it {on}.",
     }
 
 
@@ -191,7 +195,9 @@ def _ranking(d: Diagnosis) -> list[dict[str, Any]]:
             }
         )
     nothing = selection.probabilities().get(frozenset(), 0.0)
-    rows.append({"mechanism": "nothing_missing", "at": "", "log_evidence_gain": 0.0, "probability": nothing, "fitted": True})
+    rows.append(
+        {"mechanism": "nothing_missing", "at": "", "log_evidence_gain": 0.0, "probability": nothing, "fitted": True}
+    )
     return sorted(rows, key=lambda row: (-row["probability"], -row["log_evidence_gain"]))
 
 
@@ -202,7 +208,7 @@ def _confused(d: Diagnosis) -> list[dict[str, Any]]:
         key = key_of(term)
         p = d.selection.inclusion(key)
         if key not in d.found and p > WORTH_NAMING:
-            says = f"This recording gives {term.name} a probability of {p:.2f}: a recording at another drive level would decide."
+            says = f"This recording gives {term.name} a probability of {p:.2f}: another drive level would decide."
             rows.append({"mechanism": term.name, "at": term.at, "probability": p, "says": says})
     return rows
 
@@ -236,10 +242,10 @@ def says(outcome: Outcome, found: list[dict[str, Any]]) -> list[str]:
     opening = [f"{entry['says'][:-1]}, was left out." if i == 0 else entry["says"] for i, entry in enumerate(found)]
     old, new = _unexplained(d, after=False), _unexplained(d, after=True)
     opening.append(
-        f"With {'it' if len(found) == 1 else 'them'} the unexplained force falls from {old['rms']:.3g} to {new['rms']:.2g}"
-        f" {new['unit']} (rms), and the free-running prediction error of held-out data over {span} from"
-        f" {fit['before']['heldout_nrmse']:.1%} to {fit['after']['heldout_nrmse']:.1%} of the response; the noise alone is"
-        f" {fit['noise_floor_nrmse']:.1%}."
+        f"With {'it' if len(found) == 1 else 'them'} the unexplained force falls from {old['rms']:.3g} to"
+        f" {new['rms']:.2g} {new['unit']} (rms), and the free-running prediction error of held-out data over {span}"
+        f" from {fit['before']['heldout_nrmse']:.1%} to {fit['after']['heldout_nrmse']:.1%} of the response; the noise"
+        f" alone is {fit['noise_floor_nrmse']:.1%}."
     )
     if d.unexplained:
         opening.append(f"A force of {new['rms']:.2g} {new['unit']} rms remains that no term of the library explains.")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-from lostmotion.contracts import Array, Param, Term
+from lostmotion.contracts import Array, Param, Term, Values
 from lostmotion.quantities import DAMPING, LENGTH
 
 
@@ -22,7 +22,7 @@ class ContactDamping(Term):
     needs = ("x0",)
 
     @staticmethod
-    def force(t: float, x: float, v: float, u: Array, p: Array, s: Array) -> float:
+    def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
         return -p[0] * v if abs(x) > p[1] else 0.0
 
 
@@ -39,7 +39,7 @@ class AsymmetricGap(Term):
     needs = ("k0", "x0")
 
     @staticmethod
-    def force(t: float, x: float, v: float, u: Array, p: Array, s: Array) -> float:
+    def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
         k0 = p[1]
         x0 = p[2]
         y = x - p[0]

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import ClassVar
 
-from lostmotion.contracts import Array, Param, Term
+from lostmotion.contracts import Array, Param, Term, Values
 from lostmotion.quantities import FORCE, STIFFNESS, Dimension
 
 
@@ -22,7 +22,7 @@ class LinearStiffness(Term):
     params = (Param("coefficient", "stiffness", STIFFNESS, null=0.0),)
 
     @staticmethod
-    def force(t: float, x: float, v: float, u: Array, p: Array, s: Array) -> float:
+    def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
         return -p[0] * x
 
 
@@ -38,7 +38,7 @@ class CubicStiffness(Term):
     params = (Param("coefficient", "cubic stiffness", Dimension(1, -3, 0), null=0.0),)
 
     @staticmethod
-    def force(t: float, x: float, v: float, u: Array, p: Array, s: Array) -> float:
+    def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
         return -p[0] * x * x * x
 
 
@@ -54,7 +54,7 @@ class OffsetForce(Term):
     params = (Param("force", "constant force in positive direction", FORCE, null=0.0),)
 
     @staticmethod
-    def force(t: float, x: float, v: float, u: Array, p: Array, s: Array) -> float:
+    def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
         return p[0]
 
 
@@ -72,5 +72,5 @@ class GravityPendulum(Term):
     resembles = ("linear_stiffness",)
 
     @staticmethod
-    def force(t: float, x: float, v: float, u: Array, p: Array, s: Array) -> float:
+    def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
         return -p[0] * math.sin(x)

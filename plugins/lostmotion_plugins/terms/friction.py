@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import ClassVar
 
-from lostmotion.contracts import Array, Param, Term
+from lostmotion.contracts import Array, Param, Term, Values
 from lostmotion.quantities import FORCE, LENGTH, SPEED
 
 
@@ -24,7 +24,7 @@ class CoulombFriction(Term):
     resembles = ("stribeck_friction", "lugre_friction", "dahl_friction")
 
     @staticmethod
-    def force(t: float, x: float, v: float, u: Array, p: Array, s: Array) -> float:
+    def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
         width = abs(p[0]) * p[1]
         if abs(v) >= width:
             return -p[0] if v > 0.0 else (p[0] if v < 0.0 else 0.0)
@@ -37,7 +37,9 @@ class StribeckFriction(Term):
 
     at: str = "ground"
     name: ClassVar[str] = "stribeck_friction"
-    physics: ClassVar[str] = "Dry friction of {force}, rising by {excess} towards rest below {velocity}, opposes the motion"
+    physics: ClassVar[str] = (
+        "Dry friction of {force}, rising by {excess} towards rest below {velocity}, opposes the motion"
+    )
     formula: ClassVar[str] = "-(force + excess * exp(-(v/velocity)^2)) * sign(v)"
     paper: ClassVar[str] = "Armstrong-Helouvry, Dupont, Canudas de Wit, Automatica 30 (1994) 1083-1138, eq. (6)"
     params = (
@@ -49,7 +51,7 @@ class StribeckFriction(Term):
     resembles = ("coulomb_friction", "lugre_friction", "dahl_friction")
 
     @staticmethod
-    def force(t: float, x: float, v: float, u: Array, p: Array, s: Array) -> float:
+    def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
         size = p[0] + p[1] * math.exp(-((v / p[2]) ** 2))
         width = (abs(p[0]) + abs(p[1])) * p[3]
         if abs(v) >= width:
@@ -67,7 +69,9 @@ class LuGreFriction(Term):
 
     at: str = "ground"
     name: ClassVar[str] = "lugre_friction"
-    physics: ClassVar[str] = "Dry friction of {force} with {deflection} of elastic travel before it slides opposes the motion"
+    physics: ClassVar[str] = (
+        "Dry friction of {force} with {deflection} of elastic travel before it slides opposes the motion"
+    )
     formula: ClassVar[str] = "-f,  f' = |v|/deflection * (force * sign(v) - f)"
     paper: ClassVar[str] = "Canudas de Wit, Olsson, Astrom, Lischinsky, IEEE Trans. Automatic Control 40 (1995) 419-425"
     params = (
@@ -79,11 +83,11 @@ class LuGreFriction(Term):
     resembles = ("coulomb_friction", "stribeck_friction", "dahl_friction", "bouc_wen_hysteresis")
 
     @staticmethod
-    def force(t: float, x: float, v: float, u: Array, p: Array, s: Array) -> float:
+    def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
         return -s[0]
 
     @staticmethod
-    def rate(t: float, x: float, v: float, u: Array, p: Array, s: Array, dsdt: Array) -> None:
+    def rate(t: float, x: float, v: float, u: Array, p: Values, s: Values, dsdt: Array) -> None:
         pace = min(abs(v) / p[1], 1.0 / p[2])
         level = p[0] if v > 0.0 else -p[0]
         dsdt[0] = pace * (level - s[0])

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-from lostmotion.contracts import Array, Param, Term
+from lostmotion.contracts import Array, Param, Term, Values
 from lostmotion.quantities import DAMPING, Dimension
 
 
@@ -21,7 +21,7 @@ class ViscousDamping(Term):
     params = (Param("coefficient", "viscous coefficient", DAMPING, low=0.0, null=0.0),)
 
     @staticmethod
-    def force(t: float, x: float, v: float, u: Array, p: Array, s: Array) -> float:
+    def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
         return -p[0] * v
 
 
@@ -37,5 +37,5 @@ class QuadraticDamping(Term):
     params = (Param("coefficient", "drag coefficient", Dimension(1, -2, 2), low=0.0, null=0.0),)
 
     @staticmethod
-    def force(t: float, x: float, v: float, u: Array, p: Array, s: Array) -> float:
+    def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
         return -p[0] * v * abs(v)

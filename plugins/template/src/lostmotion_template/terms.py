@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-from lostmotion.contracts import Array, Param, Term
+from lostmotion.contracts import Array, Param, Term, Values
 from lostmotion.quantities import STIFFNESS, TIME
 
 
@@ -31,9 +31,9 @@ class MaxwellElement(Term):
     resembles = ("viscous_damping", "linear_stiffness")
 
     @staticmethod
-    def force(t: float, x: float, v: float, u: Array, p: Array, s: Array) -> float:
+    def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
         return -s[0]
 
     @staticmethod
-    def rate(t: float, x: float, v: float, u: Array, p: Array, s: Array, dsdt: Array) -> None:
+    def rate(t: float, x: float, v: float, u: Array, p: Values, s: Values, dsdt: Array) -> None:
         dsdt[0] = p[0] * v - s[0] / max(p[1], p[2])
