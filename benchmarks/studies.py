@@ -1,0 +1,172 @@
+"""Recordings of known truth, and what a diagnosis says of each; the tables of `first_light.py` are made of these."""
+
+from __future__ import annotations
+
+import json
+import math
+import multiprocessing
+import os
+import subprocess
+import sys
+import time
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import asdict, dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+ROOT = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(ROOT / "tests" / "science"))
+
+TRUE = {"m": 1.0, "c": 8.0, "k1": 0.0, "k0": 4e4, "x0": 0.005}
+TWO = {"c": (0.8, 80.0), "x0": (5e-4, 5e-2)}
+THREE = {**TWO, "k0": (4e3, 4e5)}
+FRICTION = "coulomb_friction"
+FORCE = f"{FRICTION}.force"
+
+
+@dataclass(frozen=True)
+class Study:
+    """One recording to be diagnosed: what is hidden in it (N), its length and noise, and what is unknown."""
+
+    hidden: float
+    seed: int = 0
+    periods: int = 29
+    noise: float = 0.01
+    gap: bool = True
+    predict: bool = False
+
+    @property
+    def unknown(self):
+        return THREE if self.gap else TWO
+
+
+def track_for(study):
+    """Return the recording of a study as the stages see it."""
+    from independent import Machine, recording
+
+    from lostmotion.inference.tracks import Track
+
+    seen = recording(Machine(coulomb=study.hidden), periods=study.periods, noise=study.noise, seed=study.seed)
+    return Track("recording", seen.position, seen.force[:, None], float(seen.time[1]), "position")
+
+
+def case_for(study):
+    """Return the case of a study: log-uniform priors over two decades."""
+    from lostmotion.case import Case, Prior
+
+    known = {k: v for k, v in TRUE.items() if k not in study.unknown}
+    priors = {k: Prior(low=low, high=high, scale="log") for k, (low, high) in study.unknown.items()}
+    return Case("study", Path(), (), "lin_backlash", known, priors, {}, (), "")
+
+
+def run(study):
+    """Return what a diagnosis says of a study, as numbers and names."""
+    from lostmotion.registry import default
+    from lostmotion.stages.diagnose import candidates_of, diagnose
+    from lostmotion.system import System
+
+    registry = default()
+    model = registry.make("model", "lin_backlash")
+    terms = candidates_of(model, [registry.load("term", name) for name in registry.names("term")])
+    track, start = track_for(study), time.perf_counter()
+    d = diagnose(case_for(study), [track], System(model, terms), rng=np.random.default_rng(0), jobs=1)
+    taken = time.perf_counter() - start
+    more = predictions(d, track) if study.predict else {}
+    return {**asdict(study), "seconds": taken, **findings(d), **more}
+
+
+def findings(d):
+    """Return names, intervals, gains and statuses of a diagnosis."""
+    from lostmotion.workflow.verdict import draws_of, intervals
+
+    rng = np.random.default_rng(1)
+    course = d.selection
+    bottom = course.nominal
+    gains = {"+".join(sorted(k)): v.fit.log_likelihood - bottom.log_likelihood for k, v in course.visits.items()}
+    friction = d.after if FRICTION in d.found else None
+    if frozenset({FRICTION}) in course.visits and friction is None:
+        friction = course.visits[frozenset({FRICTION})].fit
+    wide = {"before": d.before, "after": d.after, **({"friction": friction} if friction else {})}
+    return {
+        "found": list(d.found),
+        "probability": {k: course.inclusion(k) for k in d.after.problem.system.keys},
+        "nothing": course.probabilities().get(frozenset(), 0.0),
+        "gains": gains,
+        "hints": {k: h.gain for k, h in course.hints.items()},
+        "evidence": {"+".join(sorted(k)): v.weight for k, v in course.visits.items()},
+        "status": {"+".join(sorted(k)): f"{v.fit.status} {v.fit.rounds}" for k, v in course.visits.items()},
+        "declined": sorted(course.declined),
+        "random_gain": d.random_gain,
+        "verdict": list(d.found) or (["unknown"] if d.unknown else ["random_force"] if d.unexplained else []),
+        "levels": {n: dict(zip(f.problem.keys, map(float, f.theta), strict=True)) for n, f in wide.items()},
+        "usual": {n: {k: float(s) for k, s in f.sd.items()} for n, f in wide.items()},
+        "intervals": {n: {k: i.as_dict() for k, i in intervals(f, draws_of(f, rng)).items()} for n, f in wide.items()},
+        "nsub": [d.before.problem.nsub, d.after.problem.nsub],
+    }
+
+
+def predictions(d, track):
+    """Return valid-prediction times on held-out starts, in Lyapunov times: before, after, and with the truth."""
+    from lostmotion.stages.compare import exponent_of, horizon_for, pieces_of, predict
+
+    pieces = pieces_of([track], d.held)
+    fits = {"before": d.before, "after": d.after, "truth": truth_of(d)}
+    exponents = {name: exponent_of(fit, [track]) for name, fit in fits.items()}
+    horizon = horizon_for(d.after, pieces, exponents["after"])
+    seen = {name: predict(fit, pieces, horizon, exponents[name]) for name, fit in fits.items()}
+    return {
+        "exponents": exponents,
+        "valid": {name: p.valid_time / horizon.unit_time for name, p in seen.items()},
+        "nrmse": {name: p.nrmse for name, p in seen.items()},
+        "score": {name: p.log_score for name, p in seen.items()},
+        "unit": horizon.unit,
+    }
+
+
+def truth_of(d):
+    """Return the fit with every parameter at its true value and the noise levels as they were found."""
+    from lostmotion.inference.problem import LEVELS
+
+    fit, system = d.after, d.after.problem.system
+    kept = [i for i, key in enumerate(fit.problem.keys) if key in LEVELS]
+    full = system.vector({**TRUE, FORCE: 3.0})
+    free = tuple(fit.problem.free[i] for i in kept)
+    problem = replace(fit.problem, known=full, free=free, active=frozenset({FRICTION}))
+    return replace(fit, problem=problem, local=replace(fit.local, theta=fit.theta[kept]))
+
+
+def several(studies, args):
+    """Return the results of studies, in order, from `--jobs` processes; each is kept as a line of JSON if wanted."""
+    os.environ["OMP_NUM_THREADS"] = "1"
+    with ProcessPoolExecutor(args.jobs, mp_context=multiprocessing.get_context("spawn")) as pool:
+        results = []
+        for result in pool.map(run, studies):
+            results.append(result)
+            if args.keep:
+                with args.keep.open("a") as stream:
+                    stream.write(json.dumps(result) + "\n")
+        return results
+
+
+def z_scores(found, key, hidden):
+    """Return how many of its stated standard deviations an estimate lies from the truth."""
+    truth, scores = {**TRUE, FORCE: hidden}[key], []
+    for r in found:
+        i = r["intervals"]["after"].get(key)
+        if i:
+            scores.append((i["median"] - truth) / ((i["high"] - i["low"]) / (2 * 1.96)))
+    return np.array(scores)
+
+
+def rms(values):
+    return float(np.sqrt(np.mean(np.square(values)))) if len(values) else math.nan
+
+
+def command(text, folder):
+    """Return `diagnosis.json` and the time of `lostmotion diagnose` as a whole process."""
+    (folder / "case.toml").write_text(text)
+    line = [sys.executable, "-m", "lostmotion", "diagnose", str(folder / "case.toml"), "--out", str(folder / "out")]
+    start = time.perf_counter()
+    subprocess.run([*line, "--quiet"], check=True, stdout=subprocess.DEVNULL)
+    return json.loads((folder / "out" / "diagnosis.json").read_text()), time.perf_counter() - start
