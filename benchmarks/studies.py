@@ -18,11 +18,9 @@ import numpy as np
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "tests" / "science"))
 
-TRUE = {"m": 1.0, "c": 8.0, "k1": 0.0, "k0": 4e4, "x0": 0.005}
-TWO = {"c": (0.8, 80.0), "x0": (5e-4, 5e-2)}
-THREE = {**TWO, "k0": (4e3, 4e5)}
-FRICTION = "coulomb_friction"
-FORCE = f"{FRICTION}.force"
+from truths import FORCE, FRICTION, TRUE, case_of, system_of, track_of  # noqa: E402 - they lie beside the tests
+
+__all__ = ["FORCE", "FRICTION", "ROOT", "TRUE", "Study", "command", "rms", "several", "track_for", "z_scores"]
 
 
 @dataclass(frozen=True)
@@ -38,39 +36,20 @@ class Study:
 
     @property
     def unknown(self):
-        return THREE if self.gap else TWO
+        return ("c", "x0", "k0") if self.gap else ("c", "x0")
 
 
 def track_for(study):
-    """Return the recording of a study as the stages see it."""
-    from independent import Machine, recording
-
-    from lostmotion.inference.tracks import Track
-
-    seen = recording(Machine(coulomb=study.hidden), periods=study.periods, noise=study.noise, seed=study.seed)
-    return Track("recording", seen.position, seen.force[:, None], float(seen.time[1]), "position")
-
-
-def case_for(study):
-    """Return the case of a study: log-uniform priors over two decades."""
-    from lostmotion.case import Case, Prior
-
-    known = {k: v for k, v in TRUE.items() if k not in study.unknown}
-    priors = {k: Prior(low=low, high=high, scale="log") for k, (low, high) in study.unknown.items()}
-    return Case("study", Path(), (), "lin_backlash", known, priors, {}, (), "")
+    """Return the recording of a study."""
+    return track_of(study.hidden, seed=study.seed, periods=study.periods, noise=study.noise)[0]
 
 
 def run(study):
     """Return what a diagnosis says of a study, as numbers and names."""
-    from lostmotion.registry import default
-    from lostmotion.stages.diagnose import candidates_of, diagnose
-    from lostmotion.system import System
+    from lostmotion.stages.diagnose import diagnose
 
-    registry = default()
-    model = registry.make("model", "lin_backlash")
-    terms = candidates_of(model, [registry.load("term", name) for name in registry.names("term")])
     track, start = track_for(study), time.perf_counter()
-    d = diagnose(case_for(study), [track], System(model, terms), rng=np.random.default_rng(0), jobs=1)
+    d = diagnose(case_of(study.unknown), [track], system_of(), rng=np.random.default_rng(0), jobs=1)
     taken = time.perf_counter() - start
     more = predictions(d, track) if study.predict else {}
     return {**asdict(study), "seconds": taken, **findings(d), **more}

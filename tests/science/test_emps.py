@@ -1,0 +1,72 @@
+"""A real machine: the published identification of EMPS is found again, from the position alone."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from lostmotion.registry import default
+from lostmotion.stages.diagnose import diagnose
+from lostmotion.system import System
+from lostmotion.workflow.diagnose import judged
+from lostmotion.workflow.prepare import prepare
+from lostmotion.workflow.verdict import intervals
+
+RECORDING = """
+[[recordings]]
+file = "{file}"
+time = "t"
+hold = "step"
+excitation = {{ column = "vir", quantity = "force", unit = "N", factor = 35.15065 }}
+response = {{ column = "qm", quantity = "position", unit = "m" }}
+"""
+MODEL = """
+[model]
+name = "rigid_drive"
+[model.estimate]
+m = { low = 10.0, high = 1000.0, scale = "log" }
+c = { low = 1.0, high = 10000.0, scale = "log" }
+"""
+PUBLISHED = {
+    "m": (95.1089, 0.03),
+    "c": (203.5034, 0.03),
+    "coulomb_friction.force": (20.3935, 0.03),
+    "offset_force.force": (3.1648, 0.10),
+}
+"""Value and relative tolerance: Janot, Gautier, Brunot, Nonlinear System Identification Benchmarks (2019)."""
+
+pytestmark = [pytest.mark.real, pytest.mark.slow]
+
+
+@pytest.fixture(scope="module")
+def outcome(shared, tmp_path_factory):
+    """The diagnosis from DATA_EMPS, judged on DATA_EMPS_PULSES."""
+    data = shared / "data" / "emps"
+    if not data.is_dir():
+        pytest.skip(f"no EMPS recordings: {data} is absent")
+    case = tmp_path_factory.mktemp("emps") / "case.toml"
+    files = [data / "DATA_EMPS.mat", data / "DATA_EMPS_PULSES.mat"]
+    case.write_text("".join(RECORDING.format(file=file.resolve()) for file in files) + MODEL)
+    prepared, rng = prepare(case, default()), np.random.default_rng(0)
+    found = diagnose(prepared.case, prepared.tracks, System(prepared.model, prepared.terms), rng=rng)
+    return judged(found, prepared, rng)
+
+
+def test_friction_and_offset_are_found(outcome):
+    """The two terms that the published model has beside mass and viscous friction. One real recording: no chance."""
+    assert set(outcome.diagnosis.found) == {"coulomb_friction", "offset_force"}
+
+
+def test_values_are_the_published_ones(outcome):
+    """Within 3 % (offset 10 %), and the published values inside our intervals. One real recording: no chance."""
+    ours = intervals(outcome.diagnosis.after, outcome.draws_after)
+    for key, (value, tolerance) in PUBLISHED.items():
+        assert ours[key].median == pytest.approx(value, rel=tolerance), key
+        assert ours[key].low <= value <= ours[key].high, key
+
+
+def test_pulses_that_no_fit_has_seen_are_predicted_better(outcome):
+    """DATA_EMPS_PULSES: the error of a free run falls to less than half. One real recording: no chance."""
+    assert outcome.after.nrmse < 0.5 * outcome.before.nrmse
+    assert outcome.after.valid_time > 2.0 * outcome.before.valid_time
+    assert outcome.after.log_score > outcome.before.log_score

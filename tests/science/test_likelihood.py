@@ -1,0 +1,161 @@
+"""The likelihood against an exact filter, and what is read off it: score tests, error bars, the missing force."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.linalg import expm
+from scipy.stats import chi2
+from truths import FORCE, FRICTION, TRUE, problem_for, system_of, track_of
+
+from lostmotion.inference.candidates import fit_with, frees_of, screen, slopes_of, term_of
+from lostmotion.inference.fit import maximise
+from lostmotion.inference.latent import missing_force
+from lostmotion.inference.problem import NOISE, RANDOM, Free, Problem, Scales
+from lostmotion.inference.tracks import Track
+
+LINEAR = {"m": 2.0, "c": 3.0, "k": 800.0}
+SAMPLES, DT = 400, 0.01
+FORCE_SD, NOISE_SD = 0.3, 1e-3
+
+
+def linear_problem(nsub):
+    """Return the likelihood of a linear oscillator pushed by a held random force, with known parameters."""
+    rng = np.random.default_rng(3)
+    push = rng.standard_normal(SAMPLES)
+    z = np.cumsum(np.cumsum(push)) * 1e-6 + NOISE_SD * rng.standard_normal(SAMPLES)
+    z[[50, 51, 200]] = np.nan
+    track = Track("linear", z, push[:, None], DT, "position", held=True)
+    system = replace(system_of("linear_oscillator"), terms=())
+    free = tuple(Free(key, "1", 0.0, -math.inf, math.inf) for key in (RANDOM, NOISE))
+    return Problem(system, (track,), Scales(1.0, 1e-2, 0.05), system.vector(LINEAR), free, nsub=nsub)
+
+
+THETA = np.array([math.log(FORCE_SD**2 * DT), math.log(NOISE_SD)])
+
+
+def kalman(problem, mean_by, cov_by, noise):
+    """Return innovations and variances of a textbook filter (Kalman 1960); one step is `mean_by`, `cov_by`, `noise`."""
+    track, (y, cov) = problem.tracks[0], problem.initial(0, 2)
+    errors, variances = np.zeros(SAMPLES), np.ones(SAMPLES)
+    for k, z in enumerate(track.z):
+        if np.isfinite(z):
+            errors[k], variances[k] = z - y[0], cov[0, 0] + NOISE_SD**2
+            gain = cov[:, 0] / variances[k]
+            y = y + gain * errors[k]
+            cov = cov - np.outer(gain, gain) * variances[k]
+        for _ in range(problem.nsub):
+            y = (mean_by @ np.append(y, track.inputs[k, 0]))[:2]
+            cov = cov_by @ cov @ cov_by.T + noise
+    return errors, variances
+
+
+def dynamics(h):
+    """Return h times the matrix of (position, velocity, held force), and the intensity of the random force."""
+    m, c, k = LINEAR["m"], LINEAR["c"], LINEAR["k"]
+    return h * np.array([[0.0, 1.0, 0.0], [-k / m, -c / m, 1.0 / m], [0.0, 0.0, 0.0]]), FORCE_SD**2 * DT / m**2
+
+
+def likelihood(errors, variances):
+    return -0.5 * np.sum(errors**2 / variances + np.log(2.0 * np.pi * variances))
+
+
+def test_filter_is_kalmans_for_a_linear_machine():
+    """Same steps, plain NumPy: innovations and variances to 1e-8 (Kalman, J. Basic Eng. 82 (1960) 35-45). No chance."""
+    problem = linear_problem(4)
+    a, q = dynamics(DT / 4)
+    mean_by = np.eye(3) + a @ (np.eye(3) + a / 2 @ (np.eye(3) + a / 3 @ (np.eye(3) + a / 4)))
+    cov_by = (np.eye(3) + a + a @ a / 2)[:2, :2]
+    errors, variances = kalman(problem, mean_by, cov_by, np.diag([0.0, q * DT / 4]))
+    seen = problem.innovations(THETA)
+    assert np.allclose(seen.errors, errors, rtol=1e-8, atol=1e-8 * NOISE_SD)
+    assert np.allclose(seen.variances, variances, rtol=1e-8)
+    assert seen.log_likelihood == pytest.approx(likelihood(errors, variances), rel=1e-8)
+
+
+def test_likelihood_tends_to_the_exact_one():
+    """Against matrix exponentials (Van Loan, IEEE TAC 23 (1978) 395-404), the error falls with the step. No chance."""
+    gaps = []
+    for nsub in (2, 8, 32):
+        problem = linear_problem(nsub)
+        a, q = dynamics(DT / nsub)
+        a2 = a[:2, :2]
+        block = expm(np.block([[-a2, np.diag([0.0, q * DT / nsub])], [np.zeros((2, 2)), a2.T]]))
+        step = block[2:, 2:].T
+        exact = likelihood(*kalman(problem, expm(a), step, step @ block[:2, 2:]))
+        gaps.append(abs(problem.innovations(THETA).log_likelihood - exact))
+    assert gaps[2] < 0.02
+    assert gaps[2] < 0.3 * gaps[1] < 0.09 * gaps[0]
+
+
+@pytest.fixture(scope="module")
+def rubbing():
+    """A recording with 3 N of hidden friction, its problem, and coordinates near the truth."""
+    track, states = track_of(3.0, seed=1)
+    return *problem_for(track, ("c", "x0")), states
+
+
+def test_term_that_is_null_changes_no_bit(rubbing):
+    """The nominal model is nested in every augmented one, so evidence ratios mean something. No chance."""
+    problem, theta, _ = rubbing
+    bare = problem.innovations(theta)
+    for key in problem.system.keys:
+        null = replace(problem, active=frozenset({key})).innovations(theta)
+        assert np.array_equal(null.errors, bare.errors), key
+        assert np.array_equal(null.variances, bare.variances), key
+
+
+def test_smoothed_force_is_the_hidden_one(rubbing):
+    """With true base parameters it correlates above 0.8 with what was hidden (a rival's filter: 0.90).
+
+    Alvarez, Luengo, Lawrence (2009). One seeded recording; over seeds the correlation scatters by less than 0.01.
+    """
+    problem, theta, states = rubbing
+    missing = missing_force(problem, theta)
+    hidden = -3.0 * np.sign(states[:, 1])
+    assert np.corrcoef(missing.force, hidden)[0, 1] > 0.8
+    assert missing.force.std() == pytest.approx(3.0, rel=0.2)
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_score_test_promises_what_a_fit_keeps(seed):
+    """For a small effect (0.05 N, 0.05 % of the drive) the promised gain is the gain of the fit.
+
+    Rao, Proc. Cambridge Phil. Soc. 44 (1948) 50-57. The two differ by terms of third order in the effect: within 25 %
+    or one unit. Both come from the same data, so chance has no part but in how small the effect turns out.
+    """
+    problem, theta = problem_for(track_of(0.05, seed=seed)[0], ("c", "x0"))
+    bare = maximise(problem, theta)
+    hint = screen(bare, slopes_of(bare), FRICTION)
+    refitted = fit_with(bare, hint)
+    assert refitted.status == "converged"
+    assert hint.gain == pytest.approx(refitted.log_likelihood - bare.log_likelihood, rel=0.25, abs=1.0)
+    assert hint.start[FORCE] == pytest.approx(refitted.values[FORCE], rel=0.25)
+
+
+@pytest.mark.slow
+def test_error_bars_are_as_wide_as_the_scatter():
+    """Twelve recordings of ten periods, 1 N hidden: the squares of (estimate - truth) / sd add up to a chi-square.
+
+    Gupta, Mehra, IEEE TAC 19 (1974) 774-783. Three sums with 12 degrees of freedom, each allowed its central
+    99.9 %: a correct filter fails with probability 0.003 for new seeds; these are fixed.
+    """
+    z = np.array([standardised(seed) for seed in range(12)])
+    sums = np.sum(z**2, axis=0)
+    low, high = chi2.ppf([0.0005, 0.9995], 12)
+    assert np.all((sums > low) & (sums < high)), np.sqrt(sums / 12)
+
+
+def standardised(seed):
+    """Return how many standard deviations c, x0 and the friction force lie from the truth in one fit."""
+    problem, theta = problem_for(track_of(1.0, seed=40 + seed, periods=10)[0], ("c", "x0"))
+    _, slots = term_of(problem, FRICTION)
+    wider = problem.extended(frees_of(slots, problem.scales, {FORCE: 1.0}), {FRICTION})
+    wider = replace(wider, nsub=8)
+    fit = maximise(wider, np.append(theta, 1.0))
+    truth = {"c": math.log(TRUE["c"]), "x0": math.log(TRUE["x0"]), FORCE: 1.0}
+    estimate, sd = dict(zip(fit.problem.keys, fit.theta, strict=True)), fit.sd
+    return [(estimate[k] - value) / sd[k] for k, value in truth.items()]

@@ -1,0 +1,48 @@
+"""Problems with known truth for the tests of the inference, from recordings that the framework had no part in."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+from independent import Machine, recording
+
+from lostmotion.case import Case, Prior
+from lostmotion.inference.setup import noise_frees, problem_of
+from lostmotion.inference.tracks import Track
+from lostmotion.registry import default
+from lostmotion.stages.diagnose import candidates_of
+from lostmotion.system import System
+
+TRUE = {"m": 1.0, "c": 8.0, "k1": 0.0, "k0": 4e4, "x0": 0.005}
+FRICTION, FORCE = "coulomb_friction", "coulomb_friction.force"
+PRIORS = {"c": (0.8, 80.0), "x0": (5e-4, 5e-2), "k0": (4e3, 4e5)}
+
+
+def track_of(force, *, seed, periods=29, noise=0.01):
+    """Return a recording of Case 1 with dry friction of `force` N hidden in it, and the true states (samples, 2)."""
+    seen = recording(Machine(coulomb=force), periods=periods, noise=noise, seed=seed)
+    return Track("recording", seen.position, seen.force[:, None], float(seen.time[1]), "position"), seen.states
+
+
+def case_of(unknown):
+    """Return a case with log-uniform priors over two decades for what is unknown."""
+    known = {k: v for k, v in TRUE.items() if k not in unknown}
+    priors = {k: Prior(low=PRIORS[k][0], high=PRIORS[k][1], scale="log") for k in unknown}
+    return Case("study", Path(), (), "lin_backlash", known, priors, {}, (), "")
+
+
+def system_of(name="lin_backlash"):
+    """Return the system of a model with every term of the library that can act in it."""
+    registry = default()
+    model = registry.make("model", name)
+    return System(model, candidates_of(model, [registry.load("term", n) for n in registry.names("term")]))
+
+
+def problem_for(track, unknown, *, noise=0.01):
+    """Return the problem of a recording with its unknown parameters and noise levels started near the truth."""
+    problem = problem_of(system_of(), case_of(unknown), (track,))
+    levels = noise_frees((track,), problem.scales)
+    start = {k: np.log(TRUE[k]) for k in unknown}
+    start |= {levels[0].key: levels[0].mean, levels[1].key: np.log(noise * np.std(track.z))}
+    return problem, np.array([start[k] for k in problem.keys])
