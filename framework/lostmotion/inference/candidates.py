@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from lostmotion.contracts import Array, Param, Term
-from lostmotion.inference.fit import Fit, Sensitivity, maximise, restarted, sensitivity
+from lostmotion.inference.fit import Fit, Sensitivity, maximise, restarted, sensitivity, solved
 from lostmotion.inference.problem import Free, Problem, Scales
 from lostmotion.system import Slot
 
@@ -115,13 +115,13 @@ def _hint(fit: Fit, trial: Trial, joint: Sensitivity) -> Hint:
     k = len(amplitudes)
     base, cross, own = information[:-k, :-k], information[:-k, -k:], information[-k:, -k:]
     base = base + np.diag([1.0 / f.sd**2 if math.isfinite(f.sd) else 0.0 for f in fit.problem.free])
-    pulled = np.linalg.lstsq(base, np.column_stack([cross, gradient[:-k]]), rcond=1e-12)[0]
+    pulled = solved(base, np.column_stack([cross, gradient[:-k]]))
     schur = own - cross.T @ pulled[:, :k]
     force = gradient[-k:] - cross.T @ pulled[:, k]
     distinct = float(np.min(np.diag(schur) / np.maximum(np.diag(own), 1e-300)))
     kept = list(range(k))
     while kept:
-        estimate = np.linalg.lstsq(schur[np.ix_(kept, kept)], force[kept], rcond=1e-10)[0]
+        estimate = solved(schur[np.ix_(kept, kept)], force[kept])
         wrong = [i for i, a in zip(kept, estimate, strict=True) if a < amplitudes[i].param.low]
         if not wrong:
             break

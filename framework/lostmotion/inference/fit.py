@@ -34,7 +34,7 @@ class Local:
     @property
     def covariance(self) -> Array:
         """The covariance of the normal approximation to the posterior, in coordinates."""
-        return np.asarray(np.linalg.pinv(self.information, hermitian=True), dtype=float)
+        return solved(self.information, np.eye(len(self.theta)))
 
 
 @dataclass(frozen=True)
@@ -73,6 +73,17 @@ class Fit:
     def sd(self) -> dict[str, float]:
         """The standard deviation of each coordinate by key."""
         return dict(zip(self.problem.keys, np.sqrt(np.maximum(np.diag(self.local.covariance), 0.0)), strict=True))
+
+
+def solved(information: Array, right: Array) -> Array:
+    """Return the solution of `information @ x = right`, each coordinate first scaled to unit information.
+
+    Parameters differ by many powers of ten, and a cut at small eigenvalues would drop the large ones.
+    """
+    unit = 1.0 / np.sqrt(np.maximum(np.diag(information), 1e-300))
+    scaled = information * np.outer(unit, unit)
+    tall = unit if right.ndim == 1 else unit[:, None]
+    return np.asarray(tall * np.linalg.lstsq(scaled, tall * right, rcond=1e-12)[0], dtype=float)
 
 
 def first_steps(problem: Problem) -> Array:
@@ -194,8 +205,7 @@ def _step(problem: Problem, local: Local, damping: float) -> tuple[Array, float]
     if not len(loose):
         return step, 0.0
     info = local.information[np.ix_(loose, loose)]
-    damped = info + damping * np.diag(np.diag(info)) + 1e-12 * np.eye(len(loose))
-    step[loose] = np.linalg.lstsq(damped, local.gradient[loose], rcond=1e-12)[0]
+    step[loose] = solved(info + damping * np.diag(np.diag(info)), local.gradient[loose])
     limit = np.array([2.0 if f.log or f.key.startswith("log_") else math.inf for f in problem.free])
     step = np.clip(step, -limit, limit)
     clipped = problem.clip(local.theta + step) - local.theta

@@ -15,6 +15,7 @@ from lostmotion.report.evidence import Evidence
 from lostmotion.report.words import figures, percent, sentence
 
 FEW_DECADES = 300.0
+LOWEST = 1e-5
 
 
 class Clock(NamedTuple):
@@ -47,7 +48,10 @@ def caption(evidence: Evidence) -> str:
 
 
 def clock_of(evidence: Evidence) -> Clock:
-    """Return Lyapunov times where the response is chaotic, else drive periods, else seconds."""
+    """Return the unit of the horizon; without it Lyapunov times in chaos, else drive periods, else seconds."""
+    unit_time = evidence.number("fit", "horizon_unit_time")
+    if unit_time > 0:
+        return Clock(1.0 / unit_time, str(evidence.fact("fit", "horizon_unit")))
     for when in ("after", "before"):
         exponent = evidence.number("lyapunov", when)
         if exponent > 0:
@@ -69,6 +73,8 @@ def draw_growth(axes: Axes, evidence: Evidence, clock: Clock) -> None:
     axes.yaxis.set_major_formatter(lambda value, _: percent(value))
     axes.yaxis.set_minor_formatter(NullFormatter())
     low, high = axes.get_ylim()
+    low = max(low, LOWEST * high)
+    axes.set_ylim(low, high)
     axes.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if high < FEW_DECADES * low else (1.0,)))
     _mark_validity(axes, evidence, clock)
     if clock.name != "s":

@@ -125,7 +125,7 @@ def _portraits(d: Diagnosis) -> dict[str, Column]:
     units, period = units_of(d), period_samples(d.shown)
     table = {}
     for name, states in runs.items():
-        tail = states[-PORTRAIT:]
+        tail = states[-PORTRAIT:] if period else states[:: max(1, len(states) // PORTRAIT)]
         points = _section(states, period) if period else None
         for axis, column, unit in (("x", 0, units["position"]), ("v", 1, units["velocity"])):
             table[f"portrait_{name}_{axis}"] = Column(("portrait",), tail[:, column], unit)

@@ -42,8 +42,10 @@ def draws_of(fit: Fit, rng: np.random.Generator) -> Array:
     Its covariance is the robust one, so that intervals widen when something with a memory is left over.
     """
     problem = fit.problem
-    values, vectors = np.linalg.eigh(robust_covariance(fit))
-    root = vectors * np.sqrt(np.maximum(values, 0.0))
+    covariance = robust_covariance(fit)
+    sd = np.sqrt(np.maximum(np.diag(covariance), 1e-300))
+    values, vectors = np.linalg.eigh(covariance / np.outer(sd, sd))
+    root = sd[:, None] * vectors * np.sqrt(np.maximum(values, 0.0))
     theta = fit.theta + rng.standard_normal((DRAWS, len(fit.theta))) @ root.T
     theta = np.clip(theta, [f.low for f in problem.free], [f.high for f in problem.free])
     kept = [i for i, f in enumerate(problem.free) if f.key not in LEVELS]
@@ -106,8 +108,9 @@ def _setting(outcome: Outcome) -> dict[str, Any]:
         "valid_prediction_time": {
             **{k: p.valid_time for k, p in predictions.items()},
             "unit": "s",
-            "in_units": {k: p.valid_time / outcome.horizon.unit_time for k, p in predictions.items()},
-            "in_unit": outcome.horizon.unit,
+            "in_" + outcome.horizon.unit.replace(" ", "_").lower(): {
+                k: p.valid_time / outcome.horizon.unit_time for k, p in predictions.items()
+            },
         },
         "whiteness": {k: {"p": p.white, "says": _white(p.white)} for k, p in predictions.items()},
     }
@@ -127,13 +130,13 @@ def _fit(outcome: Outcome) -> dict[str, Any]:
             "heldout_log_score": p.log_score,
             "heldout_nrmse": p.nrmse,
             "horizon": outcome.horizon.number,
-            "horizon_unit": outcome.horizon.unit,
         }
 
     d = outcome.diagnosis
     noise = math.sqrt(d.after.problem.noise(d.after.theta)[1])
     floor = noise / float(np.nanstd(d.shown.z))
-    return {"before": entry(outcome.before), "after": entry(outcome.after), "noise_floor_nrmse": floor}
+    unit = {"horizon_unit": outcome.horizon.unit, "horizon_unit_time": outcome.horizon.unit_time}
+    return {"before": entry(outcome.before), "after": entry(outcome.after), "noise_floor_nrmse": floor, **unit}
 
 
 def _found(outcome: Outcome) -> list[dict[str, Any]]:
