@@ -1,0 +1,109 @@
+"""`lostmotion identify`: the joint posterior of the parameters of a case."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from lostmotion.cli._lazy import examples, registry_of
+
+if TYPE_CHECKING:
+    from lostmotion.workflow.identify import Identified
+
+
+@click.command(
+    epilog=examples(
+        "lostmotion identify case.toml --out result",
+        "lostmotion identify case.toml --out result --term coulomb_friction --term viscous_damping@base",
+        "lostmotion plugins     the terms there are",
+    )
+)
+@click.argument("case", metavar="CASE.toml", type=click.Path(path_type=Path))
+@click.option(
+    "--out",
+    required=True,
+    metavar="DIR",
+    type=click.Path(file_okay=False, path_type=Path),
+    help="Where the results go.",
+)
+@click.option("--term", "terms", metavar="NAME[@PLACE]", multiple=True, help="A term to add to the model of the case.")
+@click.option("--seed", default=0, show_default=True, type=click.IntRange(0), help="The same seed, the same bytes.")
+@click.option("--jobs", default=2, show_default=True, type=click.IntRange(1), help="How many cores to use.")
+@click.option("--walkers", type=click.IntRange(1), help="Walkers of the ensemble; 16 or more if not given.")
+@click.option("--max-steps", default=2000, show_default=True, type=click.IntRange(10), help="Steps at the most.")
+@click.option(
+    "--ess", default=1000.0, show_default=True, type=click.FloatRange(1), help="Effective draws of each parameter."
+)
+@click.option("--quiet", is_flag=True, help="Show no progress.")
+@click.pass_context
+def command(
+    ctx: click.Context, /, case: Path, out: Path, terms: tuple[str, ...], seed: int, jobs: int, **settings: object
+) -> None:
+    """Estimate the parameters of a case jointly, with intervals that hold what was recorded.
+
+    Writes identification.json, posterior.nc (for ArviZ) and report.html into DIR. All recordings are used. Exit
+    status 0 when the sampling ended, converged or not; no interval is given of a chain that has not converged. 2 for
+    a case that cannot be used.
+    """
+    from lostmotion.stages.identify import Plan
+    from lostmotion.workflow.identify import Order, run_identification
+
+    quiet = bool(settings.pop("quiet"))
+    plan = Plan(**settings)  # type: ignore[arg-type]
+    with _bar(plan.max_steps, quiet=quiet) as watch:
+        done = run_identification(case, out, registry_of(ctx), Order(terms, seed, jobs, plan), watch)
+    for line in (*_table(done), *done.content["says"], *done.content["notes"], _speed(done)):
+        click.echo(line)
+    click.echo(str(out / "report.html"))
+
+
+@contextmanager
+def _bar(most: int, *, quiet: bool) -> Iterator[Callable[[int, str], None]]:
+    """Yield a function that is told how many steps were taken and how the chain stands."""
+    from tqdm import tqdm
+
+    with tqdm(desc="identify", total=most, unit="step", leave=False, disable=True if quiet else None) as bar:
+
+        def watch(steps: int, says: str) -> None:
+            bar.set_postfix_str(says, refresh=False)
+            bar.update(steps)
+            bar.refresh()
+
+        yield watch
+
+
+def _table(done: Identified) -> list[str]:
+    """Return one line for each parameter, noise levels included: its interval, or that there is none."""
+    rows = {**done.content["parameters"], **done.content["noise"]}
+    width = max(map(len, rows))
+    return [f"{name:<{width}}  {_line(row)}" for name, row in rows.items()]
+
+
+def _line(row: dict[str, float]) -> str:
+    reached = f"ESS {row['ess']:.0f}, R-hat {row['rhat']:.3f}, tau {row['tau']:.1f}"
+    if row["median"] is None:
+        return f"no interval  ({reached})"
+    digits = _digits(row["high"] - row["low"], row["median"])
+    low, median, high = (f"{row[key]:.{digits}g}" for key in ("low", "median", "high"))
+    return f"{median} {row['unit']}  95 % [{low}, {high}]  ({reached})"
+
+
+def _digits(width: float, value: float) -> int:
+    """Return how many figures show two of the width of an interval."""
+    import math
+
+    if not width > 0.0 or value == 0.0:
+        return 4
+    return max(3, min(12, 2 + math.ceil(math.log10(abs(value) / width))))
+
+
+def _speed(done: Identified) -> str:
+    runs, ess = done.result.evaluations, float(done.result.quality.ess.min())
+    return (
+        f"{runs} runs of the likelihood in {done.seconds:.1f} s: {runs / done.seconds:.0f} a second,"
+        f" {ess / done.seconds:.1f} effective draws a second."
+    )

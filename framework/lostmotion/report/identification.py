@@ -1,0 +1,99 @@
+"""The page of an identification: the parameters, how they hang together, and whether the chain may be believed."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+from jinja2 import Environment, PackageLoader, StrictUndefined
+from markupsafe import Markup
+from matplotlib.figure import Figure
+
+from lostmotion.report import identification_figures as drawing
+from lostmotion.report import style
+from lostmotion.report.identification_facts import Sampled, read_sampled
+from lostmotion.report.posteriors import words_of
+from lostmotion.report.words import DASH, Scale, figures, interval, pretty, readable
+
+
+class Drawn(NamedTuple):
+    """A figure as the template takes it."""
+
+    name: str
+    title: str
+    markup: Markup
+    caption: str
+
+
+def write_identification(folder: Path) -> Path:
+    """Return the path of `report.html`, written from `identification.json` and `posterior.nc` in the folder."""
+    page = folder / "report.html"
+    page.write_text(render(read_sampled(folder)), encoding="utf-8")
+    return page
+
+
+def render(sampled: Sampled) -> str:
+    """Return the page as one self-contained HTML text."""
+    pages = Environment(
+        loader=PackageLoader("lostmotion.report", "."),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    facts = sampled.facts
+    with style.applied():
+        drawn = _figures(sampled)
+    return pages.get_template("identification.html.j2").render(
+        title=str(facts.get("title") or "Identification"),
+        model=str(facts.get("model") or ""),
+        converged=sampled.converged,
+        answer=[str(part) for part in facts.get("says") or []],
+        head=_head(sampled),
+        rows=[_row(sampled, name) for name in sampled.rows],
+        figures=drawn,
+        notes=[str(note) for note in facts.get("notes") or []],
+        provenance=json.dumps(facts.get("provenance") or {}, indent=2, ensure_ascii=False),
+    )
+
+
+def _figures(sampled: Sampled) -> list[Drawn]:
+    known = any(np.isfinite(sampled.truth(name)) for name in sampled.names)
+    parts = [("trace", "Did the walkers mix?", drawing.trace(sampled), drawing.TRACE)]
+    if sampled.converged and len(sampled.names) > 1:
+        said = drawing.CORNER + (" Dashed: the known value." if known else "")
+        parts.insert(0, ("corner", "How the parameters hang together", drawing.corner(sampled), said))
+    return [Drawn(name, title, _embedded(figure, name), said) for name, title, figure, said in parts]
+
+
+def _embedded(figure: Figure, name: str) -> Markup:
+    # The markup is drawn by matplotlib, which escapes the words it is given.
+    return Markup(style.embedded(figure, name))  # noqa: S704
+
+
+def _head(sampled: Sampled) -> list[str]:
+    known = ["Known value", "In the interval"] if sampled.facts.get("truth") else []
+    return ["Parameter", "Median [95 %]", *known, "Effective draws", "R-hat"]
+
+
+def _row(sampled: Sampled, name: str) -> list[str]:
+    entry = sampled.rows[name]
+    scale = readable(float(entry["median"] if entry["median"] is not None else entry["at_maximum"]), entry["unit"])
+    said = interval(entry, scale) if sampled.converged else "no interval: not converged"
+    reached = [figures(entry["ess"], 4), f"{entry['rhat']:.3f}" if entry["rhat"] is not None else DASH]
+    return [words_of(name), said, *_known(sampled, name, scale), *reached]
+
+
+def _known(sampled: Sampled, name: str, scale: Scale) -> list[str]:
+    """Return the cells on the known value; none where the case knows no value at all."""
+    if not sampled.facts.get("truth"):
+        return []
+    truth, entry = sampled.truth(name), sampled.rows[name]
+    if not np.isfinite(truth):
+        return [DASH, DASH]
+    text = f"{figures(scale.factor * truth, 4)} {pretty(scale.unit)}".rstrip()
+    if not sampled.converged:
+        return [text, DASH]
+    return [text, "inside" if entry["low"] <= truth <= entry["high"] else "outside"]

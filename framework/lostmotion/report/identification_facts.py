@@ -1,0 +1,60 @@
+"""What a page of an identification is drawn from: its JSON and its draws, read once and never written."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from lostmotion.errors import DataError
+from lostmotion.report.words import Scale, readable
+from lostmotion.results import Array
+
+
+@dataclass(frozen=True)
+class Sampled:
+    """What an identification wrote: the facts of its JSON, and draws (walkers, steps) with their unit by name."""
+
+    facts: Mapping[str, Any]
+    draws: Mapping[str, Array]
+    units: Mapping[str, str]
+
+    @property
+    def rows(self) -> dict[str, Mapping[str, Any]]:
+        """What is said of each parameter, noise levels last."""
+        return {**self.facts["parameters"], **self.facts.get("noise", {})}
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The parameters that were drawn, noise levels last."""
+        return tuple(name for name in self.rows if name in self.draws)
+
+    @property
+    def converged(self) -> bool:
+        """Whether the chain may be believed."""
+        return bool(self.facts["converged"])
+
+    def truth(self, name: str) -> float:
+        """Return the known value of a parameter, or NaN."""
+        known = self.facts.get("truth", {}).get(name)
+        return float(known) if isinstance(known, int | float) else float("nan")
+
+    def scale(self, name: str) -> Scale:
+        """Return the scale in which a parameter is easy to read."""
+        return readable(float(np.median(np.abs(self.draws[name]))), self.units[name])
+
+
+def read_sampled(folder: Path) -> Sampled:
+    """Return what `lostmotion identify` wrote into a folder."""
+    missing = [name for name in ("identification.json", "posterior.nc") if not (folder / name).is_file()]
+    if missing:
+        raise DataError(f"no {missing[0]} in {folder}: run `lostmotion identify CASE.toml --out {folder}` first")
+    facts = json.loads((folder / "identification.json").read_text(encoding="utf-8"))
+    data = xr.load_dataset(folder / "posterior.nc", group="posterior", engine="h5netcdf")
+    draws = {str(name): np.asarray(v.values, dtype=float) for name, v in data.data_vars.items()}
+    return Sampled(facts, draws, {str(n): str(v.attrs.get("units", "1")) for n, v in data.data_vars.items()})
