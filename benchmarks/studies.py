@@ -51,7 +51,7 @@ def run(study):
     track, start = track_for(study), time.perf_counter()
     d = diagnose(case_of(study.unknown), [track], system_of(), rng=np.random.default_rng(0), jobs=1)
     taken = time.perf_counter() - start
-    more = predictions(d, track) if study.predict else {}
+    more = predictions(d, track, study.hidden) if study.predict else {}
     return {**asdict(study), "seconds": taken, **findings(d), **more}
 
 
@@ -85,12 +85,12 @@ def findings(d):
     }
 
 
-def predictions(d, track):
+def predictions(d, track, hidden):
     """Return valid-prediction times on held-out starts, in Lyapunov times: before, after, and with the truth."""
     from lostmotion.stages.compare import exponent_of, horizon_for, pieces_of, predict
 
     pieces = pieces_of([track], d.held)
-    fits = {"before": d.before, "after": d.after, "truth": truth_of(d)}
+    fits = {"before": d.before, "after": d.after, "truth": truth_of(d, hidden)}
     exponents = {name: exponent_of(fit, [track]) for name, fit in fits.items()}
     horizon = horizon_for(d.after, pieces, exponents["after"])
     seen = {name: predict(fit, pieces, horizon, exponents[name]) for name, fit in fits.items()}
@@ -103,13 +103,13 @@ def predictions(d, track):
     }
 
 
-def truth_of(d):
+def truth_of(d, hidden):
     """Return the fit with every parameter at its true value and the noise levels as they were found."""
     from lostmotion.inference.problem import LEVELS
 
     fit, system = d.after, d.after.problem.system
     kept = [i for i, key in enumerate(fit.problem.keys) if key in LEVELS]
-    full = system.vector({**TRUE, FORCE: 3.0})
+    full = system.vector({**TRUE, FORCE: hidden})
     free = tuple(fit.problem.free[i] for i in kept)
     problem = replace(fit.problem, known=full, free=free, active=frozenset({FRICTION}))
     return replace(fit, problem=problem, local=replace(fit.local, theta=fit.theta[kept]))
