@@ -89,6 +89,9 @@ def draw_density(axes: Axes, evidence: Evidence, name: str) -> None:
 
 
 def _draw_histogram(axes: Axes, values: Array, colour: str) -> None:
+    if np.ptp(values) < 1e-9 * np.abs(values).max():  # a parameter that presses against its bound
+        axes.axvline(float(values[0]), color=colour, linewidth=1.2)
+        return
     counts, edges = np.histogram(values, bins=min(BINS, 8 + values.size // 40))
     axes.stairs(counts / counts.max(), edges, fill=True, color=colour, alpha=0.3)
     axes.stairs(counts / counts.max(), edges, color=colour, linewidth=1.2)
@@ -122,4 +125,6 @@ def entry_of(evidence: Evidence, name: str) -> Mapping[str, Any]:
 def words_of(name: str) -> str:
     """Return the name of a parameter in words; that of a term's parameter says whose it is."""
     term, _, own = name.rpartition(".")
-    return f"{spoken(term)}: {spoken(own)}" if term else name
+    mechanism, _, place = term.partition("@")
+    where = f" ({place})" if place else ""
+    return f"{spoken(mechanism)}{where}: {spoken(own)}" if term else name

@@ -48,21 +48,33 @@ def ranked(evidence: Evidence, most: int = MOST) -> list[Mapping[str, Any]]:
 
 def draw_bars(axes: Axes, evidence: Evidence, rows: list[Mapping[str, Any]]) -> None:
     """Draw one bar for each candidate, with its gain and its probability written beside it."""
-    found = {entry.get("mechanism") for entry in evidence.fact("found") or []}
+    found = {_key(entry) for entry in evidence.fact("found") or []}
     gains = [_gain(entry, 0.0) for entry in rows]
     top, left = _reach(gains)
-    colours = [style.AFTER if entry.get("mechanism") in found else style.QUIET for entry in rows]
+    colours = [style.AFTER if _key(entry) in found else style.QUIET for entry in rows]
     axes.barh(range(len(rows)), [max(gain, left) for gain in gains], color=colours, height=0.66)
     axes.axvline(0, color=style.RECORDED, linewidth=0.8)
     for row, entry in enumerate(rows):
         _write_beside(axes, row, entry, (left, 0.012 * (top - left)))
-    axes.set_yticks(range(len(rows)), [sentence(spoken(str(entry.get("mechanism", "?")))) for entry in rows])
+    axes.set_yticks(range(len(rows)), _labels(evidence, rows))
     axes.invert_yaxis()
     axes.set_xlim(min(1.05 * left, 0), top + 0.2 * (top - left))
     axes.set_xlabel("log evidence gain over the model as it stands")
     axes.grid(visible=False, axis="y")
     axes.tick_params(axis="y", length=0)
     axes.text(1.02, 1.01, "probability", color="#444444", fontsize=8.5, va="bottom", transform=axes.transAxes)
+
+
+def _key(entry: Mapping[str, Any]) -> tuple[str, str]:
+    """Return mechanism and place: the same law may act in two places."""
+    return str(entry.get("mechanism", "?")), str(entry.get("at") or "ground")
+
+
+def _labels(evidence: Evidence, rows: list[Mapping[str, Any]]) -> list[str]:
+    """Return the names of the candidates, with their places where there is more than one."""
+    several = len({entry["at"] for entry in evidence.fact("ranking") or [] if entry.get("at")}) > 1
+    named = [(sentence(spoken(str(entry.get("mechanism", "?")))), entry.get("at")) for entry in rows]
+    return [f"{name} ({at})" if several and at else name for name, at in named]
 
 
 def _reach(gains: list[float]) -> tuple[float, float]:

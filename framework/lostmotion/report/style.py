@@ -16,6 +16,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.ticker import MaxNLocator
+from PIL import Image
 
 from lostmotion.report.words import Scale, readable
 from lostmotion.results import Array
@@ -123,7 +124,9 @@ def embedded(figure: Figure, name: str) -> str:
 
 def save(figure: Figure, path: Path) -> Path:
     """Return the path of the PNG into which the figure was saved."""
-    figure.savefig(path, format="png", dpi=160, metadata={"Software": None})
+    pixels = io.BytesIO()
+    figure.savefig(pixels, format="png", dpi=160, metadata={"Software": None})
+    Image.open(pixels).convert("RGB").quantize(128).save(path, format="png", optimize=True)
     return path
 
 

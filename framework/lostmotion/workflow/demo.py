@@ -12,6 +12,7 @@ import numpy as np
 
 from lostmotion.contracts import Array
 from lostmotion.registry import Registry
+from lostmotion.report import figure_hero
 from lostmotion.workflow.conceal import AMPLITUDE, FREQUENCY, FRICTION, HIDDEN, conceal_joint, write_case
 from lostmotion.workflow.diagnose import run_diagnosis
 
@@ -40,13 +41,17 @@ class Judged:
 
 
 def run_demo(out: Path, registry: Registry, setting: Setting, *, say: Callable[[str], None] = lambda _: None) -> Judged:
-    """Return what was hidden, what was found and whether that is right; the case goes into `out`/case."""
+    """Return what was hidden, what was found and whether that is right.
+
+    The case goes into `out`/case, the results into `out`, and `out`/hero.png is the picture of the README.
+    """
     say("conceal")
     rng = np.random.default_rng(setting.seed)
     periods = QUICK if setting.quick else PERIODS
     concealed = conceal_joint(rng, periods=periods, friction=0.0 if setting.clean else FRICTION)
     case = write_case(concealed, out / "case")
     content = run_diagnosis(case, out, registry, seed=setting.seed, jobs=setting.jobs, say=say)
+    figure_hero(out)
     lines = (_recorded(concealed.time), *(_nothing_hidden(content) if setting.clean else _hidden(content)))
     return Judged((*lines, _improved(content)), content, judge(content, clean=setting.clean))
 
