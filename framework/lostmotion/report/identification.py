@@ -14,7 +14,6 @@ from matplotlib.figure import Figure
 from lostmotion.report import identification_figures as drawing
 from lostmotion.report import style
 from lostmotion.report.identification_facts import Sampled, read_sampled
-from lostmotion.report.posteriors import words_of
 from lostmotion.report.words import DASH, Scale, figures, interval, pretty, readable
 
 
@@ -75,7 +74,7 @@ def _embedded(figure: Figure, name: str) -> Markup:
 
 def _head(sampled: Sampled) -> list[str]:
     known = ["Known value", "In the interval"] if sampled.facts.get("truth") else []
-    return ["Parameter", "Median [95 %]", *known, "Effective draws", "R-hat"]
+    return ["Parameter", "Median [95 %]", *known, "ESS", "R-hat"]
 
 
 def _row(sampled: Sampled, name: str) -> list[str]:
@@ -83,7 +82,7 @@ def _row(sampled: Sampled, name: str) -> list[str]:
     scale = readable(float(entry["median"] if entry["median"] is not None else entry["at_maximum"]), entry["unit"])
     said = interval(entry, scale) if sampled.converged else "no interval: not converged"
     reached = [figures(entry["ess"], 4), f"{entry['rhat']:.3f}" if entry["rhat"] is not None else DASH]
-    return [words_of(name), said, *_known(sampled, name, scale), *reached]
+    return [sampled.word(name), said, *_known(sampled, name, scale), *reached]
 
 
 def _known(sampled: Sampled, name: str, scale: Scale) -> list[str]:

@@ -12,7 +12,8 @@ import numpy as np
 import xarray as xr
 
 from lostmotion.errors import DataError
-from lostmotion.report.words import Scale, readable
+from lostmotion.report.posteriors import words_of
+from lostmotion.report.words import Scale, readable, spoken
 from lostmotion.results import Array
 
 
@@ -28,6 +29,10 @@ class Sampled:
     def rows(self) -> dict[str, Mapping[str, Any]]:
         """What is said of each parameter, noise levels last."""
         return {**self.facts["parameters"], **self.facts.get("noise", {})}
+
+    def word(self, name: str) -> str:
+        """Return the name of a parameter as a reader meets it: symbols of the model as they are, the rest in words."""
+        return spoken(name) if name in self.facts.get("noise", {}) else words_of(name)
 
     @property
     def names(self) -> tuple[str, ...]:

@@ -13,7 +13,6 @@ from scipy.ndimage import gaussian_filter
 
 from lostmotion.report import style
 from lostmotion.report.identification_facts import Sampled
-from lostmotion.report.posteriors import words_of
 from lostmotion.report.words import with_unit
 from lostmotion.results import Array
 
@@ -39,7 +38,7 @@ def trace(sampled: Sampled) -> Figure:
     for (left, right), name in zip(panels, names, strict=True):
         scale = sampled.scale(name)
         _draw_walkers(left, scale.factor * sampled.draws[name])
-        left.set_ylabel(_broken(name, scale.unit), rotation=0, ha="right", va="center")
+        left.set_ylabel(_broken(sampled.word(name), scale.unit), rotation=0, ha="right", va="center")
         _draw_ranks(right, sampled.draws[name])
     panels[-1, 0].set_xlabel("step")
     panels[-1, 1].set_xlabel("rank among all draws")
@@ -131,7 +130,7 @@ def _mark(draw: Callable[..., object], sampled: Sampled, name: str) -> None:
 def _label(panels: Any, sampled: Sampled) -> None:
     last = len(sampled.names) - 1
     for k, name in enumerate(sampled.names):
-        words = _broken(name, sampled.scale(name).unit)
+        words = _broken(sampled.word(name), sampled.scale(name).unit)
         panels[last, k].set_xlabel(words)
         if k:
             panels[k, 0].set_ylabel(words)
@@ -145,7 +144,7 @@ def _label(panels: Any, sampled: Sampled) -> None:
                 axes.tick_params(axis="y", labelleft=column == 0)
 
 
-def _broken(name: str, unit: str) -> str:
+def _broken(words: str, unit: str) -> str:
     """Return a parameter with its unit on lines short enough for a small panel."""
-    words = words_of(name).replace(": ", ":\n").replace("measurement ", "measurement\n")
+    words = words.replace(": ", ":\n").replace("measurement ", "measurement\n")
     return with_unit(words, unit).replace(" (", "\n(", 1)

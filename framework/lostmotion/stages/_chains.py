@@ -96,7 +96,10 @@ def inference_data(
 
     The moment of its making is left out, so that the same chain gives the same bytes.
     """
-    data = quiet_arviz().from_dict(posterior=dict(variables), sample_stats={"lp": log_density})
+    arviz = quiet_arviz()
+    with warnings.catch_warnings():  # more walkers than steps are no mistake here
+        warnings.simplefilter("ignore")
+        data = arviz.from_dict(posterior=dict(variables), sample_stats={"lp": log_density})
     for group in (data.posterior, data.sample_stats):
         group.attrs = dict(attrs)
     for name, unit in units.items():

@@ -147,11 +147,11 @@ class _Course:
         coordinates, burn = _kept(sampler)
         shown = [_shown(f, self.fit) for f in self.free]
         return Identification(
-            keys=tuple(name for name, _ in shown),
-            units=tuple(unit for _, unit in shown),
-            chain=_values(self.free, coordinates),
+            keys=tuple(one.name for one in shown),
+            units=tuple(one.unit for one in shown),
+            chain=_values(shown, coordinates),
             log_density=np.ascontiguousarray(sampler.get_log_prob(discard=burn).T),
-            maximum={n: v for (n, _), v in zip(shown, _values(self.free, self.fit.theta).tolist(), strict=True)},
+            maximum={one.name: float(v) for one, v in zip(shown, _values(shown, self.fit.theta), strict=True)},
             quality=quality_of(coordinates),
             lacks=lacks,
             burn_in=burn,
@@ -175,21 +175,32 @@ def _kept(sampler: Any) -> tuple[Array, int]:
     return np.ascontiguousarray(chain[:, burn:]), burn
 
 
-def _values(free: tuple[Free, ...], coordinates: Array) -> Array:
+@dataclass(frozen=True)
+class _Shown:
+    """How a coordinate is told: `exp(power * coordinate) * factor` in `unit`, or as it is where `power` is 0."""
+
+    name: str
+    unit: str
+    power: float
+    factor: float = 1.0
+
+    def value(self, coordinate: Array) -> Array:
+        """Return numbers in SI units of coordinates of any shape."""
+        return np.asarray(self.factor * np.exp(self.power * coordinate) if self.power else coordinate)
+
+
+def _values(shown: list[_Shown], coordinates: Array) -> Array:
     """Return coordinates (..., parameters) as numbers in SI units."""
-    values = coordinates.copy()
-    for i, f in enumerate(free):
-        if f.log or f.key in NOISES:
-            values[..., i] = np.exp(coordinates[..., i])
-    return values
+    return np.stack([one.value(coordinates[..., i]) for i, one in enumerate(shown)], axis=-1)
 
 
-def _shown(free: Free, fit: Fit) -> tuple[str, str]:
-    """Return the name and the unit of a parameter as a number; those of noise levels follow from the motion."""
+def _shown(free: Free, fit: Fit) -> _Shown:
+    """Return how a parameter is told; a random force as the rms (N, N m) of one that is held from sample to sample."""
     if free.key not in NOISES:
-        return free.key, free.unit
+        return _Shown(free.key, free.unit, 1.0 if free.log else 0.0)
+    name, track = NOISES[free.key], fit.problem.tracks[0]
     rotation = fit.problem.system.model.motion == "rotation"
-    if free.key == NOISE:
-        per = {"position": "", "velocity": "/s", "acceleration": "/s^2"}[fit.problem.tracks[0].channel]
-        return NOISES[NOISE], ("rad" if rotation else "m") + per
-    return NOISES[free.key], "1/s" if free.key == PACE else ("(N m)^2 s" if rotation else "N^2 s")
+    if free.key == RANDOM:
+        return _Shown(name, "N m" if rotation else "N", 0.5, track.dt**-0.5)
+    per = {"position": "", "velocity": "/s", "acceleration": "/s^2"}[track.channel]
+    return _Shown(name, "1/s" if free.key == PACE else ("rad" if rotation else "m") + per, 1.0)

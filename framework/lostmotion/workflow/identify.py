@@ -155,7 +155,7 @@ def says(result: Identification) -> tuple[str, ...]:
             f"What is missing: {'; '.join(result.lacks)}. Give more steps with --max-steps, or look at the trace.",
         )
     return (
-        f"The posterior is known: {quality.ess.min():.0f} effective draws or more of each parameter.",
+        f"The chain has converged: {quality.ess.min():.0f} effective draws or more of each parameter.",
         f"R-hat is {quality.rhat.max():.3f} at most, and the longest autocorrelation time is {quality.slowest:.1f} of"
         f" {quality.steps} steps.",
     )

@@ -1,0 +1,187 @@
+"""Identification: known posteriors are recovered, a seed gives the same bytes, and no interval without convergence."""
+
+from dataclasses import dataclass, field
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from lostmotion.errors import CaseError, DataError
+from lostmotion.inference.problem import Free
+from lostmotion.stages._chains import grouped, quality_of, quiet_arviz
+from lostmotion.stages._sampling import Cloud, state_of
+from lostmotion.stages.identify import Plan, identify
+
+MEAN = np.array([1.0, -2.0, 0.3])
+COVARIANCE = np.array([[0.04, 0.015, 0.0], [0.015, 0.01, 0.0], [0.0, 0.0, 0.25]])
+PRECISION = np.linalg.inv(COVARIANCE)
+
+
+@dataclass(frozen=True)
+class Bell:
+    """A problem whose likelihood is normal, or falls exponentially from the lower bound of its last parameter."""
+
+    free: tuple[Free, ...] = tuple(Free(k, "N", 0.0, -40.0, 40.0) for k in "abc")
+    pressed: bool = False
+    asked: list = field(default_factory=list)
+
+    def log_prior(self, theta):
+        return sum(f.log_prior(float(c)) for f, c in zip(self.free, theta, strict=True))
+
+    def many(self, thetas):
+        self.asked.extend(thetas)
+        return [SimpleNamespace(log_likelihood=self.height(t)) for t in thetas]
+
+    def height(self, theta):
+        if self.pressed:
+            return -3.0 * theta[-1] - 0.5 * float(np.sum(theta[:-1] ** 2))
+        d = theta - MEAN
+        return -0.5 * float(d @ PRECISION @ d)
+
+
+def fit_of(problem, theta=MEAN, covariance=COVARIANCE, height=0.0):
+    return SimpleNamespace(
+        problem=problem, theta=theta, local=SimpleNamespace(covariance=covariance, log_posterior=height)
+    )
+
+
+def draw(seed=0, plan=None, **settings):
+    return identify(fit_of(Bell(), **settings), rng=np.random.default_rng(seed), plan=plan or Plan())
+
+
+@pytest.fixture(scope="module")
+def bell():
+    return draw(plan=Plan(ess=3000))
+
+
+def test_normal_posterior_is_recovered(bell):
+    assert bell.converged
+    error = np.sqrt(np.diag(COVARIANCE) / bell.quality.ess)
+    assert np.all(np.abs(bell.draws.mean(axis=0) - MEAN) < 4.0 * error)
+    scale = np.sqrt(np.diag(COVARIANCE))
+    assert np.all(np.abs(np.cov(bell.draws.T) - COVARIANCE) < 0.1 * np.outer(scale, scale))
+    for i, (key, interval) in enumerate(bell.intervals.items()):
+        half = 1.96 * bell.sd[key]
+        assert interval.unit == "N"
+        assert (interval.low, interval.high) == pytest.approx((MEAN[i] - half, MEAN[i] + half), abs=0.2 * half)
+
+
+def test_a_poor_start_is_made_good():
+    result = draw(theta=MEAN + 0.5, covariance=0.01 * np.eye(3))
+    assert result.converged
+    assert np.all(np.abs(result.draws.mean(axis=0) - MEAN) < 5.0 * np.sqrt(np.diag(COVARIANCE) / result.quality.ess))
+    assert result.sd["c"] == pytest.approx(0.5, rel=0.1)
+
+
+def test_posterior_that_presses_against_its_bound():
+    free = (Free("a", "N", 0.0, -40.0, 40.0), Free("b", "N", 0.0, 0.0, 40.0))
+    problem = Bell(free, pressed=True)
+    fit = fit_of(problem, np.zeros(2), np.diag([1.0, 4.0]))
+    result = identify(fit, rng=np.random.default_rng(4), plan=Plan(ess=2000))
+    assert result.converged
+    assert result.intervals["b"].median == pytest.approx(np.log(2.0) / 3.0, rel=0.1)
+    assert result.intervals["b"].high == pytest.approx(-np.log(0.025) / 3.0, rel=0.15)
+    assert min(t[1] for t in problem.asked) >= 0.0
+
+
+def test_logarithms_become_numbers():
+    free = (Free("a", "m", 0.0, -40.0, 40.0, log=True), *Bell().free[1:])
+    fit = fit_of(Bell(free))
+    result = identify(fit, rng=np.random.default_rng(0), plan=Plan(max_steps=20))
+    assert result.units == ("m", "N", "N")
+    assert result.maximum["a"] == pytest.approx(np.exp(MEAN[0]))
+    assert result.chain[..., 0].min() > 0.0
+
+
+def test_same_seed_same_draws_and_another_seed_others():
+    short = Plan(max_steps=30)
+    one, again, other = (draw(seed, short) for seed in (7, 7, 8))
+    np.testing.assert_array_equal(one.chain, again.chain)
+    assert one.chain.tobytes() == again.chain.tobytes()
+    assert not np.array_equal(one.chain, other.chain)
+
+
+def test_no_interval_without_convergence():
+    result = draw(plan=Plan(max_steps=15))
+    assert not result.converged
+    assert result.intervals == {}
+    assert result.sd == {}
+    assert any("effective sample size" in words for words in result.lacks)
+    assert result.chain.shape[0] == 16
+
+
+def test_watch_hears_of_every_step():
+    heard = []
+    identify(
+        fit_of(Bell()),
+        rng=np.random.default_rng(0),
+        plan=Plan(max_steps=25),
+        watch=lambda steps, says: heard.append((steps, says)),
+    )
+    assert sum(steps for steps, _ in heard) == 25
+    assert "ESS" in heard[-1][1]
+    assert "tau" in heard[-1][1]
+
+
+def test_too_few_walkers_and_a_hopeless_fit_are_refused():
+    with pytest.raises(CaseError, match="4 walkers are too few for 3 parameters: give 8 or more"):
+        draw(plan=Plan(walkers=4))
+    with pytest.raises(DataError, match="cannot follow this recording"):
+        draw(height=-np.inf)
+
+
+def test_evaluations_are_counted():
+    problem = Bell()
+    result = identify(fit_of(problem), rng=np.random.default_rng(0), plan=Plan(max_steps=20))
+    assert result.evaluations == len(problem.asked)
+
+
+def test_density_of_the_cloud_is_that_of_its_draws():
+    free = (Free("a", "1", 0.0, 0.0, 3.0),)
+    cloud = Cloud.about(np.array([0.0]), np.array([[0.2]]), free)
+    points = cloud.draw(40000, np.random.RandomState(3))
+    counts, edges = np.histogram(points[:, 0], bins=30, range=(0.05, 2.95), density=True)
+    middle = 0.5 * (edges[1:] + edges[:-1])
+    density = np.exp(cloud.log_density(middle[:, None]))
+    density /= density.sum() * (edges[1] - edges[0])
+    np.testing.assert_allclose(counts, density, atol=0.05 * density.max())
+
+
+def test_a_walker_set_apart_is_seen_by_r_hat():
+    rng = np.random.default_rng(5)
+    chain = rng.standard_normal((16, 200, 1))
+    assert quality_of(chain).rhat[0] < 1.01
+    chain[::4] += 1.0
+    assert quality_of(chain).rhat[0] > 1.05
+    drifting = rng.standard_normal((16, 200, 1)) + np.linspace(0.0, 1.5, 200)[None, :, None]
+    assert quality_of(drifting).rhat[0] > 1.05
+
+
+def test_groups_keep_the_order_of_time():
+    walks = np.arange(8)[:, None] + 100.0 * np.arange(6)[None]
+    assert grouped(walks).shape == (4, 12)
+    assert np.all(np.diff(grouped(walks) // 100.0, axis=1) >= 0)
+
+
+def test_a_walker_that_never_moved_is_not_believed():
+    chain = np.random.default_rng(1).standard_normal((16, 300, 1))
+    chain[3] = 0.5
+    assert quality_of(chain).lacks(100.0, 1.0)
+
+
+def test_state_is_seeded_by_the_generator():
+    keys = [state_of(np.zeros((4, 2)), np.random.default_rng(s)).random_state[1] for s in (1, 1, 2)]
+    np.testing.assert_array_equal(keys[0], keys[1])
+    assert not np.array_equal(keys[0], keys[2])
+
+
+def test_arviz_reads_what_is_stored(tmp_path, bell):
+    path = tmp_path / "posterior.nc"
+    bell.inference_data({"title": "bell"}).to_netcdf(str(path), engine="h5netcdf")
+    arviz = quiet_arviz()
+    data = arviz.from_netcdf(path)
+    assert {"posterior", "sample_stats"} <= set(data.groups())
+    assert data.posterior.attrs == {"title": "bell"}
+    assert data.posterior["a"].attrs["units"] == "N"
+    assert data.sample_stats["lp"].shape == bell.chain.shape[:2]
+    assert float(arviz.ess(data)["c"]) == pytest.approx(bell.quality.ess[2], rel=1e-6)
