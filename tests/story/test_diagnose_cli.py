@@ -1,0 +1,160 @@
+"""A recording to a report through the command line: what was hidden is found, what is clean stays clean."""
+
+import json
+import math
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+from independent import Machine, recording
+
+from lostmotion.cli import main
+
+FRICTION = 3.0
+CASE = """
+title = "Slider with backlash"
+
+[[recordings]]
+file = "recording.csv"
+time = "time"
+excitation = { column = "force", quantity = "force", unit = "N" }
+response = { column = "position", quantity = "position", unit = "m" }
+
+[model]
+name = "lin_backlash"
+known = { m = 1.0, k0 = 40000.0, k1 = 0.0 }
+
+[model.estimate]
+c = { low = 0.8, high = 80.0, scale = "log" }
+x0 = { low = 5e-4, high = 5e-2, scale = "log" }
+"""
+
+
+def diagnose(*args):
+    """Return the outcome of the command line."""
+    return CliRunner().invoke(main, ["diagnose", *map(str, args)], prog_name="lostmotion")
+
+
+def case_in(folder, friction, case=CASE):
+    """Return a case with a recording of 25 periods at 100 samples, 1 % noise, made by another integrator."""
+    made = recording(Machine(coulomb=friction), periods=25, per_period=100, seed=7)
+    rows = np.column_stack([made.time, made.force, made.position])
+    np.savetxt(folder / "recording.csv", rows, delimiter=",", header="time,force,position", comments="", fmt="%.9g")
+    (folder / "case.toml").write_text(case, encoding="utf-8")
+    return folder / "case.toml"
+
+
+@pytest.fixture(scope="module")
+def hidden(tmp_path_factory):
+    """Return the folder in which a recording with hidden friction was diagnosed on two cores, and the outcome."""
+    folder = tmp_path_factory.mktemp("hidden")
+    done = diagnose(case_in(folder, FRICTION), "--out", folder / "out", "--seed", 4, "--jobs", 2)
+    assert done.exit_code == 0, done.output
+    return folder, done
+
+
+def said_in(folder):
+    return json.loads((folder / "out" / "diagnosis.json").read_text(encoding="utf-8"))
+
+
+def test_hidden_friction_is_found(hidden):
+    folder, done = hidden
+    said = said_in(folder)
+    (entry,) = said["found"]
+    force = entry["parameters"]["force"]
+    assert (said["verdict"], entry["mechanism"], entry["at"]) == ("mismatch", "coulomb_friction", "ground")
+    assert force["low"] < force["median"] < force["high"]
+    assert force["median"] == pytest.approx(FRICTION, abs=0.1)
+    assert force["low"] - 0.03 < FRICTION < force["high"] + 0.03
+    assert done.stdout.startswith("Dry friction of ")
+    assert done.stdout.rstrip().splitlines()[-1] == str(folder / "out" / "report.html")
+
+
+def test_damping_no_longer_stands_in_for_friction(hidden):
+    before, after = (said_in(hidden[0])["parameters"][when]["c"] for when in ("before", "after"))
+    assert before["low"] > 8.5
+    assert after["median"] == pytest.approx(8.0, abs=0.3)
+
+
+def test_held_out_prediction_improves(hidden):
+    fit = said_in(hidden[0])["fit"]
+    assert fit["after"]["heldout_nrmse"] < 0.5 * fit["before"]["heldout_nrmse"]
+    assert fit["after"]["heldout_log_score"] > fit["before"]["heldout_log_score"] + 0.1
+    assert fit["after"]["heldout_nrmse"] < 1.5 * fit["noise_floor_nrmse"]
+
+
+def test_keys_and_types_are_those_of_the_contract(hidden):
+    said = said_in(hidden[0])
+    assert said["schema"] == "lostmotion.diagnosis/1"
+    assert said["verdict"] in ("adequate", "mismatch")
+    for entry in said["found"]:
+        assert_shaped(entry, {"mechanism": str, "probability": float, "parameters": dict, "says": str})
+    for row in said["ranking"]:
+        assert_shaped(row, {"mechanism": str, "log_evidence_gain": float, "probability": float})
+    assert isinstance(said["confused_with"], list)
+    assert_shaped(said["unexplained"], {"significant": bool, "rms": float, "unit": str, "share_of_drive": float})
+    assert_shaped(said["where"], {"summary": str, "explained_by": dict})
+    assert_shaped(said["where"]["explained_by"], dict.fromkeys(("position", "velocity", "phase", "time"), float))
+    for when in ("before", "after"):
+        for interval in said["parameters"][when].values():
+            assert_shaped(interval, {"median": float, "low": float, "high": float, "unit": str})
+        keys = ("heldout_log_score", "heldout_nrmse", "horizon")
+        assert_shaped(said["fit"][when], dict.fromkeys(keys, float))
+    assert_shaped(said["fit"], {"noise_floor_nrmse": float})
+    assert said["provenance"]
+
+
+def assert_shaped(entry, kinds):
+    for key, kind in kinds.items():
+        allowed = (int, float) if kind is float else kind
+        assert isinstance(entry[key], allowed), (key, entry[key])
+        assert kind is not float or (math.isfinite(entry[key]) and not isinstance(entry[key], bool)), (key, entry[key])
+
+
+def test_probabilities_are_probabilities(hidden):
+    said = said_in(hidden[0])
+    assert all(0.0 <= row["probability"] <= 1.0 for row in [*said["ranking"], *said["found"]])
+    assert said["found"][0]["probability"] > 0.5
+
+
+def test_everything_is_written(hidden):
+    out = hidden[0] / "out"
+    assert {p.name for p in out.iterdir()} == {"diagnosis.json", "arrays.nc", "report.html"}
+    page = (out / "report.html").read_text(encoding="utf-8")
+    assert "ry friction of" in page
+    assert 'src="http' not in page
+
+
+def test_one_core_or_two_the_same_bytes(hidden):
+    folder, _ = hidden
+    done = diagnose(folder / "case.toml", "--out", folder / "again", "--seed", 4, "--jobs", 1)
+    assert done.exit_code == 0, done.output
+    assert (folder / "again" / "diagnosis.json").read_bytes() == (folder / "out" / "diagnosis.json").read_bytes()
+
+
+def test_clean_recording_is_adequate(tmp_path):
+    done = diagnose(case_in(tmp_path, 0.0), "--out", tmp_path / "out")
+    assert done.exit_code == 0, done.output
+    said = said_in(tmp_path)
+    assert (said["verdict"], said["found"]) == ("adequate", [])
+    assert said["parameters"]["after"]["c"]["median"] == pytest.approx(8.0, abs=0.3)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "word"),
+    [
+        ('"lin_backlash"', '"lin_backlach"', "did you mean 'lin_backlash'"),
+        ("recording.csv", "recordin.csv", "recordin.csv"),
+        ('column = "position"', 'column = "postion"', "postion"),
+        ("title", "tittle", "did you mean 'title'"),
+        ("k0 = 40000.0, ", "", "k0"),
+        ('unit = "m"', 'unit = "s"', "s"),
+    ],
+)
+def test_broken_case_is_one_sentence_and_status_2(tmp_path, old, new, word):
+    done = diagnose(case_in(tmp_path, FRICTION, CASE.replace(old, new)), "--out", tmp_path / "out")
+    assert done.exit_code == 2, done.output
+    assert len(done.stderr.strip().splitlines()) == 1
+    assert word in done.stderr
+    assert "Traceback" not in done.output
+    assert not (tmp_path / "out" / "diagnosis.json").exists()
