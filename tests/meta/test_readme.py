@@ -19,7 +19,7 @@ DEMO = SET_UP + ".venv/bin/lostmotion demo"
 TESTS = SET_UP + ".venv/bin/pytest -q"
 PAGES = ("README.md", "CHANGELOG.md", "framework/ARCHITECTURE.md", "plugins/template/README.md")
 INDEX = re.compile(r"pypi|pythonhosted|index-url|anaconda\.org|/simple\b|badge", re.IGNORECASE)
-MACHINE = re.compile(r"(?<![\w.])/(home|root|work|tmp|Users|opt|usr)/")
+MACHINE = re.compile(r"(?<![\w.!])/(home|root|work|tmp|Users|opt|usr)/")
 
 
 def page(name="README.md"):
