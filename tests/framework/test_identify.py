@@ -169,6 +169,12 @@ def test_a_walker_that_never_moved_is_not_believed():
     assert quality_of(chain).lacks(100.0, 1.0)
 
 
+def test_many_walkers_do_not_make_a_short_chain_long():
+    quality = quality_of(np.random.default_rng(1).standard_normal((200, 20, 1)))
+    assert quality.ess[0] > 1000.0
+    assert "20 steps are less than 50" in quality.lacks(100.0, quality.slowest)[0]
+
+
 def test_state_is_seeded_by_the_generator():
     keys = [state_of(np.zeros((4, 2)), np.random.default_rng(s)).random_state[1] for s in (1, 1, 2)]
     np.testing.assert_array_equal(keys[0], keys[1])

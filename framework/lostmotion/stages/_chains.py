@@ -14,7 +14,7 @@ from lostmotion.contracts import Array
 
 GROUPS = 4
 LONG = 50.0
-"""A chain is long enough at this many autocorrelation times: shorter ones do not know their own."""
+"""A chain is long enough at this many autocorrelation times, of a step at least: shorter ones do not know their own."""
 STEADY = 0.02
 """The longest autocorrelation time has settled when it changes by less than this share between two checks."""
 AGREED = 1.01
@@ -39,8 +39,8 @@ class Quality:
     def lacks(self, ess: float, before: float) -> tuple[str, ...]:
         """Return what keeps the chain from being believed; `before` is the longest time at the last check."""
         checks = {  # written so that what is not a number fails too
-            f"{self.steps} steps are less than {LONG:g} autocorrelation times of {self.slowest:.3g}": not (
-                self.steps >= LONG * self.slowest
+            f"{self.steps} steps are less than {LONG:g} autocorrelation times of {max(self.slowest, 1.0):.3g}": not (
+                self.steps >= LONG * max(self.slowest, 1.0)
             ),
             "the autocorrelation time has not settled yet": not abs(self.slowest - before) < STEADY * self.slowest,
             f"the effective sample size is {self.ess.min():.0f}, and {ess:g} is wanted": not self.ess.min() >= ess,
