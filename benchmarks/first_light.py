@@ -202,7 +202,7 @@ def emps(args):
     for k in ("before", "after"):
         error, score = fit[k]["heldout_nrmse"], fit[k]["heldout_log_score"]
         rows.append((k, f"{error:.3%}", f"{score:.3f}", f"{valid[k]:.3g} s", f"{force_left(seen, k):.2%}"))
-    head = ("model", f"free-running error over {fit['after']['horizon']:g} {fit['after']['horizon_unit']}")
+    head = ("model", f"free-running error over {fit['after']['horizon']:g} {fit['horizon_unit']}")
     show(
         "DATA_EMPS_PULSES, seen by no fit",
         (*head, "log score a sample", "valid for", "force unexplained, of the drive"),
