@@ -18,8 +18,9 @@ from lostmotion.inference.tracks import Track
 from lostmotion.system import Slot, System, substeps
 
 HELD_OUT = 0.3
-BIG = 2.0 * math.log(0.3 / USUAL)
-"""Where a search begins: with a random force of 0.3 of the drive the filter follows whatever the parameters."""
+LEVELS_TRIED = (0.3, 0.05, 0.008)
+"""Random forces, as shares of the drive, with which starting points are compared: a large one lets the filter follow
+whatever the parameters, a small one tells good parameters from bad ones."""
 
 LEAST = 2.0 * math.log(0.1)
 """The random force is never less than a tenth of the usual: without any, a filter trusts its linearisation too far."""
@@ -88,11 +89,17 @@ def noise_frees(tracks: Sequence[Track], scales: Scales) -> tuple[Free, Free]:
     The random force has a broad normal prior about the usual noise of a measured excitation.
     """
     usual = scales.usual
+    start = max(random_level(tracks, scales, LEVELS_TRIED[0]), usual + 2.0)
     noise = math.log(float(np.median([t.noise for t in tracks])))
     return (
-        Free(RANDOM, "1", usual + BIG, usual + LEAST, usual + BIG + 6.0, mean=usual, sd=4.0),
+        Free(RANDOM, "1", start, usual + LEAST, start + 6.0, mean=usual, sd=4.0),
         Free(NOISE, "1", noise, noise - 7.0, noise + 3.0),
     )
+
+
+def random_level(tracks: Sequence[Track], scales: Scales, share: float) -> float:
+    """Return the log intensity of a random force that is the given share of the drive, white from sample to sample."""
+    return math.log((share * scales.force) ** 2 * tracks[0].dt)
 
 
 def known_of(system: System, case: Case) -> Array:
@@ -148,11 +155,17 @@ def search(problem: Problem, rng: np.random.Generator, *, points: int = 48, fina
     beginning = problem.on(tuple(t.part(0, min(t.samples, 3000)) for t in problem.tracks[:1]))
     base = [i for i, f in enumerate(problem.free) if f.key not in LEVELS]
     starts = np.repeat(problem.start[None], points, axis=0)
+    random = problem.keys.index(RANDOM)
     if base:
         cube = qmc.LatinHypercube(len(base), rng=rng).random(points - 1)
         low, high = (np.array([getattr(problem.free[i], end) for i in base]) for end in ("low", "high"))
         starts[1:, base] = low + cube * (high - low)
-    scores = [here.log_likelihood for here in beginning.many(starts)]
+    scores = np.full(points, -np.inf)
+    for share in LEVELS_TRIED:
+        starts[:, random] = random_level(problem.tracks, problem.scales, share)
+        at_share = [here.log_likelihood for here in beginning.many(problem.clip(starts))]
+        scores = np.maximum(scores, at_share)
+    starts[:, random] = problem.start[random]
     best = np.argsort(scores)[::-1][:finalists]
     fits = [maximise(beginning, starts[i]) for i in best]
     ranked = sorted(fits, key=lambda f: -f.local.log_posterior)

@@ -20,7 +20,7 @@ def smoothing_spline(x: Array, dt: float) -> BSpline:
     t: Array = np.arange(len(x), dtype=float) * dt
     best, fit, worse = math.inf, make_interp_spline(t, x, k=DEGREE), 0
     floor = 1e-12 * float(np.var(x))
-    for spacing in reversed(_spacings(len(x))):
+    for spacing in _spacings(len(x)):
         spline = make_lsq_spline(t, x, _knots(t, spacing), k=DEGREE)
         left = float(np.mean((spline(t) - x) ** 2)) + floor
         score = len(x) * math.log(left) + 2.0 * len(x) / spacing

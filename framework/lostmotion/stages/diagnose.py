@@ -115,13 +115,13 @@ def polish(fit: Fit) -> Fit:
 def _located(bare: Diagnosis) -> Diagnosis:
     """Return the diagnosis with the missing force located: found terms taken out first, then with them."""
     after, shown = bare.after, bare.shown
-    honest = after.problem.on((shown,))
+    honest = stepped(after.problem, after.theta).on((shown,))
     if not bare.found:
         located = locate(shown, missing_force(honest, after.theta))
         return replace(bare, located=located)
     left = missing_force(honest, after.theta)
     without, theta = taken_out(after)
-    located = locate(shown, missing_force(without.problem.on((shown,)), theta))
+    located = locate(shown, missing_force(replace(honest, free=without.problem.free, active=frozenset()), theta))
     laws = {key: law_of(after, shown, left.states, key) for key in bare.found}
     law = np.sum(list(laws.values()), axis=0)
     table = covariates(shown, left)
