@@ -11,7 +11,8 @@ import numpy as np
 
 from lostmotion.contracts import Array
 from lostmotion.inference.candidates import term_of
-from lostmotion.inference.fit import Fit, robust_covariance
+from lostmotion.inference.fit import Fit
+from lostmotion.inference.mixture import draws
 from lostmotion.inference.predict import Horizon
 from lostmotion.inference.problem import LEVELS
 from lostmotion.inference.tracks import period_samples
@@ -37,19 +38,11 @@ class Outcome:
 
 
 def draws_of(fit: Fit, rng: np.random.Generator) -> Array:
-    """Return draws (DRAWS, keys) of the physical parameters from the normal approximation to the posterior.
-
-    Its covariance is the robust one, so that intervals widen when something with a memory is left over.
-    """
-    problem = fit.problem
-    covariance = robust_covariance(fit)
-    sd = np.sqrt(np.maximum(np.diag(covariance), 1e-300))
-    values, vectors = np.linalg.eigh(covariance / np.outer(sd, sd))
-    root = sd[:, None] * vectors * np.sqrt(np.maximum(values, 0.0))
-    theta = fit.theta + rng.standard_normal((DRAWS, len(fit.theta))) @ root.T
-    theta = np.clip(theta, [f.low for f in problem.free], [f.high for f in problem.free])
-    kept = [i for i, f in enumerate(problem.free) if f.key not in LEVELS]
-    return np.array([[problem.free[i].value(row[i]) for i in kept] for row in theta])
+    """Return draws (DRAWS, keys) of the physical parameters from the posterior about a fit."""
+    free = fit.problem.free
+    theta = draws(fit, rng, DRAWS)
+    kept = [i for i, f in enumerate(free) if f.key not in LEVELS]
+    return np.array([[free[i].value(row[i]) for i in kept] for row in theta])
 
 
 def intervals(fit: Fit, draws: Array) -> dict[str, Interval]:

@@ -1,0 +1,88 @@
+"""Draws from a posterior whose one awkward direction, the level of the random force, is integrated on a grid.
+
+At the maximum the random force often lies at its lower bound, where a normal approximation is too narrow for
+everything else: more random force means a shorter memory and wider intervals. Conditional on it the posterior is
+close to normal, so a mixture over a grid of it is good (Rue, Martino, Chopin, J. R. Statist. Soc. B 71 (2009) 319-392).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from lostmotion.contracts import Array
+from lostmotion.inference.fit import Fit, Local, maximise, robust_covariance
+from lostmotion.inference.problem import RANDOM
+
+STRIDE = 0.8
+MOST = 7
+FAINT = 5.0
+"""Nodes are this far apart in log intensity, at most so many to each side, as long as their log weight is within this
+of the best."""
+
+
+@dataclass(frozen=True)
+class Node:
+    """The posterior at one level of the random force: its expansion there and its log weight."""
+
+    local: Local
+    weight: float
+
+
+def draws(fit: Fit, rng: np.random.Generator, count: int) -> Array:
+    """Return draws (count, free parameters) of the coordinates from the posterior about a fit.
+
+    Spreads are those of the robust covariance where that is wider, so that leftovers with a memory widen them.
+    """
+    nodes = _nodes(fit)
+    weights = np.exp([n.weight - max(m.weight for m in nodes) for n in nodes])
+    which = rng.choice(len(nodes), size=count, p=weights / weights.sum())
+    wider = np.sqrt(np.diag(robust_covariance(fit)) / np.maximum(np.diag(fit.local.covariance), 1e-300))
+    noise = rng.standard_normal((count, len(fit.theta)))
+    theta = np.array(
+        [nodes[k].local.theta + wider * (_root(nodes[k].local) @ z) for k, z in zip(which, noise, strict=True)]
+    )
+    at = fit.problem.keys.index(RANDOM)
+    theta[:, at] += STRIDE * (rng.random(count) - 0.5) if len(nodes) > 1 else 0.0
+    return fit.problem.clip(theta)
+
+
+def _root(local: Local) -> Array:
+    """Return a square root of the covariance of an expansion, each coordinate scaled to unit spread first."""
+    covariance = local.covariance
+    sd = np.sqrt(np.maximum(np.diag(covariance), 1e-300))
+    values, vectors = np.linalg.eigh(covariance / np.outer(sd, sd))
+    return np.asarray(sd[:, None] * vectors * np.sqrt(np.maximum(values, 0.0)))
+
+
+def _nodes(fit: Fit) -> list[Node]:
+    """Return the nodes from the maximum outwards, each started from its neighbour."""
+    at = fit.problem.keys.index(RANDOM)
+    free = fit.problem.free[at]
+    centre = _node(fit, fit.theta, at)
+    nodes = [centre]
+    for direction in (1.0, -1.0):
+        near = centre
+        for _ in range(MOST):
+            theta = near.local.theta.copy()
+            theta[at] += direction * STRIDE
+            if not free.low <= theta[at] <= free.high:
+                break
+            near = _node(fit, theta, at)
+            if not near.weight > max(n.weight for n in nodes) - FAINT:
+                break
+            nodes.append(near)
+    return nodes
+
+
+def _node(fit: Fit, theta: Array, at: int) -> Node:
+    """Return the node at the random force of `theta`, all else at its best there."""
+    frees = list(fit.problem.free)
+    frees[at] = replace(frees[at], start=theta[at], low=theta[at], high=theta[at])
+    local = maximise(replace(fit.problem, free=tuple(frees)), theta, rounds=4, tolerance=0.1).local
+    kept = [i for i in range(len(theta)) if i != at]
+    sign, logdet = np.linalg.slogdet(local.information[np.ix_(kept, kept)])
+    height = local.log_likelihood + fit.problem.log_prior(local.theta)
+    return Node(local, height - 0.5 * float(logdet) if sign > 0 else -math.inf)
