@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from lostmotion.contracts import Array
+from lostmotion.contracts import Array, Model
 from lostmotion.inference.latent import Missing
 from lostmotion.inference.tracks import Track, period_samples
 
@@ -26,9 +26,16 @@ class Curve:
     high: Array
 
 
-def covariates(track: Track, missing: Missing) -> dict[str, Array]:
-    """Return position, velocity, phase (cycles, when there is a drive period) and time (s) of each sample."""
+def covariates(model: Model, track: Track, missing: Missing) -> dict[str, Array]:
+    """Return position, velocity, phase (cycles, when there is a drive period) and time (s) of each sample.
+
+    Where the model has further places than the ground, the relative motion there too: "position at base".
+    """
     table = {"position": missing.position, "velocity": missing.velocity}
+    for place in model.interfaces:
+        if place.name != "ground" and len(model.interfaces) > 1:
+            motion = np.array([place.motion(y, u) for y, u in zip(missing.states, track.inputs, strict=True)])
+            table[f"position at {place.name}"], table[f"velocity at {place.name}"] = motion.T
     period = period_samples(track)
     if period:
         table["phase"] = ((track.begin + np.arange(track.samples)) / period) % 1.0
@@ -100,14 +107,11 @@ def summary(table: Mapping[str, Array], force: Array, found: Mapping[str, float]
     name = max(found, key=lambda k: found[k])
     if found[name] < 0.05:
         return "no structure over position, velocity, phase or time"
-    words = [f"{found[name]:.0%} of its variance goes with {name}"]
-    if name in ("position", "velocity"):
-        kind = parity(curve(table[name], force))
-        words = [f"{kind} in {name}, which explains {found[name]:.0%} of its variance"] if kind != "neither" else words
+    kind = parity(curve(table[name], force)) if name.startswith(("position", "velocity")) else "neither"
+    how = "a function of" if kind == "neither" else f"{kind} in"
     absent = [k for k in found if k != name and found[k] < 0.05]
-    if absent:
-        words.append("absent from " + " and ".join(absent))
-    return ", ".join(words)
+    nothing = f"; nothing of it goes with {' or '.join(absent)}" if absent else ""
+    return f"{how} {name}, which explains {found[name]:.0%} of its variance{nothing}"
 
 
 def autocorrelation(errors: Array, variances: Array, lags: int = 40) -> Array:

@@ -10,15 +10,24 @@ from scipy.interpolate import BSpline, make_interp_spline, make_lsq_spline
 from lostmotion.contracts import Array
 
 DEGREE = 5
+ENOUGH = 8000
 
 
 def smoothing_spline(x: Array, dt: float) -> BSpline:
     """Return a quintic spline through the series `x` (n,), with as many even knots as Akaike's criterion wants.
 
-    Cost is linear in n. A series without visible noise is interpolated.
+    The knots are chosen on the first samples, since the cost grows faster than n. Short series are interpolated.
     """
     t: Array = np.arange(len(x), dtype=float) * dt
-    best, fit, worse = math.inf, make_interp_spline(t, x, k=DEGREE), 0
+    spacing = _chosen(t[:ENOUGH], x[:ENOUGH])
+    if spacing is None:
+        return make_interp_spline(t, x, k=DEGREE)
+    return make_lsq_spline(t, x, _knots(t, spacing), k=DEGREE)
+
+
+def _chosen(t: Array, x: Array) -> int | None:
+    """Return the spacing of the knots in samples, from fine to coarse until it only gets worse; None when too short."""
+    best, chosen, worse = math.inf, None, 0
     floor = 1e-12 * float(np.var(x))
     for spacing in _spacings(len(x)):
         spline = make_lsq_spline(t, x, _knots(t, spacing), k=DEGREE)
@@ -26,10 +35,10 @@ def smoothing_spline(x: Array, dt: float) -> BSpline:
         score = len(x) * math.log(left) + 2.0 * len(x) / spacing
         worse = 0 if score < best else worse + 1
         if score < best:
-            best, fit = score, spline
+            best, chosen = score, spacing
         if worse == 3:
             break
-    return fit
+    return chosen
 
 
 def _spacings(n: int) -> list[int]:

@@ -91,7 +91,7 @@ def _curves(evidence: Evidence) -> list[tuple[str, str, str]]:
 def _mark_validity(axes: Axes, evidence: Evidence, clock: Clock) -> None:
     for row, (name, colour, _) in enumerate(_curves(evidence)):
         at = clock.rate * evidence.number("valid_prediction_time", name)
-        if not at <= axes.get_xlim()[1]:
+        if not at <= axes.get_xlim()[1] or evidence.fact("valid_prediction_time", "or_longer", name):
             continue
         axes.axvline(at, color=colour, linestyle=":", linewidth=1.5)
         text = axes.text(at, 0.05 + 0.09 * row, f" {figures(at, 2)}", color=colour, fontsize=8.5)

@@ -59,7 +59,9 @@ def _draw_prediction(figure: Figure, evidence: Evidence, place: Place) -> None:
 
 def _draw_force(figure: Figure, evidence: Evidence, place: Place) -> None:
     axes = figure.add_subplot(place[0][:, place[1]])
-    missing.draw_curve(axes, evidence, "velocity")
+    shares = evidence.fact("where", "explained_by") or {}
+    names = [n for n in evidence.labels.get("covariate", ()) if n.startswith("velocity")]
+    missing.draw_curve(axes, evidence, max(names, key=lambda n: shares.get(n, 0.0)))
     axes.legend(loc="best", fontsize=8)
     axes.set_title("The force that was missing" if evidence.augmented else "No force is missing", color="black")
 

@@ -113,6 +113,8 @@ def _floor(evidence: Evidence) -> str:
 def _valid(evidence: Evidence, when: str) -> str:
     seconds = evidence.number("valid_prediction_time", when)
     text = measured(seconds, str(evidence.fact("valid_prediction_time", "unit") or "s"))
+    if evidence.fact("valid_prediction_time", "or_longer", when):
+        return f"more than {text}"
     times = figures(evidence.number("valid_prediction_time", "in_lyapunov_times", when), 2)
     return text if times == DASH else f"{text} ({times} Lyapunov times)"
 

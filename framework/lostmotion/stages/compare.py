@@ -87,12 +87,19 @@ def predict(fit: Fit, pieces: Sequence[Piece], horizon: Horizon, exponent: float
         exponent=exponent,
         lead=joint.lead,
         growth=joint.growth(scale),
-        valid_time=joint.valid_time(scale),
+        valid_time=joint.valid_time(own_motion(fit, pieces)),
         forecast=forecast,
         restarts=restarts,
         acf=autocorrelation(first.errors[tail], first.variances[tail]),
         white=whiteness(first.errors[tail], first.variances[tail]),
     )
+
+
+def own_motion(fit: Fit, pieces: Sequence[Piece]) -> float:
+    """Return the standard deviation of the motion of the machine itself: relative to its base where that moves."""
+    relative = fit.problem.system.model.inputs[0] == "base_position" and pieces[0].track.channel == "position"
+    parts = [p.track.z[p.begin :] - (p.track.inputs[p.begin :, 0] if relative else 0.0) for p in pieces]
+    return float(np.nanstd(np.concatenate(parts)))
 
 
 def _runs(problem: Problem, fit: Fit, states: Array, piece: Piece, horizon: Horizon):  # type: ignore[no-untyped-def]

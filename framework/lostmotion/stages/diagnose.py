@@ -117,16 +117,27 @@ def _located(bare: Diagnosis) -> Diagnosis:
     after, shown = bare.after, bare.shown
     honest = stepped(after.problem, after.theta).on((shown,))
     if not bare.found:
-        located = locate(shown, missing_force(honest, after.theta))
+        located = locate(after.problem.system.model, shown, missing_force(honest, after.theta))
         return replace(bare, located=located)
     left = missing_force(honest, after.theta)
     without, theta = taken_out(after)
-    located = locate(shown, missing_force(replace(honest, free=without.problem.free, active=frozenset()), theta))
+    located = locate(
+        after.problem.system.model,
+        shown,
+        missing_force(replace(honest, free=without.problem.free, active=frozenset()), theta),
+    )
     laws = {key: law_of(after, shown, left.states, key) for key in bare.found}
     law = np.sum(list(laws.values()), axis=0)
-    table = covariates(shown, left)
+    table = covariates(after.problem.system.model, shown, left)
     curves = {k: curve(v, law, edges_of(table[k])) for k, v in table.items()}
-    return replace(bare, located=located, left=locate(shown, left), law=law, laws=laws, law_curves=curves)
+    return replace(
+        bare,
+        located=located,
+        left=locate(after.problem.system.model, shown, left),
+        law=law,
+        laws=laws,
+        law_curves=curves,
+    )
 
 
 def taken_out(fit: Fit) -> tuple[Fit, Array]:
@@ -136,9 +147,9 @@ def taken_out(fit: Fit) -> tuple[Fit, Array]:
     return replace(fit, problem=problem), fit.theta[kept]
 
 
-def locate(track: Track, missing: Missing) -> Located:
+def locate(model: Model, track: Track, missing: Missing) -> Located:
     """Return where a missing force lives."""
-    table = covariates(track, missing)
+    table = covariates(model, track, missing)
     found = shares(table, missing.force)
     curves = {name: curve(values, missing.force) for name, values in table.items()}
     return Located(missing, curves, found, summary(table, missing.force, found))

@@ -71,6 +71,7 @@ def _series(outcome: Outcome) -> dict[str, Column]:
 
 def _curves(d: Diagnosis) -> dict[str, Column]:
     units = {**units_of(d), "phase": "cycles", "time": "s"}
+    units |= {name: units[name.split()[0]] for name in d.located.curves}
     names = list(d.located.curves)
     width = max(len(c.mean) for c in d.located.curves.values())
     force = units["force"]

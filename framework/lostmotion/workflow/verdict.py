@@ -101,6 +101,7 @@ def _setting(outcome: Outcome) -> dict[str, Any]:
         "valid_prediction_time": {
             **{k: p.valid_time for k, p in predictions.items()},
             "unit": "s",
+            "or_longer": {k: bool(p.valid_time >= p.lead[-1]) for k, p in predictions.items()},
             "in_" + outcome.horizon.unit.replace(" ", "_").lower(): {
                 k: p.valid_time / outcome.horizon.unit_time for k, p in predictions.items()
             },
@@ -153,9 +154,7 @@ def _entry(d: Diagnosis, key: str, after: Mapping[str, Interval]) -> dict[str, A
         "probability": d.selection.inclusion(key),
         "parameters": {name: interval.as_dict() for name, interval in own.items()},
         "share_of_drive": share,
-        "says": f"{sentence}, at most {share:.2g} of the drive."
-        if share < 0.001
-        else f"{sentence}, at most {share:.1%} of the drive.",
+        "says": f"{sentence}, up to {100.0 * share:.2g} % of the drive.",
     }
 
 
@@ -235,7 +234,11 @@ def says(outcome: Outcome, found: list[dict[str, Any]]) -> list[str]:
         ]
     if not d.found:
         return [found[0]["says"]]
-    opening = [f"{entry['says'][:-1]}, was left out." if i == 0 else entry["says"] for i, entry in enumerate(found)]
+    opening = [entry["says"] for entry in found]
+    if len(found) == 1:
+        opening[0] = f"{opening[0][:-1]}, and the model leaves it out."
+    else:
+        opening.append(f"The model leaves out {'both' if len(found) == 2 else f'all {len(found)} of them'}.")
     old, new = _unexplained(d, after=False), _unexplained(d, after=True)
     opening.append(
         f"With {'it' if len(found) == 1 else 'them'} the unexplained force falls from {old['rms']:.3g} to"
