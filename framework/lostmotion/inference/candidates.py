@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from lostmotion.contracts import Array, Param, Term
-from lostmotion.inference.fit import Fit, Sensitivity, maximise, restarted, sensitivity, solved
+from lostmotion.inference.fit import Fit, Sensitivity, maximise, restarted, sensitivity, solved, warmed
 from lostmotion.inference.problem import Free, Problem, Scales
 from lostmotion.system import Slot
 
@@ -143,6 +143,16 @@ def fit_with(fit: Fit, hint: Hint, *, hopeless: float = -math.inf) -> Fit:
     if best.status in ("converged", "abandoned") and best.log_likelihood > fit.log_likelihood - 1.0:
         return best
     return max((best, maximise(problems[1 - first], hopeless=hopeless)), key=lambda f: f.local.log_posterior)
+
+
+def fit_in_place(fit: Fit, key: str, hint: Hint, *, hopeless: float = -math.inf) -> Fit:
+    """Return the fit with the term of `hint` in place of its relative `key`, starting from what both of them have."""
+    values = fit.values
+    _, slots = term_of(fit.problem, hint.key)
+    shared = {s.key: values.get(f"{key}.{s.param.name}") for s in slots}
+    start = {**hint.start, **{name: value for name, value in shared.items() if value is not None}}
+    problem = restarted(fit).reduced(key, values).extended(frees_of(slots, fit.problem.scales, start), {hint.key})
+    return maximise(problem, warmed(problem, problem.start, 2.0), hopeless=hopeless)
 
 
 def _scaled(hint: Hint, slots: list[Slot], factor: float) -> dict[str, float]:

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from lostmotion.contracts import Array
-from lostmotion.inference.problem import Innovations, Problem
+from lostmotion.inference.problem import RANDOM, Innovations, Problem
 
 BLOCKS = 40
 STRIDE = 0.3
@@ -234,3 +234,10 @@ def robust_covariance(fit: Fit) -> Array:
     sandwich = usual @ (sums @ sums.T * BLOCKS / (BLOCKS - 1.0)) @ usual
     factor = np.sqrt(np.maximum(np.diag(sandwich) / np.maximum(np.diag(usual), 1e-300), 1.0))
     return np.asarray(usual * np.outer(factor, factor))
+
+
+def warmed(problem: Problem, theta: Array, by: float) -> Array:
+    """Return the coordinates with the random force raised, so that a fit begins where the posterior is smooth."""
+    warm = theta.copy()
+    warm[problem.keys.index(RANDOM)] += by
+    return problem.clip(warm)

@@ -9,8 +9,8 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from lostmotion.contracts import Term
-from lostmotion.inference.candidates import Hint, fit_with, screen, slopes_of, term_of
-from lostmotion.inference.fit import Fit, maximise, robust_covariance
+from lostmotion.inference.candidates import Hint, fit_in_place, fit_with, screen, slopes_of, term_of
+from lostmotion.inference.fit import Fit, maximise, robust_covariance, warmed
 from lostmotion.inference.problem import RANDOM
 
 PROMISING = 3.0
@@ -18,6 +18,9 @@ PROMISING = 3.0
 MOST_FITTED = 6
 MOST_TERMS = 5
 BEAM = 3
+EXTRA = 1.5
+"""The log price of each parameter of a term beyond its first."""
+CLOSE = 12.0
 DECISIVE = math.log(20.0)
 """A term is taken when it makes the posterior odds of the model twenty times better."""
 CERTAIN = 3.0
@@ -80,6 +83,7 @@ class Selector:
         self.candidates = tuple(candidates)
         self.say = say
         self.course = Selection(nominal, nominal)
+        self._settled: set[frozenset[str]] = set()
         self._sure: dict[frozenset[str], tuple[float, float]] = {}
         self._visit(nominal)
 
@@ -92,9 +96,10 @@ class Selector:
         return self.course
 
     def _visit(self, fit: Fit) -> Visit:
-        """Note a fitted set; the prior makes each term cost as much as there are candidates, and a factor e."""
+        """Note a fitted set; by the prior a term costs the number of candidates, a factor e, and its complexity."""
         terms = fit.problem.active
-        price = len(terms) * (math.log(max(len(self.candidates), 1)) + 1.0)
+        extra = sum(len(term_of(fit.problem, key)[1]) - 1 for key in terms)
+        price = len(terms) * (math.log(max(len(self.candidates), 1)) + 1.0) + EXTRA * extra
         visit = Visit(terms, fit, fit.log_evidence - price)
         known = self.course.visits.get(terms)
         if known is None or visit.weight > known.weight:
@@ -107,6 +112,7 @@ class Selector:
         for visit in self._beam(here):
             self._additions(visit.fit)
         self._swaps(here.fit)
+        self._settle()
         for visit in sorted(self.course.visits.values(), key=lambda v: -v.weight):
             needed = DECISIVE if visit.terms > here.terms else 0.0
             if visit.terms == here.terms or visit.weight < here.weight + needed:
@@ -117,6 +123,17 @@ class Selector:
                 return True
             self.course.declined.update(visit.terms - here.terms)
         return False
+
+    def _settle(self) -> None:
+        """Fit the best sets again from a raised random force, since some of them may have stopped at a false maximum."""
+        best = max(v.weight for v in self.course.visits.values())
+        for visit in [
+            v for v in self.course.visits.values() if v.weight > best - CLOSE and v.terms not in self._settled
+        ]:
+            self.say(f"again with {' and '.join(sorted(visit.terms)) or 'nothing'}")
+            self._settled.add(visit.terms)
+            problem = visit.fit.problem
+            self._visit(maximise(problem, warmed(problem, visit.fit.theta, 6.0)))
 
     def _certain(self, visit: Visit, here: Visit) -> bool:
         """Return whether a better set may be believed where something with a memory is left over.
@@ -155,9 +172,17 @@ class Selector:
         if not fit.problem.active:
             self.course.hints = {h.key: h for h in hints}
         good = sorted((h for h in hints if h.gain > PROMISING and h.distinct > SAME), key=lambda h: -h.gain)
-        for hint in good[:MOST_FITTED]:
+        for hint in sorted(good[:MOST_FITTED], key=lambda h: len(h.start)):
             self.say(f"fit with {hint.key}")
-            self._visit(fit_with(fit, hint, hopeless=self._hopeless()))
+            self._visit(self._fitted(fit, hint))
+
+    def _fitted(self, fit: Fit, hint: Hint) -> Fit:
+        """Return the fit with one more term, begun at the fit with a simpler relative of it where there is one."""
+        for key in self.candidates:
+            visit = self.course.visits.get(fit.problem.active | {key})
+            if visit and self._related(visit.fit, key, hint.key):
+                return fit_in_place(visit.fit, key, hint, hopeless=self._hopeless())
+        return fit_with(fit, hint, hopeless=self._hopeless())
 
     def _hopeless(self) -> float:
         """Return the log posterior below which a fit cannot matter any more."""
