@@ -125,7 +125,7 @@ class Selector:
         return False
 
     def _settle(self) -> None:
-        """Fit the best sets again from a raised random force, since some of them may have stopped at a false maximum."""
+        """Fit the best sets again from a raised random force: some of them may have stopped at a false maximum."""
         best = max(v.weight for v in self.course.visits.values())
         for visit in [
             v for v in self.course.visits.values() if v.weight > best - CLOSE and v.terms not in self._settled
