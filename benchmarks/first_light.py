@@ -92,7 +92,7 @@ def ensemble(title, groups, args):
     """Print a row for each (hidden force, noise): mean, scatter, coverage, z-scores, names and false alarms."""
     rows = []
     for hidden, noise in groups:
-        found = several([Study(hidden, 100 + s, noise=noise) for s in range(args.seeds)], args)
+        found = several([Study(hidden, args.first + s, noise=noise) for s in range(args.seeds)], args)
         rows.append(ensemble_row(found, hidden, noise))
     head = ("hidden, noise", "rival or prototype", "found: mean +- scatter", "worst miss", "in interval")
     head += ("z rms (c, x0, k0)", "named right", "else", "seconds each")
@@ -254,6 +254,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("part", nargs="*", default=["all"], help=" ".join([*PARTS, "all"]))
     parser.add_argument("--seeds", type=int, default=10, help="records of each kind")
+    parser.add_argument("--first", type=int, default=100, help="seed of the first short record")
     parser.add_argument("--jobs", type=int, default=2, help="processes")
     parser.add_argument("--shared", type=Path, default=ROOT.parent / "shared", help="folder of the real recordings")
     parser.add_argument("--keep", type=Path, help="file that every single result is added to, as a line of JSON")
