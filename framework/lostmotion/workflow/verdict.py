@@ -176,7 +176,12 @@ def _unnamed(d: Diagnosis, depends: list[str]) -> dict[str, Any]:
 
 
 def _ranking(d: Diagnosis) -> list[dict[str, Any]]:
+    """Return every candidate with its evidence and probability, and beside them "nothing missing" and "unknown".
+
+    "Unknown" is what the library does not explain: when nothing was found and a force beyond the usual is left.
+    """
     selection = d.selection
+    unknown = 0.0 if d.found or not d.unexplained else 1.0 - math.exp(-d.random_gain)
     rows = []
     for term in selection.nominal.problem.system.terms:
         key = key_of(term)
@@ -185,14 +190,16 @@ def _ranking(d: Diagnosis) -> list[dict[str, Any]]:
                 "mechanism": term.name,
                 "at": term.at,
                 "log_evidence_gain": selection.gain(key),
-                "probability": selection.inclusion(key),
+                "probability": selection.inclusion(key) * (1.0 - unknown),
                 "fitted": frozenset({key}) in selection.visits,
             }
         )
-    nothing = selection.probabilities().get(frozenset(), 0.0)
+    nothing = selection.probabilities().get(frozenset(), 0.0) * (1.0 - unknown)
     rows.append(
         {"mechanism": "nothing_missing", "at": "", "log_evidence_gain": 0.0, "probability": nothing, "fitted": True}
     )
+    gain = d.random_gain if unknown else 0.0
+    rows.append({"mechanism": "unknown", "at": "", "log_evidence_gain": gain, "probability": unknown, "fitted": False})
     return sorted(rows, key=lambda row: (-row["probability"], -row["log_evidence_gain"]))
 
 
