@@ -51,7 +51,9 @@ PROTOTYPE = {
 
 def table(args):
     """The three rows of the prototype table: 100 training periods at 1 % noise."""
-    results = several([Study(force, 1, 143, gap=False, predict=force > 0) for force in PROTOTYPE], args)
+    seeds = range(1, 1 + args.records)
+    studies = [Study(force, seed, 143, gap=False, predict=force > 0) for force in PROTOTYPE for seed in seeds]
+    results = several(studies, args)
     head = ("hidden", "named", "c ignoring it: prototype / ours", "friction in N: prototype / ours, truth inside?")
     head += ("c with it: prototype / ours", "gains: prototype", "gains: ours", "time")
     title = "Case 1, 100 training periods, 1 % noise; gains by Coulomb / quadratic / best wrong term"
@@ -254,6 +256,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("part", nargs="*", default=["all"], help=" ".join([*PARTS, "all"]))
     parser.add_argument("--seeds", type=int, default=10, help="records of each kind")
+    parser.add_argument("--records", type=int, default=1, help="long records of each row of the table")
     parser.add_argument("--first", type=int, default=100, help="seed of the first short record")
     parser.add_argument("--jobs", type=int, default=2, help="processes")
     parser.add_argument("--shared", type=Path, default=ROOT.parent / "shared", help="folder of the real recordings")

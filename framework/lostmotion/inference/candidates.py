@@ -112,6 +112,10 @@ def _joint(slopes: Sensitivity, wider: Problem, widths: Array) -> Sensitivity:
 def _hint(fit: Fit, trial: Trial, joint: Sensitivity) -> Hint:
     key, amplitudes, shape = trial.key, trial.amplitudes, trial.shape
     gradient, information = joint.gradient(), joint.information()
+    if not (np.all(np.isfinite(gradient)) and np.all(np.isfinite(information))):
+        raise ContractError(
+            f"the force of {key} is not a finite number along the recorded motion: mend the term, or leave it out"
+        )
     k = len(amplitudes)
     base, cross, own = information[:-k, :-k], information[:-k, -k:], information[-k:, -k:]
     base = base + np.diag([1.0 / f.sd**2 if math.isfinite(f.sd) else 0.0 for f in fit.problem.free])

@@ -110,6 +110,11 @@ def known_of(system: System, case: Case) -> Array:
         guesses = {system.slot(name).key: prior.start() for name, prior in case.estimate.items()}
     except ContractError as err:
         raise CaseError(str(err)) from err
+    for name, value in case.known.items():
+        _check_bounds(system, name, value, value)
+    for name, prior in case.estimate.items():
+        at = prior.start()
+        _check_bounds(system, name, *((prior.low, prior.high) if prior.mean is None else (at, at)))
     if twice := set(values) & set(guesses):
         raise CaseError(f"{sorted(twice)[0]} is both known and to be estimated: keep one of them")
     lacking = [
@@ -120,6 +125,17 @@ def known_of(system: System, case: Case) -> Array:
             f"{system.model.name} needs {', '.join(lacking)}: give each in [model.known] or in [model.estimate]"
         )
     return system.vector({**values, **guesses})
+
+
+def _check_bounds(system: System, name: str, low: float, high: float) -> None:
+    """Refuse values of a parameter that no machine has: outside of its bounds, or an inertia of zero."""
+    slot = system.slot(name)
+    param = slot.param
+    inertia = slot.term is None and slot.key in {place.inertia for place in system.model.interfaces}
+    if low < param.low or high > param.high or (inertia and low <= 0.0):
+        found = f"{low:g}" if low == high else f"{low:g} to {high:g}"
+        wanted = "more than 0" if inertia else f"from {param.low:g} to {param.high:g}"
+        raise CaseError(f"{name} ({param.meaning}) is {found}, wanted {wanted}: correct it in the case")
 
 
 def problem_of(system: System, case: Case, tracks: tuple[Track, ...], *, jobs: int = 2) -> Problem:

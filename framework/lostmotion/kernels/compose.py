@@ -23,6 +23,7 @@ from typing import Any
 import numba
 import numpy as np
 
+from lostmotion.errors import ContractError
 from lostmotion.kernels.views import slow_view, view
 
 BARE: dict[str, Any] = {"error_model": "numpy", "nogil": True, "_nrt": False}
@@ -184,4 +185,25 @@ def _defined(plan: Blueprint, text: str, path: str, parts: dict[str, Any]) -> Co
     def run(*args: Any) -> int:
         return int(space["run"](*args, np.zeros((6, n))))
 
-    return Compiled(space["derivative"], track, run, text)
+    def derivative(*args: Any) -> None:
+        space["derivative"](*args)
+
+    return Compiled(_told(derivative), _told(track), _told(run), text)
+
+
+def _told(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Return the function with an error of the compiler, which works at the first call, told in one sentence."""
+
+    def call(*args: Any) -> Any:
+        try:
+            return function(*args)
+        except numba.core.errors.NumbaError as err:
+            lines = [line.strip() for line in str(err).splitlines()]
+            why = next((line for line in lines if "rror" in line and "pipeline" not in line), lines[0])
+            place = next((line for line in reversed(lines) if line.startswith("File ")), "")
+            raise ContractError(
+                f"a model or term cannot be compiled ({why.rstrip('.:')}{'; ' * bool(place)}{place.rstrip(':')}): "
+                "write it with numbers and the math module only"
+            ) from err
+
+    return call

@@ -149,6 +149,11 @@ def taken_out(fit: Fit) -> tuple[Fit, Array]:
 
 def locate(model: Model, track: Track, missing: Missing) -> Located:
     """Return where a missing force lives."""
+    if not np.all(np.abs(missing.force) < LARGEST):
+        raise DataError(
+            f"{track.name}: the model cannot follow this recording at all: check the units and columns of what went in"
+            " and came out, the known values and the priors"
+        )
     table = covariates(model, track, missing)
     found = shares(table, missing.force)
     curves = {name: curve(values, missing.force) for name, values in table.items()}
