@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from lostmotion.contracts import Array, Param, Term
+from lostmotion.errors import ContractError
 from lostmotion.inference.fit import Fit, Sensitivity, maximise, restarted, sensitivity, solved, warmed
 from lostmotion.inference.problem import Free, Problem, Scales
 from lostmotion.system import Slot

@@ -9,6 +9,7 @@ import numpy as np
 
 from lostmotion.case import Case
 from lostmotion.contracts import Array, Model, Term
+from lostmotion.errors import DataError
 from lostmotion.inference.fit import Fit, maximise
 from lostmotion.inference.latent import Missing, missing_force
 from lostmotion.inference.locate import Curve, covariates, curve, edges_of, shares, summary
@@ -23,6 +24,8 @@ SIGNIFICANT = 8.0
 STRUCTURED = 0.1
 FINE = 0.015
 """Final estimates take steps a quarter as long as those of the search: a kink makes RK4 first order."""
+LARGEST = 1e100
+"""A missing force beyond this means that the filter ran away: its square could not be taken."""
 
 
 @dataclass(frozen=True)

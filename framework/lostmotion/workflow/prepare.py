@@ -44,7 +44,7 @@ def prepare(path: Path, registry: Registry) -> Prepared:
         registry.add_file(case.folder / plugin)
     model: Model = registry.make("model", case.model)
     recordings = tuple(load_recording(spec, case.folder) for spec in case.recordings)
-    tracks = tuple(track_of(r, model) for r in recordings)
+    tracks = tuple(track_of(r, model, held=r.hold == "step") for r in recordings)
     _alike(recordings)
     terms = candidates_of(model, [registry.load("term", name) for name in registry.names("term")])
     return Prepared(case, recordings, tracks, model, terms)

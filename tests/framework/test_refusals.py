@@ -1,0 +1,115 @@
+"""Cases that cannot be meant, and plugins that cannot be used: each is refused with a sentence."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from lostmotion.case import Case, Prior
+from lostmotion.contracts import Param, Term
+from lostmotion.errors import CaseError, ContractError, DataError
+from lostmotion.inference.candidates import Trial, _hint
+from lostmotion.inference.latent import Missing
+from lostmotion.inference.setup import known_of
+from lostmotion.inference.tracks import Track
+from lostmotion.quantities import FORCE
+from lostmotion.registry import default
+from lostmotion.stages.diagnose import candidates_of, locate
+from lostmotion.system import System
+from lostmotion.workflow.prepare import prepare
+
+KNOWN = {"m": 1.0, "c": 8.0, "k": 1e4}
+CASE = """
+[[recordings]]
+file = "seen.csv"
+rate = 100.0
+hold = "{hold}"
+excitation = {{ column = "force", quantity = "force", unit = "N" }}
+response = {{ column = "x", quantity = "position", unit = "m" }}
+[model]
+name = "linear_oscillator"
+"""
+
+
+@dataclass(frozen=True)
+class Misspelt(Term):
+    """A term that asks for a name which is nowhere."""
+
+    at: str = "ground"
+    name = "misspelt"
+    physics = "A force of {force} acts"
+    formula = "force"
+    paper = "none"
+    params = (Param("force", "a force", FORCE, null=0.0),)
+
+    @staticmethod
+    def force(t, x, v, u, p, s):
+        return nowhere * p[0]  # noqa: F821 - the point of the test
+
+
+def oscillator(*terms):
+    """Return the system of the linear oscillator with the given terms."""
+    model = default().make("model", "linear_oscillator")
+    return System(model, candidates_of(model, terms))
+
+
+def case_of(known, estimate=None):
+    """Return a case without recordings."""
+    return Case("study", Path(), (), "linear_oscillator", known, estimate or {}, {}, (), "")
+
+
+@pytest.mark.parametrize(("name", "value"), [("m", -1.0), ("m", 0.0), ("c", -8.0), ("k", -1e4)])
+def test_a_known_value_that_no_machine_has_is_refused(name, value):
+    """A negative mass made a diagnosis run away for minutes."""
+    with pytest.raises(CaseError, match=rf"^{name} \(.*is {value:g}, wanted "):
+        known_of(oscillator(), case_of({**KNOWN, name: value}))
+
+
+@pytest.mark.parametrize("prior", [Prior(low=-5.0, high=80.0), Prior(mean=-5.0, sd=1.0)])
+def test_a_prior_that_no_machine_has_is_refused(prior):
+    with pytest.raises(CaseError, match=r"^c \("):
+        known_of(oscillator(), case_of({"m": 1.0, "k": 1e4}, {"c": prior}))
+
+
+def test_zero_damping_may_be_known():
+    assert known_of(oscillator(), case_of({**KNOWN, "c": 0.0})).min() == 0.0
+
+
+def test_a_term_that_cannot_be_compiled_is_told_in_a_sentence():
+    system = oscillator(Misspelt)
+    full = system.vector({**KNOWN, "misspelt.force": 1.0})
+    with pytest.raises(ContractError, match=r"cannot be compiled .*nowhere.* and the math module only$") as told:
+        system.stiffness(full, ["misspelt"], np.zeros((2, 2)), np.zeros((2, 1)))
+    assert "\n" not in str(told.value)
+
+
+def test_a_term_without_a_finite_force_is_refused():
+    class Lost:
+        """Sensitivities that are not numbers."""
+
+        gradient = staticmethod(lambda: np.array([1.0, np.nan]))
+        information = staticmethod(lambda: np.eye(2))
+
+    with pytest.raises(ContractError, match="force of cogging is not a finite number"):
+        _hint(None, Trial("cogging", (None,), {}), Lost())
+
+
+@pytest.mark.parametrize("size", [1e200, np.nan])
+def test_a_filter_that_ran_away_is_no_diagnosis(size):
+    system = oscillator()
+    track = Track("seen", np.zeros(4), np.zeros((4, 1)), 0.1, "position")
+    missing = Missing(np.full(4, size), np.zeros(4), np.zeros((4, 2)), 0.0, 0.0, 0.0)
+    with pytest.raises(DataError, match=r"^seen: the model cannot follow this recording"):
+        locate(system.model, track, missing)
+
+
+@pytest.mark.parametrize("hold", ["step", "smooth"])
+def test_an_excitation_that_is_held_is_taken_as_held(tmp_path, hold):
+    """`hold = "step"` was read, checked and then forgotten."""
+    rows = np.random.default_rng(0).normal(size=(200, 2))
+    np.savetxt(tmp_path / "seen.csv", rows, delimiter=",", header="force,x", comments="")
+    (tmp_path / "case.toml").write_text(CASE.format(hold=hold))
+    assert prepare(tmp_path / "case.toml", default()).tracks[0].held is (hold == "step")
