@@ -10,20 +10,18 @@ import numpy as np
 from lostmotion.case import Case
 from lostmotion.contracts import Array, Model, Term
 from lostmotion.errors import DataError
-from lostmotion.inference.fit import Fit, maximise
+from lostmotion.inference.fit import Fit
 from lostmotion.inference.latent import Missing, missing_force
 from lostmotion.inference.locate import Curve, covariates, curve, edges_of, shares, summary
 from lostmotion.inference.problem import LEVELS
 from lostmotion.inference.selection import Selection, Selector, significant_random_force
-from lostmotion.inference.setup import problem_of, search, split, stepped
+from lostmotion.inference.setup import polish, problem_of, search, split, stepped
 from lostmotion.inference.tracks import Track
 from lostmotion.system import System
 
 SIGNIFICANT = 8.0
 """A random force beyond the usual noise of the drive counts when it gains this much log-likelihood."""
 STRUCTURED = 0.1
-FINE = 0.015
-"""Final estimates take steps a quarter as long as those of the search: a kink makes RK4 first order."""
 LARGEST = 1e100
 """A missing force beyond this means that the filter ran away: its square could not be taken."""
 
@@ -106,13 +104,6 @@ def diagnose(
 
 _NO = np.zeros(0)
 _NOWHERE = Located(Missing(_NO, _NO, np.zeros((0, 2)), 0.0, 0.0, 0.0), {}, {}, "")
-
-
-def polish(fit: Fit) -> Fit:
-    """Return the fit with finer integration steps."""
-    problem = stepped(fit.problem, fit.theta, accuracy=FINE)
-    finer = maximise(problem, fit.theta)
-    return finer if finer.status in ("converged", "rough") else fit
 
 
 def _located(bare: Diagnosis) -> Diagnosis:

@@ -17,6 +17,7 @@ from lostmotion.stages.diagnose import Diagnosis, diagnose
 from lostmotion.storage import folder_for, save_arrays, save_json
 from lostmotion.system import System
 from lostmotion.workflow.arrays import arrays_of
+from lostmotion.workflow.notes import notes_of
 from lostmotion.workflow.prepare import Prepared, prepare
 from lostmotion.workflow.verdict import Outcome, draws_of, verdict
 
@@ -35,7 +36,7 @@ def run_diagnosis(
     diagnosis = diagnose(prepared.case, prepared.tracks, system, rng=rng, jobs=jobs, say=say)
     say("held-out predictions")
     outcome = judged(diagnosis, prepared, rng)
-    content = {"title": prepared.case.title, **verdict(outcome), **_background(prepared, diagnosis, seed)}
+    content = {"title": prepared.case.title, **verdict(outcome), **_background(prepared, outcome, seed)}
     say("report")
     variables, coords = arrays_of(outcome)
     save_arrays(folder / "arrays.nc", variables, coords, {"title": prepared.case.title})
@@ -61,20 +62,11 @@ def judged(diagnosis: Diagnosis, prepared: Prepared, rng: np.random.Generator) -
     return Outcome(diagnosis, before, after, horizon, draws, draws if same else draws_of(diagnosis.after, rng))
 
 
-def _background(prepared: Prepared, diagnosis: Diagnosis, seed: int) -> dict[str, Any]:
+def _background(prepared: Prepared, outcome: Outcome, seed: int) -> dict[str, Any]:
     case = prepared.case
-    declined = sorted(diagnosis.selection.declined - set(diagnosis.found))
-    held_back = (
-        [
-            f"{', '.join(declined)} would raise the likelihood further, but what is left over has a memory and that"
-            " rise is not believed: a recording of a different motion would decide."
-        ]
-        if declined
-        else []
-    )
     settings = {"model": case.model, "known": dict(case.known), "terms": [f"{t.name}@{t.at}" for t in prepared.terms]}
     return {
         "truth": dict(case.truth),
-        "notes": [*prepared.notes, *held_back],
+        "notes": notes_of(outcome, prepared.notes),
         "provenance": provenance("diagnose", settings, seed, prepared.inputs),
     }

@@ -16,11 +16,11 @@ from lostmotion.errors import CaseError, nearest
 from lostmotion.inference.candidates import fit_with, screen, slopes_of
 from lostmotion.inference.fit import Fit, maximise, restarted
 from lostmotion.inference.selection import significant_random_force
-from lostmotion.inference.setup import free_of, problem_of, search
+from lostmotion.inference.setup import free_of, polish, problem_of, search
 from lostmotion.provenance import provenance
 from lostmotion.registry import Registry
 from lostmotion.report.identification import write_identification
-from lostmotion.stages.diagnose import SIGNIFICANT, polish
+from lostmotion.stages.diagnose import SIGNIFICANT
 from lostmotion.stages.identify import NOISES, Identification, Plan, Watch, identify
 from lostmotion.storage import folder_for, save_json, whole
 from lostmotion.system import System, key_of

@@ -1,0 +1,65 @@
+"""What falls short in a diagnosis, in sentences: a report says it before a reader finds out."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from lostmotion.inference.problem import LEVELS
+from lostmotion.stages.diagnose import Diagnosis
+from lostmotion.workflow.verdict import Outcome
+
+FAR = 5.0
+"""Held-out errors of an adequate model that are this many times the noise deserve a warning."""
+EDGE = 1e-3
+
+
+def notes_of(outcome: Outcome, said: Sequence[str]) -> list[str]:
+    """Return the notes of a diagnosis: what the recordings `said` of themselves, and what a reader should doubt."""
+    d = outcome.diagnosis
+    return [*said, *_declined(d), *_on_the_edge(d), *_far_off(outcome), *_drifting(d)]
+
+
+def _declined(d: Diagnosis) -> list[str]:
+    declined = sorted(d.selection.declined - set(d.found))
+    if not declined:
+        return []
+    return [
+        f"{', '.join(declined)} would raise the likelihood further, but what is left over has a memory and that rise is"
+        " not believed: a recording of a different motion would decide."
+    ]
+
+
+def _on_the_edge(d: Diagnosis) -> list[str]:
+    """Return a note for each parameter that presses against a bound of its prior."""
+    notes = []
+    for f, at in zip(d.after.problem.free, d.after.theta, strict=True):
+        reach = EDGE * (f.high - f.low)
+        if f.key not in LEVELS and "." not in f.key and not f.low + reach < at < f.high - reach:
+            notes.append(
+                f"{f.key} lies on the bound {f.value(at):.4g} {f.unit} of its prior: widen the prior, or doubt what is"
+                " known; what was found may stand in for it."
+            )
+    return notes
+
+
+def _far_off(outcome: Outcome) -> list[str]:
+    d = outcome.diagnosis
+    noise = d.after.problem.noise(d.after.theta)[1] ** 0.5
+    far = outcome.after.nrmse * float(np.nanstd(d.shown.z)) / noise
+    if far < FAR:
+        return []
+    return [
+        f"Free runs over held-out data err by {far:.2g} times the measurement noise: something remains that one-step"
+        " errors do not show, or small errors of the state grow fast."
+    ]
+
+
+def _drifting(d: Diagnosis) -> list[str]:
+    if d.shown.channel != "acceleration":
+        return []
+    return [
+        "The recording shows acceleration only: position drifts, and intervals and terms of position are less certain"
+        " than stated."
+    ]
