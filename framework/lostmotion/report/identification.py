@@ -7,13 +7,13 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 from matplotlib.figure import Figure
 
 from lostmotion.report import identification_figures as drawing
 from lostmotion.report import style
 from lostmotion.report.identification_facts import Sampled, read_sampled
+from lostmotion.report.pages import template
 from lostmotion.report.words import DASH, Scale, figures, interval, pretty, readable
 
 
@@ -35,17 +35,10 @@ def write_identification(folder: Path) -> Path:
 
 def render(sampled: Sampled) -> str:
     """Return the page as one self-contained HTML text."""
-    pages = Environment(
-        loader=PackageLoader("lostmotion.report", "."),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
     facts = sampled.facts
     with style.applied():
         drawn = _figures(sampled)
-    return pages.get_template("identification.html.j2").render(
+    return template("identification.html.j2").render(
         title=str(facts.get("title") or "Identification"),
         model=str(facts.get("model") or ""),
         converged=sampled.converged,

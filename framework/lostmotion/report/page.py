@@ -7,12 +7,12 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import NamedTuple
 
-from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 from matplotlib.figure import Figure
 
 from lostmotion.report import growth, missing, opening, portraits, posteriors, prediction, ranking, style, tables
 from lostmotion.report.evidence import Evidence, read_evidence
+from lostmotion.report.pages import template
 
 
 class Section(NamedTuple):
@@ -54,16 +54,9 @@ def write_report(folder: Path) -> Path:
 
 def render(evidence: Evidence) -> str:
     """Return the page as one self-contained HTML text."""
-    pages = Environment(
-        loader=PackageLoader("lostmotion.report", "."),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
     with style.applied():
         sections = list(_drawn(evidence))
-    return pages.get_template("diagnosis.html.j2").render(
+    return template("diagnosis.html.j2").render(
         title=str(evidence.fact("title") or "Diagnosis"),
         badge=opening.badge(evidence),
         answer=opening.answer(evidence),

@@ -69,17 +69,17 @@ def exponent_of(fit: Fit, tracks: Sequence[Track]) -> float:
 def predict(fit: Fit, pieces: Sequence[Piece], horizon: Horizon, exponent: float) -> Prediction:
     """Return the predictions of one model on the held-out pieces, judged over `horizon`."""
     scale = float(np.nanstd(np.concatenate([p.track.z[p.begin :] for p in pieces])))
+    problems = [fit.problem.on((piece.track,)) for piece in pieces]
+    tracked = [filtered(problem, fit.theta) for problem in problems]
     runs, scores = [], []
-    for piece in pieces:
-        problem = fit.problem.on((piece.track,))
-        seen = filtered(problem, fit.theta)
+    for piece, problem, seen in zip(pieces, problems, tracked, strict=True):
         scores.append((seen.log_score(slice(piece.begin, None)), piece.track.samples - piece.begin))
         runs.append(_runs(problem, fit, seen.states, piece, horizon))
     shortest = min(r.error.shape[1] for r in runs)
     joint = replace(runs[0], lead=runs[0].lead[:shortest], error=np.vstack([r.error[:, :shortest] for r in runs]))
     judged = joint.error[:, : horizon.steps + 1]
-    first = filtered(fit.problem.on((pieces[0].track,)), fit.theta)
-    forecast, restarts = _forecast(fit, first.states, pieces[0], horizon)
+    first = tracked[0]
+    forecast, restarts = _forecast(problems[0], fit, first.states, pieces[0], horizon)
     tail = slice(pieces[0].begin, None)
     return Prediction(
         log_score=float(np.average([s for s, _ in scores], weights=[n for _, n in scores])),
@@ -112,9 +112,9 @@ def _runs(problem: Problem, fit: Fit, states: Array, piece: Piece, horizon: Hori
     return free_runs(problem, fit.theta, states, starts, steps)
 
 
-def _forecast(fit: Fit, states: Array, piece: Piece, horizon: Horizon) -> tuple[Array, Array]:
+def _forecast(problem: Problem, fit: Fit, states: Array, piece: Piece, horizon: Horizon) -> tuple[Array, Array]:
     """Return a free-running prediction (samples,) over a piece, begun anew every few units of time, and where."""
-    track, problem = piece.track, fit.problem.on((piece.track,))
+    track = piece.track
     length = max(int(SEGMENT * horizon.unit_time / track.dt), horizon.steps, 2)
     forecast, restarts = np.full(track.samples, np.nan), np.zeros(track.samples)
     for start in range(piece.begin, track.samples - 1, length):

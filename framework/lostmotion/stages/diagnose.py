@@ -13,7 +13,7 @@ from lostmotion.errors import DataError
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.latent import Missing, missing_force
 from lostmotion.inference.locate import Curve, covariates, curve, edges_of, shares, summary
-from lostmotion.inference.problem import LEVELS
+from lostmotion.inference.problem import LEVELS, Problem
 from lostmotion.inference.selection import Selection, Selector, significant_random_force
 from lostmotion.inference.setup import polish, problem_of, search, split, stepped
 from lostmotion.inference.tracks import Track
@@ -114,11 +114,11 @@ def _located(bare: Diagnosis) -> Diagnosis:
         located = locate(after.problem.system.model, shown, missing_force(honest, after.theta))
         return replace(bare, located=located)
     left = missing_force(honest, after.theta)
-    without, theta = taken_out(after)
+    bare_problem, theta = taken_out(honest, after.theta)
     located = locate(
         after.problem.system.model,
         shown,
-        missing_force(replace(honest, free=without.problem.free, active=frozenset()), theta),
+        missing_force(bare_problem, theta),
     )
     laws = {key: law_of(after, shown, left.states, key) for key in bare.found}
     law = np.sum(list(laws.values()), axis=0)
@@ -134,11 +134,10 @@ def _located(bare: Diagnosis) -> Diagnosis:
     )
 
 
-def taken_out(fit: Fit) -> tuple[Fit, Array]:
-    """Return a fit with its terms switched off and all else as it is, and its coordinates."""
-    kept = [i for i, f in enumerate(fit.problem.free) if "." not in f.key]
-    problem = replace(fit.problem, free=tuple(fit.problem.free[i] for i in kept), active=frozenset())
-    return replace(fit, problem=problem), fit.theta[kept]
+def taken_out(problem: Problem, theta: Array) -> tuple[Problem, Array]:
+    """Return a problem with its terms switched off and all else as it is, and its coordinates."""
+    kept = [i for i, f in enumerate(problem.free) if "." not in f.key]
+    return replace(problem, free=tuple(problem.free[i] for i in kept), active=frozenset()), theta[kept]
 
 
 def locate(model: Model, track: Track, missing: Missing) -> Located:
