@@ -11,7 +11,7 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from typing import Any, ClassVar, Literal
+from typing import Any, ClassVar, Generic, Literal, Protocol, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -169,6 +169,57 @@ def place_of(model: Model, term: Term) -> Interface:
     return places[term.at]
 
 
+@dataclass(frozen=True, eq=False)
+class Series:
+    """One recorded channel: `x` (n,) sampled every `dt` s, how it is embedded, and the period (s) of its drive.
+
+    `period` is None where nothing drives the machine, or nobody knows. The host has checked `x`: finite, not
+    constant, centred, double precision. Exact repeats do occur, as every encoder gives them.
+    """
+
+    x: Array
+    dt: float
+    embedding: Embedding
+    period: float | None = None
+
+    @property
+    def n(self) -> int:
+        """The number of samples."""
+        return len(self.x)
+
+
+@dataclass(frozen=True, eq=False)
+class Orbit:
+    """A model followed for some periods: states (periods + 1, n), logarithms of tangent growth (periods, k).
+
+    `growth` holds natural logarithms, the fastest direction first, one row to each period. `status` is "ok", or one
+    of `results.STATUSES`, and what lies behind the end of a diverged orbit is NaN.
+    """
+
+    states: Array
+    growth: Array
+    status: str = "ok"
+
+
+class Flow(Protocol):
+    """A model with fixed parameters under a periodic drive, as its stroboscopic map with tangent vectors.
+
+    `period` is the time (s) between two looks: that of the drive, or for a machine without one the time to be told.
+    `states` names the entries of a state; `start` (n,) is where an orbit begins unless told otherwise.
+    """
+
+    period: float
+    states: tuple[str, ...]
+    start: Array
+
+    def march(self, start: Array, *, periods: int, tangents: int) -> Orbit:
+        """Return the orbit from `start` (n,) at drive phase 0, with `tangents` tangent vectors kept orthogonal."""
+
+
+Data = TypeVar("Data", Series, Flow)
+"""What a quantifier reads: a `Series`, or a `Flow`."""
+
+
 class Embedder(ABC):
     """Chooses the delay and the dimension in which a series unfolds."""
 
@@ -177,22 +228,31 @@ class Embedder(ABC):
 
     @abstractmethod
     def choose(self, x: Array, *, dt: float) -> Embedding:
-        """Return lag (samples) and dim for the series `x` (n,) sampled every `dt` s, with the curves behind them."""
+        """Return lag, dim and Theiler window for `x` (n,) sampled every `dt` s, with the curves behind them."""
 
 
-class Quantifier(ABC):
-    """Measures one number of a series, with its interval, its curve and a status."""
+class Quantifier(ABC, Generic[Data]):
+    """Measures one number with its interval, curve and status: of a recording, or of a model.
+
+    Subclass `Quantifier[Series]`, or `Quantifier[Flow]` with `reads = "flow"`. `unit` is that of the value.
+    """
 
     name: ClassVar[str]
     paper: ClassVar[str]
+    unit: ClassVar[str]
+    reads: ClassVar[Literal["series", "flow"]] = "series"
 
     @abstractmethod
-    def estimate(self, x: Array, *, dt: float, embedding: Embedding, rng: np.random.Generator) -> Estimate:
-        """Return value, low, high, status and curve; a refusal is a status, not an exception."""
+    def estimate(self, data: Data, *, rng: np.random.Generator) -> Estimate:
+        """Return value, low, high, status and curve; a refusal is a status with a sentence, not an exception."""
 
 
 class Surrogate(ABC):
-    """Draws series that share what `preserves` names with the recording and are random otherwise."""
+    """Draws series that share what `preserves` names with the recording and are random otherwise.
+
+    `null` is the hypothesis, in words, under which the recording is one more such draw. `preserves` names some of
+    "mean", "variance", "amplitudes" (the sorted values), "spectrum", "cycles" (the shape of single periods).
+    """
 
     name: ClassVar[str]
     paper: ClassVar[str]
@@ -200,8 +260,8 @@ class Surrogate(ABC):
     preserves: ClassVar[frozenset[str]]
 
     @abstractmethod
-    def draw(self, x: Array, *, draws: int, rng: np.random.Generator) -> Array:
-        """Return surrogates (draws, n) of the series `x` (n,)."""
+    def draw(self, series: Series, *, draws: int, rng: np.random.Generator) -> Array:
+        """Return surrogates (draws, m) of the series, m = n unless ends were cut off to make them meet."""
 
 
 class Denoiser(ABC):
@@ -211,8 +271,8 @@ class Denoiser(ABC):
     paper: ClassVar[str]
 
     @abstractmethod
-    def clean(self, x: Array, *, embedding: Embedding, rng: np.random.Generator) -> Array:
-        """Return the cleaned series (n,)."""
+    def clean(self, series: Series, *, noise: float, rng: np.random.Generator) -> Array:
+        """Return the cleaned series (n,); `noise` is the estimated standard deviation of the noise in it, as x."""
 
 
 KINDS: Mapping[str, type[Any]] = {

@@ -32,19 +32,51 @@ class Interval:
         return f"{self.median:.4g} {self.unit} [{self.low:.4g}, {self.high:.4g}]"
 
 
+STATUSES: Mapping[str, str] = {
+    "ok": "the number and its interval may be used",
+    "uncertain": "a number is given, but a condition for its interval does not hold",
+    "too_short": "there are too few points for this method",
+    "too_few_neighbours": "too few points come close enough to one another",
+    "no_scaling_region": "the curve has no straight piece to read a slope from",
+    "not_saturating": "the curve does not level off: no separation of scales, as noise has it",
+    "rising": "the value keeps rising with the embedding dimension, as that of noise does",
+    "below_noise": "what could be measured lies below the noise or the resolution of the sensor",
+    "diverged": "the motion runs away",
+    "jumps": "the force jumps, and the tangent flow across the jump is not treated",
+    "failed": "the method broke down",
+}
+"""What may be wrong with a number, in words: the vocabulary of `status`."""
+
+
 @dataclass(frozen=True)
 class Embedding:
-    """Delay `lag` (samples) and dimension `dim` of an embedding, with the curves they were read from."""
+    """Delay `lag` (samples) and dimension `dim` of an embedding, with the curves they were read from.
+
+    Points closer in time than `theiler` samples are no neighbours. `methods` says how lag and dim were chosen,
+    `says` is a sentence where `status` is not "ok".
+    """
 
     lag: int
     dim: int
+    theiler: int = 1
     curves: Mapping[str, Array] = field(default_factory=dict)
+    methods: tuple[str, str] = ("given", "given")
     status: str = "ok"
+    says: str = ""
+
+    @property
+    def window(self) -> int:
+        """The samples that one delay vector spans."""
+        return (self.dim - 1) * self.lag + 1
 
 
 @dataclass(frozen=True)
 class Estimate:
-    """A number with its central 95 % interval, the curve it was read from, and a status in place of an exception."""
+    """A number with its central 95 % interval, the curves it was read from, and a status in place of an exception.
+
+    `status` is one of `STATUSES`; when it is not "ok", `says` is a sentence for people, and `value` may be NaN.
+    `details` are further numbers, such as the ends of the scaling region.
+    """
 
     value: float
     low: float
@@ -52,3 +84,24 @@ class Estimate:
     status: str
     unit: str = "1"
     curve: Mapping[str, Array] = field(default_factory=dict)
+    says: str = ""
+    details: Mapping[str, float] = field(default_factory=dict)
+
+    @classmethod
+    def refused(
+        cls,
+        status: str,
+        says: str,
+        *,
+        unit: str = "1",
+        curve: Mapping[str, Array] | None = None,
+        details: Mapping[str, float] | None = None,
+    ) -> Estimate:
+        """Return an estimate without a number: `status` and `says` stand in its place."""
+        nothing = float("nan")
+        return cls(nothing, nothing, nothing, status, unit, curve or {}, says, details or {})
+
+    @property
+    def ok(self) -> bool:
+        """Whether the number may be used."""
+        return self.status == "ok"

@@ -32,3 +32,57 @@ def lostmotion_terms() -> dict[str, str]:
         "stribeck_friction": f"{_HERE}.terms.friction:StribeckFriction",
         "viscous_damping": f"{_HERE}.terms.viscous:ViscousDamping",
     }
+
+
+@hookimpl
+def lostmotion_embedders() -> dict[str, str]:
+    """Return the built-in embedders: DELAY_DIMENSION, by the names of the two methods."""
+    at = f"{_HERE}.embedders.choices"
+    return {
+        "ami_cao": f"{at}:AmiCao",
+        "ami_fnn": f"{at}:AmiFnn",
+        "ami_knn_cao": f"{at}:AmiKnnCao",
+        "autocorrelation_cao": f"{at}:AutocorrelationCao",
+        "fixed": f"{at}:Fixed",
+    }
+
+
+@hookimpl
+def lostmotion_quantifiers() -> dict[str, str]:
+    """Return the built-in quantifiers, of recordings and of models."""
+    at = f"{_HERE}.quantifiers"
+    return {
+        "correlation_dimension": f"{at}.dimension:CorrelationDimension",
+        "correlation_entropy": f"{at}.dimension:CorrelationEntropy",
+        "kaplan_yorke": f"{at}.flows:KaplanYorke",
+        "lyapunov_kantz": f"{at}.kantz:Kantz",
+        "lyapunov_max": f"{at}.flows:LyapunovMax",
+        "lyapunov_rosenstein": f"{at}.rosenstein:Rosenstein",
+        "lyapunov_spectrum": f"{at}.flows:LyapunovSpectrum",
+        "lyapunov_wolf": f"{at}.wolf:Wolf",
+        "mutual_information": f"{at}.cheap:MutualInformation",
+        "noise_level": f"{at}.noise:NoiseLevel",
+        "time_reversal": f"{at}.cheap:TimeReversal",
+    }
+
+
+@hookimpl
+def lostmotion_surrogates() -> dict[str, str]:
+    """Return the built-in surrogates."""
+    at = f"{_HERE}.surrogates"
+    return {
+        "aaft": f"{at}.spectral:Aaft",
+        "fourier": f"{at}.spectral:Fourier",
+        "iaaft": f"{at}.iterated:Iaaft",
+        "pseudo_periodic": f"{at}.cycles:PseudoPeriodic",
+    }
+
+
+@hookimpl
+def lostmotion_denoisers() -> dict[str, str]:
+    """Return the built-in denoisers."""
+    at = f"{_HERE}.denoisers"
+    return {
+        "local_projective": f"{at}.projective:LocalProjective",
+        "simple_nonlinear": f"{at}.simple:SimpleNonlinear",
+    }

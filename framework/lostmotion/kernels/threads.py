@@ -1,0 +1,29 @@
+"""Work spread over the cores: kernels that let go of the interpreter run in threads, each on a slice of the work."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from itertools import pairwise
+
+
+def cores() -> int:
+    """Return how many cores this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+def spread(work: Callable[[int, int], None], n: int, *, jobs: int = 0, slices: int = 0) -> None:
+    """Call `work(begin, end)` for slices of 0..n in threads; `work` must write to places of its own only.
+
+    What comes out does not depend on the number of threads as long as each item is computed by itself.
+    """
+    many = jobs or cores()
+    pieces = min(n, slices or 4 * many)
+    if many == 1 or pieces <= 1:
+        work(0, n)
+        return
+    ends = [n * k // pieces for k in range(pieces + 1)]
+    with ThreadPoolExecutor(many) as pool:
+        for done in [pool.submit(work, a, b) for a, b in pairwise(ends)]:
+            done.result()

@@ -1,0 +1,52 @@
+"""A series as numbers: checked, centred, and laid out as delay vectors."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from lostmotion.errors import DataError
+
+Array = NDArray[np.float64]
+LEAST = 200
+"""Fewer samples than this are refused: no method here says anything about them."""
+
+
+def checked(values: ArrayLike, *, least: int = LEAST) -> Array:
+    """Return the series (n,) in double precision with its mean taken off, or raise a `DataError`.
+
+    The mean is taken off before anything else, so that a huge offset (an encoder that counts from 1e9) costs no more
+    digits than the recording has lost already.
+    """
+    try:
+        raw = np.asarray(values)
+        x = raw.astype(np.float64)
+    except (TypeError, ValueError) as err:
+        raise DataError(f"the series holds something that is no number ({err}): give a list of numbers") from err
+    if np.iscomplexobj(raw):
+        raise DataError("the series is complex: give its real part, or one channel")
+    if x.ndim != 1:
+        raise DataError(f"the series has {x.ndim} dimensions {x.shape}: give one channel, with shape (n,)")
+    if len(x) < least:
+        raise DataError(f"the series has {len(x)} samples, and {least} are wanted at least: record longer")
+    if not np.isfinite(x).all():
+        bad = int((~np.isfinite(x)).sum())
+        first = int(np.argmin(np.isfinite(x)))
+        raise DataError(
+            f"{bad} samples are NaN or infinite, the first is number {first}: cut them off, or fill them in"
+        )
+    centred: Array = x - x[0]
+    centred -= centred.mean()
+    if np.ptp(centred) == 0.0:
+        raise DataError(f"the series is constant ({x[0]:g}): the sensor is stuck, or the machine stands still")
+    return centred
+
+
+def delay_vectors(x: Array, lag: int, dim: int) -> Array:
+    """Return delay vectors (n - (dim - 1) lag, dim) of the series `x` (n,): x(t), x(t + lag), ... in each row."""
+    rows = len(x) - (dim - 1) * lag
+    if rows < 1:
+        raise DataError(
+            f"{len(x)} samples hold no delay vector of dimension {dim} and lag {lag}: record longer, or lower one"
+        )
+    return np.stack([x[k * lag : k * lag + rows] for k in range(dim)], axis=1)
