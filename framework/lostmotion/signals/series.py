@@ -18,13 +18,13 @@ def checked(values: ArrayLike, *, least: int = LEAST) -> Array:
     The mean is taken off before anything else, so that a huge offset (an encoder that counts from 1e9) costs no more
     digits than the recording has lost already.
     """
+    raw = np.asarray(values)
+    if np.iscomplexobj(raw):
+        raise DataError("the series is complex: give its real part, or one channel")
     try:
-        raw = np.asarray(values)
         x = raw.astype(np.float64)
     except (TypeError, ValueError) as err:
         raise DataError(f"the series holds something that is no number ({err}): give a list of numbers") from err
-    if np.iscomplexobj(raw):
-        raise DataError("the series is complex: give its real part, or one channel")
     if x.ndim != 1:
         raise DataError(f"the series has {x.ndim} dimensions {x.shape}: give one channel, with shape (n,)")
     if len(x) < least:

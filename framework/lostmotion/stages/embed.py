@@ -1,0 +1,49 @@
+"""From a recorded channel to a series that is embedded: the first stage of the chaos laboratory."""
+
+from __future__ import annotations
+
+import math
+
+from numpy.typing import ArrayLike
+
+from lostmotion.contracts import Embedder, Series
+from lostmotion.errors import ContractError, DataError
+from lostmotion.results import STATUSES, Embedding
+from lostmotion.signals import checked
+
+FEWEST = 100
+"""Fewer delay vectors than this are refused."""
+
+
+def embed(values: ArrayLike, embedder: Embedder, *, dt: float, period: float | None = None) -> Series:
+    """Return the series of `values` (n,) sampled every `dt` s, centred, with the embedding that `embedder` chooses.
+
+    `period` (s) is that of the drive, if there is one. Raises `DataError` for values that cannot be analysed.
+    """
+    if not (math.isfinite(dt) and dt > 0.0):
+        raise DataError(f"the sampling step is {dt:g} s: a positive number of seconds is wanted")
+    if period is not None and not (math.isfinite(period) and period > 0.0):
+        raise DataError(f"the period of the drive is {period:g} s: give a positive one, or none")
+    x = checked(values)
+    chosen = embedder.choose(x, dt=dt)
+    _require_sound(chosen, embedder.name)
+    _require_room(len(x), chosen)
+    return Series(x, dt, chosen, period)
+
+
+def _require_sound(chosen: Embedding, name: str) -> None:
+    whole = all(isinstance(v, int) for v in (chosen.lag, chosen.dim, chosen.theiler))
+    if not whole or chosen.lag < 1 or chosen.dim < 1 or chosen.theiler < 0 or chosen.status not in STATUSES:
+        raise ContractError(
+            f"{name} chose lag {chosen.lag!r}, dim {chosen.dim!r}, theiler {chosen.theiler!r}, status "
+            f"{chosen.status!r}: whole numbers of at least 1, 1 and 0 and a known status are wanted"
+        )
+
+
+def _require_room(n: int, chosen: Embedding) -> None:
+    rows = n - chosen.window + 1
+    if rows < FEWEST:
+        raise DataError(
+            f"a series of {n} samples is too short for dim {chosen.dim} and lag {chosen.lag} ({max(rows, 0)} delay "
+            f"vectors, {FEWEST} wanted): record longer, or lower the dimension"
+        )

@@ -1,0 +1,36 @@
+"""One number of a recording or of a model, held to its contract."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from lostmotion.contracts import Data, Quantifier
+from lostmotion.errors import ContractError
+from lostmotion.results import STATUSES, Estimate
+
+
+def quantify(data: Data, quantifier: Quantifier[Data], *, rng: np.random.Generator) -> Estimate:
+    """Return the estimate of `quantifier` on a `Series`, or on the `Flow` of a model.
+
+    A refusal is a status with a sentence. Raises `ContractError` when the quantifier breaks its contract.
+    """
+    estimate = quantifier.estimate(data, rng=rng)
+    if wrong := _wrong(estimate):
+        raise ContractError(f"{quantifier.name} {wrong}: write to its author")
+    return estimate
+
+
+def _wrong(estimate: object) -> str:
+    if not isinstance(estimate, Estimate):
+        return f"returned {type(estimate).__name__}, and an Estimate was wanted"
+    if estimate.status not in STATUSES:
+        return f"returned the status {estimate.status!r}, which is none of {', '.join(STATUSES)}"
+    if estimate.status == "ok" and not math.isfinite(estimate.value):
+        return f"says that all is well, and returned {estimate.value}"
+    if estimate.low > estimate.value or estimate.value > estimate.high:
+        return f"returned {estimate.value:g} outside of its interval [{estimate.low:g}, {estimate.high:g}]"
+    if estimate.status != "ok" and not estimate.says:
+        return f"returned the status {estimate.status!r} without a sentence"
+    return ""
