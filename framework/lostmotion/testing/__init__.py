@@ -15,14 +15,14 @@ from typing import TYPE_CHECKING, Any
 
 from lostmotion.contracts import KINDS
 from lostmotion.errors import ContractError
-from lostmotion.testing import models, shared, terms
+from lostmotion.testing import methods, models, shared, terms
 from lostmotion.testing.rules import Finding, Rule, raised, rules_for
 
 if TYPE_CHECKING:
     import pytest
 
 __all__ = ["Finding", "Rule", "assert_conforms", "check", "kind_of", "parametrize", "rules_for"]
-_KITS = (shared, models, terms)
+_KITS = (shared, models, terms, methods)
 """The modules that write rules; a rule joins the kit when its module is imported."""
 _BUILDING = "is_built_without_arguments"
 _HOW = "Give every field a default, and write every method of the contract; or hand in an instance."
