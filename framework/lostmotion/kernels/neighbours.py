@@ -2,65 +2,97 @@
 
 All functions take points (n, dim), leave out pairs closer in time than `theiler` samples (|i - j| <= theiler) and
 pairs no farther apart than `least` (exact repeats, which quantised recordings are full of), and say distances in the
-maximum norm or the Euclidean one.
+maximum norm or the Euclidean one. Of neighbours at the same distance the one recorded first comes first. `tree`, from
+`grow`, saves building it again for further searches among the same points.
 """
 
 from __future__ import annotations
 
 from typing import Literal
 
+import numba
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
+
+from lostmotion.errors import DataError
+from lostmotion.kernels.kdtree import Tree, plant
+from lostmotion.kernels.seek import LEAN, apart, bench, collect, seek
+from lostmotion.kernels.threads import spread
+
+__all__ = ["Norm", "Tree", "apart", "bench", "collect", "grow", "nearest", "rules", "seek", "several", "within"]
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 Norm = Literal["max", "euclidean"]
-_P = {"max": np.inf, "euclidean": 2.0}
+
+
+def grow(points: Array) -> Tree:
+    """Return the search tree of `points` (n, dim), at least one of them."""
+    held = np.ascontiguousarray(points, dtype=np.float64)
+    if held.ndim != 2 or 0 in held.shape:
+        raise DataError(f"neighbours are sought among points (n, dim), found the shape {held.shape}: give one at least")
+    if not np.isfinite(held).all():
+        raise DataError("neighbours are sought among points of which some are NaN or infinite: cut these out first")
+    return Tree(held, *plant(held))
+
+
+def rules(theiler: int, least: float, norm: Norm) -> tuple[int, float, bool]:
+    """Return `rules` as `seek` and `collect` want them: with the Euclidean norm they work with squares."""
+    far = norm == "euclidean"
+    return int(theiler), float(least * least if far and least > 0.0 else least), far
 
 
 def nearest(
-    points: Array, *, theiler: int, norm: Norm = "max", least: float = 0.0, queries: Indices | None = None
+    points: Array,
+    *,
+    theiler: int,
+    norm: Norm = "max",
+    least: float = 0.0,
+    queries: Indices | None = None,
+    guess: Indices | None = None,
+    tree: Tree | None = None,
 ) -> tuple[Indices, Array]:
-    """Return index (q,) and distance (q,) of each query's nearest neighbour; -1 and inf where there is none."""
-    wanted = np.arange(len(points)) if queries is None else np.asarray(queries)
+    """Return index (q,) and distance (q,) of each query's nearest neighbour; -1 and inf where there is none.
+
+    `guess` (q,) are points thought to be near, -1 for none: what is found is the same, sooner.
+    """
+    tree = tree or grow(points)
+    wanted = _wanted(tree, queries)
+    hints = np.full(len(wanted), -1) if guess is None else np.asarray(guess, dtype=np.int64)
     index = np.full(len(wanted), -1)
     distance = np.full(len(wanted), np.inf)
-    tree = cKDTree(points)
-    left, k = np.arange(len(wanted)), 4
-    while len(left):
-        k = min(k, len(points))
-        d, j = tree.query(points[wanted[left]], k=k, p=_P[norm])
-        good = (np.abs(j - wanted[left][:, None]) > theiler) & (d > least) & np.isfinite(d)
-        has, at = good.any(axis=1), good.argmax(axis=1)
-        index[left[has]] = j[has, at[has]]
-        distance[left[has]] = d[has, at[has]]
-        if k == len(points):
-            break
-        left, k = left[~has], 2 * k
-    return index, distance
+    law = rules(theiler, least, norm)
+
+    def work(begin: int, end: int) -> None:
+        part = slice(begin, end)
+        _nearest(tree, wanted[part], hints[part], law, index[part], distance[part], bench())
+
+    spread(work, len(wanted))
+    return index, np.sqrt(distance) if law[2] else distance
 
 
 def several(
-    points: Array, k: int, *, theiler: int, norm: Norm = "max", least: float = 0.0, queries: Indices | None = None
+    points: Array,
+    k: int,
+    *,
+    theiler: int,
+    norm: Norm = "max",
+    least: float = 0.0,
+    queries: Indices | None = None,
+    tree: Tree | None = None,
 ) -> tuple[Indices, Array]:
     """Return indices (q, k) and distances (q, k) of the k nearest neighbours, the nearest first; -1 and inf pad."""
-    wanted = np.arange(len(points)) if queries is None else np.asarray(queries)
+    tree = tree or grow(points)
+    wanted = _wanted(tree, queries)
     index = np.full((len(wanted), k), -1)
     distance = np.full((len(wanted), k), np.inf)
-    tree = cKDTree(points)
-    for row, i in enumerate(wanted):
-        asked = k
-        while True:
-            asked = min(2 * asked, len(points))
-            d, j = tree.query(points[i], k=asked, p=_P[norm])
-            good = (np.abs(j - i) > theiler) & (d > least)
-            if good.sum() >= k or asked == len(points):
-                found = j[good][:k]
-                index[row, : len(found)] = found
-                distance[row, : len(found)] = d[good][:k]
-                break
-    return index, distance
+    law = rules(theiler, least, norm)
+
+    def work(begin: int, end: int) -> None:
+        _several(tree, wanted[begin:end], law, index[begin:end], distance[begin:end], bench())
+
+    spread(work, len(wanted) if k > 0 else 0)
+    return index, np.sqrt(distance) if law[2] else distance
 
 
 def within(
@@ -71,15 +103,88 @@ def within(
     norm: Norm = "max",
     least: float = -1.0,
     queries: Indices | None = None,
+    tree: Tree | None = None,
 ) -> tuple[Indices, Indices]:
-    """Return offsets (q + 1,) and indices (total,): those of query a are indices[offsets[a]:offsets[a + 1]]."""
-    wanted = np.arange(len(points)) if queries is None else np.asarray(queries)
-    tree = cKDTree(points)
-    lists = []
-    for i in wanted:
-        j = np.array(sorted(tree.query_ball_point(points[i], radius, p=_P[norm])), dtype=np.int64)
-        d = np.abs(points[j] - points[i])
-        far = d.max(axis=1) if norm == "max" else np.sqrt((d**2).sum(axis=1))
-        lists.append(j[(np.abs(j - i) > theiler) & (far > least)])
-    offsets = np.concatenate([[0], np.cumsum([len(found) for found in lists])]).astype(np.int64)
-    return offsets, np.concatenate(lists).astype(np.int64) if lists else np.zeros(0, dtype=np.int64)
+    """Return offsets (q + 1,) and indices (total,): those of query a are indices[offsets[a]:offsets[a + 1]], sorted."""
+    tree = tree or grow(points)
+    wanted = _wanted(tree, queries)
+    counts = np.zeros(len(wanted), dtype=np.int64)
+    law = rules(theiler, least, norm)
+    ball = float(radius * radius if law[2] else radius)
+    found: dict[int, Indices] = {}
+
+    def work(begin: int, end: int) -> None:
+        found[begin] = _within(tree, wanted[begin:end], law, ball, counts[begin:end], bench())
+
+    spread(work, len(wanted) if radius >= 0.0 else 0)
+    offsets = np.concatenate([[0], np.cumsum(counts)]).astype(np.int64)
+    parts = [found[begin] for begin in sorted(found)]
+    return offsets, np.concatenate(parts) if parts else np.zeros(0, dtype=np.int64)
+
+
+def _wanted(tree: Tree, queries: Indices | None) -> Indices:
+    return np.arange(len(tree.points)) if queries is None else np.ascontiguousarray(queries, dtype=np.int64)
+
+
+@numba.njit(**LEAN)
+def _bound(points, i, j, law):  # type: ignore[no-untyped-def]
+    """Return the distance of j from i if j may be its neighbour, else infinity."""
+    theiler, least, euclidean = law
+    if j < 0 or j >= len(points) or abs(i - j) <= theiler:
+        return np.inf
+    far = apart(points, i, j, euclidean)
+    return far if far > least else np.inf
+
+
+@numba.njit(**LEAN)
+def _nearest(tree, wanted, hints, law, index, distance, work):  # type: ignore[no-untyped-def]
+    """Fill index and distance (q,); where a flow goes on, so do neighbours: the last one's successor is a bound."""
+    last, before = -1, -2
+    for a in range(len(wanted)):
+        i = wanted[a]
+        bound = _bound(tree.points, i, hints[a], law)
+        if i == before + 1 and last >= 0:
+            bound = min(bound, _bound(tree.points, i, last + 1, law))
+        seek(tree, i, law, bound, index[a : a + 1], distance[a : a + 1], work)
+        last, before = index[a], i
+
+
+@numba.njit(**LEAN)
+def _several(tree, wanted, law, index, distance, work):  # type: ignore[no-untyped-def]
+    """Fill index and distance (q, k)."""
+    for a in range(len(wanted)):
+        seek(tree, wanted[a], law, np.inf, index[a], distance[a], work)
+
+
+@numba.njit(**LEAN)
+def _marked(room, many, marks):  # type: ignore[no-untyped-def]
+    """Sort the first `many` of `room`, all different, by marking and sweeping: cheaper where they are most points."""
+    for p in range(many):
+        marks[room[p]] = True
+    at = 0
+    for j in range(len(marks)):
+        if marks[j]:
+            room[at] = j
+            at += 1
+            marks[j] = False
+
+
+@numba.njit(cache=True, nogil=True)
+def _within(tree, wanted, law, radius, counts, work):  # type: ignore[no-untyped-def]
+    """Fill counts (q,) and return the neighbours of all queries, one after the other, sorted for each query."""
+    room = np.empty(len(tree.points), np.int64)
+    marks = np.zeros(len(tree.points), np.bool_)
+    found = np.empty(16 * len(wanted) + 16, np.int64)
+    total = 0
+    for a in range(len(wanted)):
+        many = collect(tree, wanted[a], law, radius, room, work)
+        if total + many > len(found):
+            grown = np.empty(2 * (total + many), np.int64)
+            grown[:total] = found[:total]
+            found = grown
+        if many > len(room) // 16:
+            _marked(room, many, marks)
+        found[total : total + many] = room[:many] if many > len(room) // 16 else np.sort(room[:many])
+        counts[a] = many
+        total += many
+    return found[:total].copy()

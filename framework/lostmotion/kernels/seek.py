@@ -1,0 +1,230 @@
+"""Searches in a tree of `kdtree.py`: jitted building blocks, which allocate nothing and may be called from any kernel.
+
+What they find does not depend on the way the search took: neighbours are ordered by distance, then by index.
+`rules` are (theiler, least, euclidean): pairs with |i - j| <= theiler or no farther apart than `least` are left out;
+if `euclidean`, all distances, `least` and bounds among them, are squares, else they are in the maximum norm.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numba
+import numpy as np
+
+from lostmotion.kernels.kdtree import BUCKET, SAME, Array, Indices
+
+DEPTH = 128
+"""Room on the stack of a search: twice the depth of any tree that fits in memory."""
+LEAN: dict[str, Any] = {
+    "cache": True,
+    "nogil": True,
+    "_nrt": False,
+    "fastmath": {"nnan", "nsz"},
+    "error_model": "numpy",
+}
+"""Without reference counts, which two threads would fight over. NaN must not come in."""
+
+
+def bench() -> tuple[Indices, Array, Array]:
+    """Return work arrays for one thread: a stack of nodes, of their gaps, and room for the distances of a bucket."""
+    return np.empty(DEPTH, np.int64), np.empty(DEPTH), np.empty(BUCKET)
+
+
+@numba.njit(**LEAN)
+def apart(points, i, j, euclidean):  # type: ignore[no-untyped-def]
+    """Return the distance of two points; squared if `euclidean`."""
+    far = 0.0
+    for k in range(points.shape[1]):
+        step = abs(points[i, k] - points[j, k])
+        far = far + step * step if euclidean else max(far, step)
+    return far
+
+
+@numba.njit(**LEAN)
+def _gap(box, a, points, i, euclidean):  # type: ignore[no-untyped-def]
+    """Return how far point i is from the nearest place in box a, squared if `euclidean`."""
+    far = 0.0
+    for k in range(points.shape[1]):
+        step = max(max(box[a, 0, k] - points[i, k], points[i, k] - box[a, 1, k]), 0.0)
+        far = far + step * step if euclidean else max(far, step)
+    return far
+
+
+@numba.njit(**LEAN)
+def _reach(box, a, points, i, euclidean):  # type: ignore[no-untyped-def]
+    """Return how far point i is from the farthest place in box a, squared if `euclidean`."""
+    far = 0.0
+    for k in range(points.shape[1]):
+        step = max(box[a, 1, k] - points[i, k], points[i, k] - box[a, 0, k])
+        far = far + step * step if euclidean else max(far, step)
+    return far
+
+
+@numba.njit(**LEAN)
+def _scan(buckets, b, points, i, euclidean, far):  # type: ignore[no-untyped-def]
+    """Write the distances of bucket b from point i into `far` (BUCKET,), and return the least."""
+    for p in range(BUCKET):
+        far[p] = 0.0
+    for k in range(points.shape[1]):
+        here = points[i, k]
+        if euclidean:
+            for p in range(BUCKET):
+                step = buckets[b, k, p] - here
+                far[p] += step * step
+        else:
+            for p in range(BUCKET):
+                far[p] = max(far[p], abs(buckets[b, k, p] - here))
+    least = np.inf
+    for p in range(BUCKET):
+        least = min(least, far[p])
+    return least
+
+
+@numba.njit(**LEAN)
+def _beaten(d, j, index, distance, found):  # type: ignore[no-untyped-def]
+    """Return whether a candidate at distance d, with index j or more, comes too late."""
+    k = len(index)
+    return found == k and (d > distance[k - 1] or (d == distance[k - 1] and j > index[k - 1]))
+
+
+@numba.njit(**LEAN)
+def _insert(d, j, index, distance, found):  # type: ignore[no-untyped-def]
+    """Put a candidate in its place among the `found` best so far, and return how many there are now."""
+    if _beaten(d, j, index, distance, found):
+        return found
+    at = min(found, len(index) - 1)
+    while at > 0 and (distance[at - 1] > d or (distance[at - 1] == d and index[at - 1] > j)):
+        distance[at] = distance[at - 1]
+        index[at] = index[at - 1]
+        at -= 1
+    distance[at] = d
+    index[at] = j
+    return min(found + 1, len(index))
+
+
+@numba.njit(**LEAN)
+def _repeats(tree, a, i, theiler, d, best):  # type: ignore[no-untyped-def]
+    """Insert the equal points of node a, which lie at distance d, as far as they are wanted."""
+    index, distance, found = best
+    p, end = tree.span[a]
+    while p < end and not _beaten(d, tree.order[p], index, distance, found):
+        j = tree.order[p]
+        if i - theiler <= j <= i + theiler:
+            p += np.searchsorted(tree.order[p:end], i + theiler, side="right")
+        else:
+            found = _insert(d, j, index, distance, found)
+            p += 1
+    return found
+
+
+@numba.njit(**LEAN)
+def _bucket(tree, a, i, rules, bound, best, far):  # type: ignore[no-untyped-def]
+    """Insert the points of leaf a that are wanted, and return how many have been found."""
+    index, distance, found = best
+    theiler, least, euclidean = rules
+    if _scan(tree.buckets, -1 - tree.link[a], tree.points, i, euclidean, far) > bound:
+        return found
+    begin, end = tree.span[a]
+    for p in range(end - begin):
+        if least < far[p] <= bound:
+            j = tree.order[begin + p]
+            if j < i - theiler or j > i + theiler:
+                found = _insert(far[p], j, index, distance, found)
+    return found
+
+
+@numba.njit(**LEAN)
+def _fork(tree, a, i, euclidean, bound, stack):  # type: ignore[no-untyped-def]
+    """Put the children of node a that are within the bound on the stack, the nearer on top; return its height."""
+    nodes, gaps, top = stack
+    near, wide = tree.link[a], tree.link[a] + 1
+    low = _gap(tree.box, near, tree.points, i, euclidean)
+    high = _gap(tree.box, wide, tree.points, i, euclidean)
+    if high < low:
+        near, wide, low, high = wide, near, high, low
+    if high <= bound:
+        nodes[top], gaps[top] = wide, high
+        top += 1
+    if low <= bound:
+        nodes[top], gaps[top] = near, low
+        top += 1
+    return top
+
+
+@numba.njit(**LEAN)
+def _useless(tree, a, i, rules, gap):  # type: ignore[no-untyped-def]
+    """Return whether node a, `gap` away, holds only what the rules leave out."""
+    theiler, least, euclidean = rules
+    if tree.ages[a, 0] >= i - theiler and tree.ages[a, 1] <= i + theiler:
+        return True
+    return gap <= least and _reach(tree.box, a, tree.points, i, euclidean) <= least
+
+
+@numba.njit(**LEAN)
+def seek(tree, i, rules, bound, index, distance, work):  # type: ignore[no-untyped-def]
+    """Write the k nearest of point i into `index` and `distance` (k,), and return how many were found.
+
+    None farther than `bound` is looked at (one at that distance is). `work` comes from `bench`.
+    """
+    nodes, gaps, far = work
+    k = len(index)
+    found, top = 0, 1
+    nodes[0], gaps[0] = 0, 0.0
+    while top > 0:
+        top -= 1
+        a, gap = nodes[top], gaps[top]
+        if gap > bound or _useless(tree, a, i, rules, gap) or _beaten(gap, tree.ages[a, 0], index, distance, found):
+            continue
+        if tree.link[a] >= 0:
+            top = _fork(tree, a, i, rules[2], bound, (nodes, gaps, top))
+            continue
+        if tree.link[a] == SAME:
+            found = _repeats(tree, a, i, rules[0], gap, (index, distance, found))
+        else:
+            found = _bucket(tree, a, i, rules, bound, (index, distance, found), far)
+        if found == k:
+            bound = min(bound, distance[k - 1])
+    return found
+
+
+@numba.njit(**LEAN)
+def _all_wanted(tree, a, i, rules, radius, gap):  # type: ignore[no-untyped-def]
+    """Return whether every point of node a is within the radius and none is left out by the rules."""
+    theiler, least, euclidean = rules
+    apart_in_time = tree.ages[a, 0] > i + theiler or tree.ages[a, 1] < i - theiler
+    return apart_in_time and gap > least and _reach(tree.box, a, tree.points, i, euclidean) <= radius
+
+
+@numba.njit(**LEAN)
+def _pick(tree, a, i, rules, radius, found, many):  # type: ignore[no-untyped-def]
+    """Append the wanted points of leaf a to `found`, and return how many there are now."""
+    theiler, least, euclidean = rules
+    for p in range(tree.span[a, 0], tree.span[a, 1]):
+        j = tree.order[p]
+        if (j < i - theiler or j > i + theiler) and least < apart(tree.points, i, j, euclidean) <= radius:
+            found[many] = j
+            many += 1
+    return many
+
+
+@numba.njit(**LEAN)
+def collect(tree, i, rules, radius, found, work):  # type: ignore[no-untyped-def]
+    """Write all points no farther than `radius` from point i into `found` (n,), unsorted, and return how many."""
+    nodes, gaps, _ = work
+    many, top = 0, 1
+    nodes[0], gaps[0] = 0, 0.0
+    while top > 0:
+        top -= 1
+        a, gap = nodes[top], gaps[top]
+        if _useless(tree, a, i, rules, gap):
+            continue
+        if _all_wanted(tree, a, i, rules, radius, gap):
+            for p in range(tree.span[a, 0], tree.span[a, 1]):
+                found[many] = tree.order[p]
+                many += 1
+        elif tree.link[a] >= 0:
+            top = _fork(tree, a, i, rules[2], radius, (nodes, gaps, top))
+        else:
+            many = _pick(tree, a, i, rules, radius, found, many)
+    return many
