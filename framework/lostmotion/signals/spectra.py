@@ -1,0 +1,239 @@
+"""Spectra, the period of the dominant line, and a series without the lines of its drive."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import signal
+
+from lostmotion.errors import DataError
+
+Array = NDArray[np.float64]
+SEGMENTS = 16
+"""Pieces of the series whose phases are compared: a line goes on from one to the next, a hump of noise does not."""
+FALSE_ALARM = 1e-3
+CANDIDATES = 8
+FEWEST_CYCLES = 3.0
+STEPS = 12
+CHUNK = 4096
+PRECISION = 1e-8
+"""Share of the width of a spectral line at which the search for its middle ends."""
+UNEXPLAINED = 0.2
+MOST_DIVISIONS = 6
+
+
+class Spectrum(NamedTuple):
+    """One-sided power spectral density (unit^2/Hz) over frequency (Hz), both (k,)."""
+
+    frequency: Array
+    density: Array
+
+
+class Line(NamedTuple):
+    """A periodic component: its period and standard error (s), its share of the variance, and how it keeps its phase.
+
+    `coherence` is 1 when all segments agree about amplitude and phase; `chance` is the probability that noise with a
+    smooth spectrum shows such agreement anywhere.
+    """
+
+    period: float
+    spread: float
+    share: float
+    coherence: float
+    chance: float
+
+
+def spectrum(x: Array, dt: float, *, segments: int = 1) -> Spectrum:
+    """Return the power spectral density of `x` (n,) under a Hann taper: of the whole series, or Welch's mean.
+
+    `segments` pieces overlap by half (Welch, IEEE Trans. Audio Electroacoust. 15, 1967, 70): more of them show less
+    scatter and less detail.
+    """
+    if segments < 1:
+        raise DataError(f"{segments} segments are no spectrum: ask for 1 or more")
+    length = max(8, 2 * len(x) // (segments + 1))
+    frequency, density = signal.welch(x, 1.0 / dt, window="hann", nperseg=min(length, len(x)), detrend="constant")
+    return Spectrum(frequency, density)
+
+
+def fundamental(x: Array, dt: float) -> Line | None:
+    """Return the strongest line in the spectrum of `x` (n,), or None where no component keeps its phase.
+
+    A peak is a line if its complex amplitudes in 16 successive pieces agree better than those of noise would at the
+    best of all frequencies in one series of a thousand. The line of a subharmonic or harmonic may be the strongest.
+    """
+    centred = x - x.mean()
+    power = float(centred @ centred)
+    if len(x) < 4 * SEGMENTS or power <= 0.0:
+        return None
+    for guess in _peaks(centred, dt):
+        frequency = _sharpened(centred, dt, guess, harmonics=1)
+        line = _judged(centred, dt, frequency)
+        if line is not None:
+            return line
+    return None
+
+
+def refined_period(u: Array, dt: float) -> float | None:
+    """Return the period (s) of a measured excitation `u` (n,), or None where it is not periodic.
+
+    Non-linear least squares on the fundamental and its harmonics together. A line that explains too little is tried as
+    a harmonic of a longer period, up to six times its own.
+    """
+    centred = u - u.mean()
+    line = fundamental(u, dt)
+    if line is None:
+        return None
+    for divisions in range(1, MOST_DIVISIONS + 1):
+        frequency = 1.0 / (line.period * divisions)
+        if frequency * len(u) * dt < FEWEST_CYCLES:
+            return None
+        frequency = _sharpened(centred, dt, frequency, harmonics=_count(frequency, dt, 3 * divisions))
+        rest, _ = without_harmonics(centred, dt, 1.0 / frequency, harmonics=12)
+        if np.std(rest) <= UNEXPLAINED * np.std(centred):
+            return 1.0 / frequency
+    return None
+
+
+def without_harmonics(
+    x: Array, dt: float, period: float, *, harmonics: int = 40, divisions: int = 1
+) -> tuple[Array, Array]:
+    """Return `x` (n,) without the components at the multiples of 1/`period`, and what was removed (n,).
+
+    Sine and cosine at each multiple are fitted by least squares. `divisions` = 2 removes the subharmonics at halves
+    too, 3 those at thirds. A short series of p periods loses a share 1/p of whatever else there is.
+    """
+    if not (math.isfinite(period) and period > 2.0 * dt):
+        raise DataError(f"the period is {period:g} s and the sampling step {dt:g} s: give one of more than two steps")
+    if len(x) * dt < 2.0 * period * divisions:
+        raise DataError(
+            f"{len(x) * dt:g} s hold fewer than two periods of {divisions * period:g} s: record longer, or keep the "
+            "harmonics in"
+        )
+    base = 1.0 / (period * divisions)
+    number = _count(base, dt, harmonics * divisions)
+    removed = _fitted(x, base * dt, number)
+    return x - removed, removed
+
+
+def _count(frequency: float, dt: float, most: int) -> int:
+    """Return how many multiples of a frequency (Hz) lie below the Nyquist frequency, at most `most`."""
+    return max(1, min(most, math.ceil(0.5 / (frequency * dt) - 1e-9) - 1))
+
+
+def _peaks(x: Array, dt: float) -> list[float]:
+    """Return the frequencies (Hz) of the highest peaks that hold three cycles or more, the highest first."""
+    frequency, density = spectrum(x, dt)
+    bins = np.arange(1, len(density) - 1)
+    tops = bins[(density[1:-1] >= density[:-2]) & (density[1:-1] > density[2:])]
+    tops = tops[tops >= FEWEST_CYCLES]
+    found = tops[np.argsort(density[tops])[::-1][:CANDIDATES]]
+    return [float((k + _offset(density[k - 1 : k + 2])) * frequency[1]) for k in found]
+
+
+def _offset(three: Array) -> float:
+    """Return where between bins the peak lies, from a parabola through the logarithms of three densities."""
+    low, middle, high = np.log(np.maximum(three, 1e-300))
+    bend = low - 2.0 * middle + high
+    return float(0.5 * (low - high) / bend) if bend < 0.0 else 0.0
+
+
+def _judged(x: Array, dt: float, frequency: float) -> Line | None:
+    """Return the line at a frequency (Hz), or None where the phases of the pieces do not agree."""
+    pieces = _amplitudes(x, frequency * dt)
+    squares = float(np.sum(np.abs(pieces) ** 2))
+    if squares == 0.0:
+        return None
+    coherence = float(np.abs(pieces.sum()) ** 2 / (SEGMENTS * squares))
+    # The agreement of independent Gaussian amplitudes has the distribution Beta(1, segments - 1).
+    chance = min(1.0, 0.5 * len(x) * max(0.0, 1.0 - coherence) ** (SEGMENTS - 1))
+    if chance > FALSE_ALARM:
+        return None
+    part = _fitted(x, frequency * dt, 1)
+    share = float(part @ part) / float(x @ x)
+    return Line(1.0 / frequency, _phase_error(pieces, len(x) * dt) / frequency**2, share, coherence, chance)
+
+
+def _amplitudes(x: Array, turns: float) -> NDArray[np.complex128]:
+    """Return the complex amplitude of the component with `turns` cycles per sample in each of 16 pieces of `x`."""
+    length = len(x) // SEGMENTS
+    pieces = x[: length * SEGMENTS].reshape(SEGMENTS, length)
+    wave = np.exp(-2j * np.pi * turns * np.arange(length * SEGMENTS)).reshape(SEGMENTS, length)
+    taper = signal.windows.hann(length, sym=False) if turns * length > 3.0 else np.ones(length)
+    return np.asarray((pieces * wave) @ taper / taper.sum())
+
+
+def _phase_error(pieces: NDArray[np.complex128], duration: float) -> float:
+    """Return the standard error (Hz) of a frequency from the scatter of the phases of its pieces."""
+    phases = np.angle(pieces / pieces.sum())
+    times = duration * ((np.arange(SEGMENTS) + 0.5) / SEGMENTS - 0.5)
+    rest = phases - phases.mean() - times * float(times @ phases) / float(times @ times)
+    scatter = math.sqrt(float(rest @ rest) / (SEGMENTS - 2))
+    return scatter / (2.0 * math.pi * math.sqrt(float(times @ times)))
+
+
+def _sharpened(x: Array, dt: float, guess: float, *, harmonics: int) -> float:
+    """Return the frequency (Hz) near a guess at which harmonics fit best: Gauss-Newton, amplitudes projected out."""
+    turns, width = guess * dt, 0.5 / len(x)
+    for number in dict.fromkeys((1, harmonics)):
+        for _ in range(STEPS):
+            step = _newton_step(x, turns, number)
+            turns += float(np.clip(step, -width, width))
+            if abs(step) < PRECISION * width:
+                break
+    lost = abs(turns - guess * dt) > 4.0 * width or not 0.0 < turns < 0.5
+    return guess if lost else turns / dt
+
+
+def _newton_step(x: Array, turns: float, number: int) -> float:
+    """Return the change of `turns` (cycles per sample) that the residual of a fit of harmonics asks for."""
+    coefficients = _coefficients(x, turns, number)
+    size = len(coefficients)
+    gram, right = np.zeros((size + 1, size + 1)), np.zeros(size + 1)
+    centre = 0.5 * (len(x) - 1)
+    for first in range(0, len(x), CHUNK):
+        waves = _waves(first, min(first + CHUNK, len(x)), turns, number)
+        slope = _slope(waves, coefficients, number) * (np.arange(first, first + len(waves)) - centre)
+        table = np.column_stack([waves, slope])
+        gram += table.T @ table
+        right += table.T @ (x[first : first + CHUNK] - waves @ coefficients)
+    scale = np.sqrt(np.maximum(np.diag(gram), 1e-300))
+    solved = np.linalg.lstsq(gram / np.outer(scale, scale), right / scale, rcond=1e-13)[0]
+    return float(solved[-1] / scale[-1])
+
+
+def _slope(waves: Array, coefficients: Array, number: int) -> Array:
+    """Return the derivative by phase of the fitted waves, (rows,)."""
+    order = 2.0 * np.pi * np.arange(1, number + 1)
+    cosines, sines = coefficients[1 : number + 1], coefficients[number + 1 :]
+    return np.asarray(waves[:, number + 1 :] @ (-order * cosines) + waves[:, 1 : number + 1] @ (order * sines))
+
+
+def _waves(first: int, last: int, turns: float, number: int) -> Array:
+    """Return one, cosines and sines (rows, 2 number + 1) of the multiples of `turns` cycles per sample."""
+    once = np.exp(2j * np.pi * turns * np.arange(first, last))
+    powers = np.cumprod(np.broadcast_to(once[:, None], (len(once), number)), axis=1)
+    return np.hstack([np.ones((len(once), 1)), powers.real, powers.imag])
+
+
+def _coefficients(x: Array, turns: float, number: int) -> Array:
+    """Return mean, cosine and sine amplitudes (2 number + 1,) that fit `x` best."""
+    size = 2 * number + 1
+    gram, right = np.zeros((size, size)), np.zeros(size)
+    for first in range(0, len(x), CHUNK):
+        waves = _waves(first, min(first + CHUNK, len(x)), turns, number)
+        gram += waves.T @ waves
+        right += waves.T @ x[first : first + CHUNK]
+    solved: Array = np.linalg.lstsq(gram / len(x), right / len(x), rcond=1e-13)[0]
+    return solved
+
+
+def _fitted(x: Array, turns: float, number: int) -> Array:
+    """Return the sum (n,) of the harmonics of `turns` cycles per sample in `x`, without the mean."""
+    coefficients = _coefficients(x, turns, number)
+    coefficients[0] = 0.0
+    chunks = range(0, len(x), CHUNK)
+    return np.concatenate([_waves(k, min(k + CHUNK, len(x)), turns, number) @ coefficients for k in chunks])
