@@ -1,0 +1,75 @@
+"""Compiled loops behind the correlation sums: distances as codes of eighth octaves, counted without a logarithm.
+
+The series comes as integers on a grid of 2^-30 of its range, so that differences are exact and sixteen go into one
+register. A distance becomes a byte: exponent and three leading digits of its single-precision form, which rises with
+the distance, so that the maximum of codes is the code of the maximum. Code 0 is a tie.
+"""
+
+from __future__ import annotations
+
+import numba
+import numpy as np
+
+CODES = 256
+"""The number of codes; those in use end at 241, which stands for the whole range."""
+
+
+@numba.njit(cache=True, nogil=True)
+def encode(grid, begin, lag, count, out):  # type: ignore[no-untyped-def]
+    """Write the codes of |grid[i + lag] - grid[i]| for `count` values of i from `begin` into `out`."""
+    for i in range(count):
+        apart = np.float32(abs(np.int32(grid[begin + i + lag] - grid[begin + i])))
+        code = np.int32(apart.view(np.int32) >> np.int32(20)) - np.int32(1015)
+        out[i] = np.uint8(code if code > 0 else 0)
+
+
+@numba.njit(cache=True, nogil=True)
+def count_tile(grid, lag, span, lags, wanted, counts):  # type: ignore[no-untyped-def]
+    """Add the pairs (i, i + k) of one tile, k in `lags`, to `counts` (dims, CODES): all dimensions in one pass.
+
+    `span` is (first, last, left, right): first <= i < last, and left <= i + k < right. Only the dimensions with
+    `wanted[m - 1]` are counted.
+    """
+    first, last, left, right = span
+    dims = len(wanted)
+    reach = (dims - 1) * lag
+    single = np.empty(last - first + reach, np.uint8)
+    joint = np.empty(last - first, np.uint8)
+    part = np.zeros((dims, 4, CODES), np.uint32)
+    for at in range(np.searchsorted(lags, left - last + 1), len(lags)):
+        k = lags[at]
+        if k >= right - first:
+            break
+        low = max(first, left - k)
+        count = min(last, right - k) - low
+        encode(grid, low, k, count + reach, single)
+        joint[:count] = single[:count]
+        for m in range(dims):
+            _widen(joint, single, m * lag, count)
+            if wanted[m]:
+                _tally(joint, count, part[m])
+    for m in range(dims):
+        for four in range(4):
+            for code in range(CODES):
+                counts[m, code] += np.int64(part[m, four, code])
+
+
+@numba.njit(cache=True, nogil=True)
+def _widen(joint, single, shift, count):  # type: ignore[no-untyped-def]
+    """Raise the codes in `joint` to those of one more coordinate."""
+    for i in range(count):
+        code = single[i + shift]
+        joint[i] = code if code > joint[i] else joint[i]
+
+
+@numba.njit(cache=True, nogil=True)
+def _tally(joint, count, part):  # type: ignore[no-untyped-def]
+    """Count the codes in four histograms by turns: neighbours share a code, and one histogram would wait for itself."""
+    quarter = count // 4
+    for i in range(quarter):
+        part[0, joint[4 * i]] += 1
+        part[1, joint[4 * i + 1]] += 1
+        part[2, joint[4 * i + 2]] += 1
+        part[3, joint[4 * i + 3]] += 1
+    for i in range(4 * quarter, count):
+        part[0, joint[i]] += 1

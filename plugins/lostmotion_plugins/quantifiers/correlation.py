@@ -1,0 +1,146 @@
+"""Correlation sums of a series: all embedding dimensions, all radii and all pairs of blocks in one pass.
+
+Grassberger, Procaccia, Physica D 9 (1983) 189-208; Theiler, Phys. Rev. A 34 (1986) 2427-2432 (pairs close in time).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lostmotion.contracts import Array
+from lostmotion.errors import DataError
+from lostmotion.kernels.threads import spread
+from lostmotion_plugins.quantifiers._kernels_correlation import CODES, count_tile
+
+Counts = NDArray[np.int64]
+GRID = 2**30
+"""Steps of the integer grid over the range of the series."""
+EIGHTHS = 8
+"""Bins to an octave."""
+
+
+def edges() -> Array:
+    """Return the upper end (CODES,) of what each code stands for, as a share of the range of the series."""
+    code = np.arange(CODES)
+    octave, eighth = np.divmod(code, EIGHTHS)
+    return np.asarray(np.ldexp(1.0 + eighth / EIGHTHS, octave - 30))
+
+
+@dataclass(frozen=True)
+class Effort:
+    """How much is counted: about `pairs` pairs, in `blocks` blocks of the orbit, by `jobs` threads (0: all cores).
+
+    `only` names the dimensions that are counted; None stands for all of them.
+    """
+
+    pairs: int = 200_000_000
+    blocks: int = 25
+    only: tuple[int, ...] | None = None
+    jobs: int = 0
+
+
+THOROUGH = Effort()
+
+
+@dataclass(frozen=True, eq=False)
+class Sums:
+    """Pairs counted by blocks of the orbit, dimension 1..dims and code: counts (blocks, blocks, dims, CODES).
+
+    `radii` (CODES,) are the upper ends of the codes in the unit of the series and `pairs`
+    were looked at in each pair of blocks (blocks, blocks).
+    """
+
+    counts: Counts
+    pairs: Counts
+    radii: Array
+    lag: int
+    theiler: int
+
+    @cached_property
+    def total(self) -> Array:
+        """The pairs closer than each radius (dims, CODES): whole numbers, summed as integers."""
+        return np.cumsum(self.counts.sum(axis=(0, 1)), axis=-1).astype(np.float64)
+
+    @property
+    def dims(self) -> int:
+        """The largest embedding dimension."""
+        return int(self.counts.shape[2])
+
+    @property
+    def blocks(self) -> int:
+        """The number of blocks of the orbit."""
+        return len(self.counts)
+
+    @property
+    def log_correlation(self) -> Array:
+        """The logarithm of the correlation sum (dims, CODES), minus infinity where no pair is so close."""
+        with np.errstate(divide="ignore"):
+            return np.asarray(np.log(self.total / self.pairs.sum()))
+
+    def ties(self, dim: int) -> float:
+        """Return the share of pairs that agree in all of `dim` coordinates to the last digit."""
+        return float(self.total[dim - 1, 0] / self.pairs.sum())
+
+    def resampled(self, draws: int, rng: np.random.Generator) -> Array:
+        """Return the pairs closer than each radius (draws, dims, CODES) in orbits of blocks drawn with replacement.
+
+        A block that is drawn twice is not its own neighbour twice over: what it has with itself counts once for each
+        time, since copies of a block would meet at no distance at all.
+        """
+        weights = rng.multinomial(self.blocks, np.full(self.blocks, 1.0 / self.blocks), size=draws).astype(np.float64)
+        flat = self.counts.reshape(self.blocks, self.blocks, -1)
+        found = np.zeros((draws, flat.shape[-1]))
+        for a in range(self.blocks):
+            found += weights[:, a, None] * (weights @ flat[a] - (weights[:, a, None] - 1.0) * flat[a, a])
+        return np.asarray(np.cumsum(found.reshape(draws, self.dims, CODES), axis=-1))
+
+
+def gridded(x: Array) -> tuple[NDArray[np.int32], float]:
+    """Return the series as integers on the grid (n,), and its range."""
+    low, wide = float(x.min()), float(np.ptp(x))
+    if not wide > 0.0:
+        raise DataError("the series is constant: distances in it say nothing, give one that moves")
+    return np.round((x - low) * (GRID / wide)).astype(np.int32), wide
+
+
+def chosen_lags(n: int, theiler: int, pairs: int) -> NDArray[np.int64]:
+    """Return the time distances to count, rising: all of them, or as many as give about `pairs` pairs.
+
+    They are spread by the golden ratio, so that none of them keeps step with a drive.
+    """
+    first, count = theiler + 1, n - theiler - 1
+    every = (count + 1) * count / 2 / pairs
+    if every <= 1.0:
+        return np.arange(first, n, dtype=np.int64)
+    turns = np.arange(int(count / every))
+    jitter = np.modf(turns * (np.sqrt(5.0) - 1.0) / 2.0)[0]
+    return np.asarray(first + np.floor((turns + jitter) * every), dtype=np.int64)
+
+
+def correlation_sums(x: Array, lag: int, dims: int, *, theiler: int, effort: Effort = THOROUGH) -> Sums:
+    """Return the pairs of delay vectors of `x` (n,) by distance (maximum norm), for dimensions 1..dims at once."""
+    n = len(x) - (dims - 1) * lag
+    if n - theiler < 2:
+        raise DataError(
+            f"{len(x)} samples hold no two delay vectors of dimension {dims} and lag {lag} more than {theiler} samples "
+            "apart: record longer, or lower one of these"
+        )
+    grid, wide = gridded(x)
+    blocks = min(effort.blocks, n)
+    lags = chosen_lags(n, theiler, effort.pairs)
+    ends = [n * k // blocks for k in range(blocks + 1)]
+    tiles = [(a, b) for a in range(blocks) for b in range(a, blocks)]
+    counts = np.zeros((blocks, blocks, dims, CODES), np.int64)
+    wanted = np.array([effort.only is None or m in effort.only for m in range(1, dims + 1)])
+
+    def some(begin: int, end: int) -> None:
+        for a, b in tiles[begin:end]:
+            count_tile(grid, lag, (ends[a], ends[a + 1], ends[b], ends[b + 1]), lags, wanted, counts[a, b])
+
+    spread(some, len(tiles), jobs=effort.jobs, slices=32)
+    pairs = np.asarray(counts[:, :, int(np.argmax(wanted))].sum(axis=-1))
+    return Sums(counts, pairs, wide * edges(), lag, theiler)
