@@ -100,7 +100,7 @@ def _law_text(index: int, law: Law, place: Place, start: int) -> str:
     return "\n".join(lines)
 
 
-def _text(plan: Blueprint) -> str:
+def _text(plan: Blueprint, template: str = "template.txt") -> str:
     """Return the source of the composed kernel."""
     first = plan.places[0]
     starts = [sum(law.width for law in plan.laws[:i]) for i in range(len(plan.laws))]
@@ -115,7 +115,7 @@ def _text(plan: Blueprint) -> str:
         "@NOISE_INERTIA@": "1.0" if plan.latent else f"p[{first.inertia}]",
         "@LAWS@": "\n".join(laws),
     }
-    text = resources.files("lostmotion.kernels").joinpath("template.txt").read_text()
+    text = resources.files("lostmotion.kernels").joinpath(template).read_text()
     for mark, value in values.items():
         text = text.replace(mark, value)
     return text
@@ -162,22 +162,8 @@ def _cached(text: str, parts: dict[str, Callable[..., Any]]) -> Path:
 @lru_cache(maxsize=64)
 def build(plan: Blueprint, compiled: bool = True) -> Compiled:
     """Return the kernel of `plan`, compiled, or as the plain Python twin of the same text."""
-    parts, text = _parts(plan), _text(plan)
-    if not compiled:
-        return _defined(plan, text, "<slow twin>", {**parts, "jit": lambda f: f, "view": slow_view})
-    path = _cached(text, parts)
-    part = numba.njit(**BARE)
-    whole = numba.njit(**BARE, cache=True)
-    return _defined(plan, text, str(path), {**{name: part(f) for name, f in parts.items()}, "jit": whole, "view": view})
-
-
-def _defined(plan: Blueprint, text: str, path: str, parts: dict[str, Any]) -> Compiled:
-    """Return the functions that `text` defines, in a module of its own: numba looks it up when it loads its cache."""
-    module = ModuleType(Path(path).stem)
-    module.__dict__.update(parts)
-    sys.modules[module.__name__] = module
-    exec(compile(text, path, "exec"), module.__dict__)  # noqa: S102 - our own template, filled with numbers only
-    space, n, wide = module.__dict__, plan.n, max(plan.n, plan.channels)
+    text = _text(plan)
+    space, n, wide = _defined(plan, text, compiled), plan.n, max(plan.n, plan.channels)
 
     def track(*args: Any) -> int:
         return int(space["track"](*args, np.zeros((13, wide)), np.zeros((5, n, n))))
@@ -189,6 +175,37 @@ def _defined(plan: Blueprint, text: str, path: str, parts: dict[str, Any]) -> Co
         space["derivative"](*args)
 
     return Compiled(_told(derivative), _told(track), _told(run), text)
+
+
+@lru_cache(maxsize=64)
+def build_march(plan: Blueprint, compiled: bool = True) -> Callable[..., int]:
+    """Return the stroboscopic map of `plan` with tangent vectors, compiled, or as its plain Python twin."""
+    space, n = _defined(plan, _text(plan, "tangent.txt"), compiled), plan.n
+
+    def march(*args: Any) -> int:
+        return int(space["march"](*args, np.zeros((10, n)), np.zeros((3, n, n))))
+
+    return _told(march)
+
+
+def _defined(plan: Blueprint, text: str, compiled: bool) -> dict[str, Any]:
+    """Return the functions that `text` defines, compiled or plain."""
+    parts = _parts(plan)
+    if not compiled:
+        return _module(text, "<slow twin>", {**parts, "jit": lambda f: f, "view": slow_view})
+    path = _cached(text, parts)
+    part = numba.njit(**BARE)
+    whole = numba.njit(**BARE, cache=True)
+    return _module(text, str(path), {**{name: part(f) for name, f in parts.items()}, "jit": whole, "view": view})
+
+
+def _module(text: str, path: str, parts: dict[str, Any]) -> dict[str, Any]:
+    """Return the functions of `text`, defined in a module of its own: numba looks it up when it loads its cache."""
+    module = ModuleType(Path(path).stem)
+    module.__dict__.update(parts)
+    sys.modules[module.__name__] = module
+    exec(compile(text, path, "exec"), module.__dict__)  # noqa: S102 - our own template, filled with numbers only
+    return module.__dict__
 
 
 def _told(function: Callable[..., Any]) -> Callable[..., Any]:

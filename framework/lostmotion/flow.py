@@ -1,0 +1,239 @@
+"""A model with its terms under a periodic drive, as a stroboscopic map with tangent vectors.
+
+The state goes by RK4 in fixed steps, the tangent vectors by the same steps differentiated: the derivative of the
+vector field in the direction of a tangent vector is taken at each stage. So the growth of a tangent vector is that of
+the computed motion itself, to about 1e-9, and what is left is the error of RK4: of fourth order where the force is
+smooth, of second at a kink such as a contact. A step with a kink in it is taken again in `FINER` parts. A force that
+is continuous needs no correction of the tangent at a kink (no saltation). One that jumps does: it is not made, and
+the orbit says "jumps".
+
+Dry friction of ours is a steep line of width `force * mobility`. Here `LINE` steps resolve it, and finer ones its
+edges, wherefore its tangent is that of the law as it stands: through a reversal of motion it tends to the saltation of
+the jump, and while the body sticks it shrinks by a factor of e every `LINE` steps, where that of a true jump would
+vanish at once.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lostmotion.contracts import Array, Assembly, Flow, Model, Orbit
+from lostmotion.errors import ContractError
+from lostmotion.kernels.compose import build_march
+from lostmotion.system import System
+
+ACCURACY = 0.04
+"""Step times fastest rate: 157 steps a cycle. Halving it moves the exponents of a smooth flow by less than 1e-5."""
+FEWEST, MOST = 64, 50_000
+"""Steps in a period."""
+LINE = 8
+"""Steps that a law needs to pass its steep line, in place of the single one of a filter or a simulation. As the steps
+are as many times finer where there is such a law, the line is as wide as an ordinary step lets it be."""
+FINER = 16
+"""Parts in which a step is taken again that has a kink in it."""
+COARSE, PROBES = 40, 100
+"""Periods that are looked at, and states of them, before the step is chosen."""
+
+
+@dataclass(frozen=True)
+class Harmonic:
+    """A force, or a base position, of amplitude * cos(omega t + phase); `omega` in rad/s."""
+
+    amplitude: float
+    omega: float
+    phase: float = 0.0
+
+    @property
+    def period(self) -> float:
+        """The period (s)."""
+        return 2.0 * math.pi / self.omega
+
+    def column(self, name: str) -> Callable[[Array], Array]:
+        """Return the input called `name` as a function of time; a base velocity is the slope of the base position."""
+        if name in ("force", "base_position"):
+            return lambda t: self.amplitude * np.cos(self.omega * t + self.phase)
+        if name == "base_velocity":
+            return lambda t: -self.amplitude * self.omega * np.sin(self.omega * t + self.phase)
+        raise ContractError(f"a harmonic drive cannot make the input {name!r}: it makes force or base motion")
+
+
+def flow_of(
+    machine: System | Assembly | Model,
+    values: Mapping[str, float],
+    *,
+    drive: Harmonic | tuple[float, float] | float,
+    start: Array | None = None,
+    steps: int = 0,
+) -> Flow:
+    """Return the flow of a machine with all its terms: exact where the model knows its own, else by RK4.
+
+    `drive` is amplitude and omega (rad/s) of a harmonic force or base motion, or, for a machine that nothing drives,
+    the time (s) between looks. `steps` in a period asks for RK4 with as many; otherwise 157 fall to the fastest cycle.
+    """
+    system = machine if isinstance(machine, System) else System.of(machine)
+    beat, period = _beat(drive)
+    if not steps and (exact := _exact(system, values, beat or Harmonic(0.0, 2.0 * math.pi / period), start)):
+        return exact
+    return cast("Flow", stepped(system, values, drive=drive, start=start, steps=steps))
+
+
+def _exact(system: System, values: Mapping[str, float], beat: Harmonic, start: Array | None) -> Flow | None:
+    """Return the flow that the model knows in closed form, if it does; a term is more than the model knows."""
+    if system.terms:
+        return None
+    named = {system.slot(name).key: value for name, value in values.items()}
+    full = dict(zip((slot.key for slot in system.slots), system.vector(named).tolist(), strict=True))
+    offer = getattr(system.model, "exact", None)
+    found = offer(full, (beat.amplitude, beat.omega, beat.phase), start) if offer else None
+    return cast("Flow | None", found)
+
+
+def stepped(
+    system: System,
+    values: Mapping[str, float],
+    *,
+    drive: Harmonic | tuple[float, float] | float,
+    start: Array | None = None,
+    steps: int = 0,
+) -> Stepped:
+    """Return the flow by RK4, with arguments as in `flow_of`."""
+    beat, period = _beat(drive)
+    full = system.vector(values)
+    if not np.isfinite(full).all():
+        bad = system.slots[int(np.flatnonzero(~np.isfinite(full))[0])].key
+        raise ContractError(f"the parameter {bad} is {full[system.index[bad]]:g}: wanted a finite number")
+    n = system.states(system.everything)
+    begin = np.zeros(n)
+    if start is not None:
+        begin[: len(start)] = np.asarray(start, dtype=float)
+    if not np.isfinite(begin).all():
+        raise ContractError(f"the start is {begin}: wanted finite numbers")
+    return Stepped(system, full, beat, period, begin, steps or FEWEST, np.full(n, 1e100))._measured(bool(steps))
+
+
+def _beat(drive: Harmonic | tuple[float, float] | float) -> tuple[Harmonic | None, float]:
+    """Return the drive, if there is one, and the period (s)."""
+    beat = None if isinstance(drive, float | int) else drive if isinstance(drive, Harmonic) else Harmonic(*drive)
+    if beat and not 0.0 < beat.omega < math.inf:
+        raise ContractError(f"the drive has omega = {beat.omega:g} rad/s: wanted a finite number above zero")
+    period = beat.period if beat else float(drive)  # type: ignore[arg-type]
+    if not 0.0 < period < math.inf:
+        raise ContractError(f"the period is {period:g} s: wanted a finite time above zero")
+    return beat, period
+
+
+@dataclass(frozen=True, eq=False)
+class Stepped:
+    """The flow of a system by `steps` RK4 steps to a period; `scale` (n,) are natural sizes of the states."""
+
+    system: System
+    full: Array
+    beat: Harmonic | None
+    period: float
+    start: Array
+    steps: int
+    scale: Array
+    compiled: bool = True
+
+    @property
+    def states(self) -> tuple[str, ...]:
+        """The names of the states, those of the terms last."""
+        own = [f"{key}.{s}" for key, t in zip(self.system.keys, self.system.terms, strict=True) for s in t.states]
+        return (*self.system.model.states, *own)
+
+    @property
+    def driven(self) -> bool:
+        """Whether the phase of a drive is one more direction of the flow, with the exponent zero."""
+        return self.beat is not None
+
+    def march(self, start: Array, *, periods: int, tangents: int) -> Orbit:
+        """Return the orbit from `start` (n,) at drive phase 0, with `tangents` tangent vectors kept orthogonal."""
+        states, growth, status = self._run(start, periods, tangents, 1)
+        return Orbit(states, growth, status)
+
+    def sample(self, start: Array, *, periods: int, looks: int) -> Array:
+        """Return states (periods * looks + 1, n) at `looks` evenly spaced times of each period; NaN behind the end."""
+        return self._run(start, periods, 0, looks)[0]
+
+    def _run(self, start: Array, periods: int, tangents: int, looks: int) -> tuple[Array, Array, str]:
+        n, sub = len(self.start), -(-self.steps // looks)
+        h = self.period / (sub * looks)
+        begin = np.asarray(start, dtype=float)
+        if begin.shape != (n,) or not 0 <= tangents <= n:
+            raise ContractError(f"a start of shape {begin.shape} and {tangents} tangents do not fit {n} states")
+        states, growth = np.full((periods * looks + 1, n), np.nan), np.zeros((periods, tangents))
+        inputs, (base, own) = self._inputs(sub * looks, h), self._packed(h)
+        broken = np.zeros(2, dtype=np.int64)
+        done = self._kernel(
+            begin, inputs, h, looks, self._every(sub * looks), FINER, base, own,
+            *self.system.wiring(self.system.everything), self.scale, _frame(tangents, n), states, growth, broken,
+            np.zeros((3, inputs.shape[1])),
+        )  # fmt: skip
+        if done < len(states):
+            states[done:], growth[max(done - 1, 0) // looks :] = np.nan, np.nan
+            return states, growth, "diverged"
+        return states, growth, "jumps" if broken[0] else "ok"
+
+    @cached_property
+    def _kernel(self) -> Callable[..., int]:
+        return build_march(self.system._plan(len(self.start), False), self.compiled)
+
+    def _every(self, steps: int) -> int:
+        """Return the steps between two orthonormalisations: about the time in which the fastest rate acts."""
+        return max(1, min(steps, round(1.0 / ACCURACY)))
+
+    def _inputs(self, steps: int, h: float) -> Array:
+        """Return the inputs of one period (3 * steps, inputs): start, middle and end of each step."""
+        names = self.system.model.inputs
+        if self.beat is None:
+            return np.zeros((3 * steps, max(len(names), 1)))
+        t = (np.arange(steps)[:, None] * h + np.array([0.0, 0.5 * h, h])).ravel()
+        return np.ascontiguousarray(np.stack([self.beat.column(name)(t) for name in names], axis=1))
+
+    def _packed(self, h: float) -> tuple[Array, Array]:
+        """Return the parameters of model and terms, the mobility being that of `LINE` steps."""
+        base, own = self.system.pack(self.full, h)
+        own[self._steep] *= LINE
+        return base, own
+
+    @cached_property
+    def _steep(self) -> NDArray[np.bool_]:
+        """Where the parameters of the terms hold a mobility."""
+        needs = [name for term in self.system.terms for name in (*("",) * len(term.params), *term.needs)]
+        return np.array([name == "mobility" for name in needs], dtype=np.bool_)
+
+    def _measured(self, fixed: bool) -> Stepped:
+        """Return this flow with a step and with sizes of the states that suit a motion of some periods."""
+        flow = self
+        for _ in range(2):
+            looks = min(flow.steps, FEWEST)
+            seen = flow.sample(flow.start, periods=COARSE, looks=looks)
+            seen = seen[np.isfinite(seen).all(axis=1) & (np.abs(seen) < 1e12).all(axis=1)]
+            size = np.abs(seen).max(axis=0)
+            scale = np.maximum(0.5 * np.ptp(seen, axis=0), 1e-3 * size)
+            scale = np.where(scale > 0.0, scale, max(float(scale.max()), 1e-9))
+            steps = flow.steps if fixed else flow._wanted(seen, looks)
+            flow = Stepped(self.system, self.full, self.beat, self.period, self.start, steps, scale, self.compiled)
+        return flow
+
+    def _wanted(self, seen: Array, looks: int) -> int:
+        """Return how many steps a period needs for the fastest rate met in the states `seen`."""
+        picked = np.unique(np.linspace(0, len(seen) - 1, PROBES).astype(int))
+        inputs = self._inputs(looks, self.period / looks)[3 * (picked % looks)]
+        n = len(self.system.model.states)
+        rate = self.system.stiffness(self.full, self.system.everything, seen[picked][:, :n], inputs)
+        finer = LINE if self._steep.any() else 1
+        return int(min(max(math.ceil(finer * rate * self.period / ACCURACY), FEWEST), MOST))
+
+
+def _frame(tangents: int, n: int) -> Array:
+    """Return orthonormal rows (tangents, n) that share no axis with the states, so that none is missed."""
+    wave = np.cos(np.arange(1, n + 1)[:, None] * (np.arange(n) + 0.5) * 0.9) + np.eye(n)
+    return np.ascontiguousarray(np.linalg.qr(wave.T)[0].T[:tangents])
