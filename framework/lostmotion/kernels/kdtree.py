@@ -84,32 +84,68 @@ def _bound(points, order, begin, end, box):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(cache=True, nogil=True)
-def _divide(points, order, span, link, box):  # type: ignore[no-untyped-def]
-    """Fill order, span, link and box, and return the number of nodes and of buckets."""
-    keys = np.empty(len(points))
-    nodes, buckets = 1, 0
-    span[0, 0], span[0, 1] = 0, len(points)
-    a = 0
+def _cut(keys, order, begin, end):  # type: ignore[no-untyped-def]
+    """Reorder between begin and end and return where to cut, near the middle, with equal keys on one side of it.
+
+    Were they on both, points that repeat would be strewn over the tree in many small heaps.
+    """
+    middle = (begin + end) // 2
+    _select(keys, order, begin, end, middle)
+    value = keys[middle]
+    low = begin
+    for p in range(begin, middle):
+        if keys[p] < value:
+            keys[p], keys[low] = keys[low], keys[p]
+            order[p], order[low] = order[low], order[p]
+            low += 1
+    high = middle
+    for p in range(middle, end):
+        if keys[p] == value:
+            keys[p], keys[high] = keys[high], keys[p]
+            order[p], order[high] = order[high], order[p]
+            high += 1
+    return low if low > begin and (middle - low <= high - middle or high == end) else high
+
+
+@numba.njit(cache=True, nogil=True)
+def _roomier(array, rows):  # type: ignore[no-untyped-def]
+    """Return an array with the same rows and as many again."""
+    grown = np.empty((2 * rows, *array.shape[1:]), array.dtype)
+    grown[:rows] = array[:rows]
+    return grown
+
+
+@numba.njit(cache=True, nogil=True)
+def _divide(points, order):  # type: ignore[no-untyped-def]
+    """Return span, link and box of all nodes and the number of buckets, with `order` put in order."""
+    n, dim = points.shape
+    keys = np.empty(n)
+    room = 4 * (n // BUCKET) + 3
+    span, link, box = np.empty((room, 2), np.int64), np.empty((room, 1), np.int64), np.empty((room, 2, dim))
+    span[0, 0], span[0, 1] = 0, n
+    nodes, buckets, a = 1, 0, 0
     while a < nodes:
+        if nodes + 2 > room:
+            span, link, box = _roomier(span, room), _roomier(link, room), _roomier(box, room)
+            room *= 2
         begin, end = span[a]
         widest, width = _bound(points, order, begin, end, box[a])
         if width == 0.0:
-            link[a] = SAME
+            link[a, 0] = SAME
             order[begin:end].sort()
         elif end - begin <= BUCKET:
-            link[a] = -1 - buckets
+            link[a, 0] = -1 - buckets
             buckets += 1
         else:
             for p in range(begin, end):
                 keys[p] = points[order[p], widest]
-            middle = (begin + end) // 2
-            _select(keys, order, begin, end, middle)
-            link[a] = nodes
+            middle = _cut(keys, order, begin, end)
+            link[a, 0] = nodes
             span[nodes, 0], span[nodes, 1] = begin, middle
             span[nodes + 1, 0], span[nodes + 1, 1] = middle, end
             nodes += 2
         a += 1
-    return nodes, buckets
+    return span[:nodes].copy(), link[:nodes, 0].copy(), box[:nodes].copy(), buckets
 
 
 @numba.njit(cache=True, nogil=True)
@@ -133,19 +169,9 @@ def _settle(points, order, span, link, ages, buckets):  # type: ignore[no-untype
 def plant(points):  # type: ignore[no-untyped-def]
     """Return the arrays of the tree of `points` (n, dim), n >= 1: order, span, link, ages, box, buckets."""
     n, dim = points.shape
-    most = 4 * (n // BUCKET) + 3
     order = np.arange(n)
-    span = np.empty((most, 2), np.int64)
-    link = np.empty(most, np.int64)
-    box = np.empty((most, 2, dim))
-    nodes, full = _divide(points, order, span, link, box)
-    ages = np.empty((nodes, 2), np.int64)
+    span, link, box, full = _divide(points, order)
+    ages = np.empty((len(span), 2), np.int64)
     buckets = np.full((full, dim, BUCKET), np.inf)
-    _settle(points, order, span[:nodes], link, ages, buckets)
-    return order, span[:nodes].copy(), link[:nodes].copy(), ages, box[:nodes].copy(), buckets
-
-
-def grow(points: Array) -> Tree:
-    """Return the tree of `points` (n, dim), at least one, all finite."""
-    held = np.ascontiguousarray(points, dtype=np.float64)
-    return Tree(held, *plant(held))
+    _settle(points, order, span, link, ages, buckets)
+    return order, span, link, ages, box, buckets
