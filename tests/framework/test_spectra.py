@@ -126,13 +126,28 @@ def test_harmonics_are_taken_out_and_the_rest_is_left():
     assert removed == pytest.approx(wave(8000, shape=(1.0, 0.5, 0.2, 0.1)), abs=0.05)
 
 
-def test_removal_is_the_mean_over_periods_where_these_are_whole_numbers_of_samples():
-    x = rng(4).normal(size=20 * 30)
-    _, removed = without_harmonics(x, 1.0, 20.0)
-    mean = x.reshape(30, 20).mean(axis=0)
-    # The component at the Nyquist frequency is no harmonic with two amplitudes, and is left in.
-    top = np.mean(mean * (-1.0) ** np.arange(20)) * (-1.0) ** np.arange(20)
-    assert removed[:20] == pytest.approx(mean - mean.mean() - top)
+def test_removal_is_that_of_the_plain_least_squares():
+    n, number = 500, 9
+    x = rng(4).normal(size=n)
+    phase = 2 * np.pi * np.outer(np.arange(n), np.arange(1, number + 1)) / 20.7
+    table = np.hstack([np.ones((n, 1)), np.cos(phase), np.sin(phase)])
+    root = np.sin(np.pi * np.arange(1, n + 1) / (n + 1))
+    amplitudes = np.linalg.lstsq(table * root[:, None], x * root)[0]
+    rest, removed = without_harmonics(x, 1.0, 20.7, harmonics=number)
+    assert removed == pytest.approx(table[:, 1:] @ amplitudes[1:])
+    assert rest + removed == pytest.approx(x)
+
+
+def test_no_component_at_the_nyquist_frequency_is_asked_for():
+    x = wave(600, 0.05, 1.0) + (-1.0) ** np.arange(600)
+    rest, _ = without_harmonics(x, 1.0, 20.0)
+    assert rest == pytest.approx((-1.0) ** np.arange(600), abs=1e-3)
+
+
+def test_strong_subharmonic_does_not_leak_into_what_is_removed():
+    other = wave(4011, FREQUENCY / 2, shape=(1.0,))
+    rest, _ = without_harmonics(wave(4011, shape=(0.1,)) + other, DT, PERIOD)
+    assert rest == pytest.approx(other, abs=2e-3)
 
 
 def test_subharmonics_are_removed_on_demand():

@@ -1,10 +1,10 @@
-"""What a report is drawn from: `diagnosis.json` and `arrays.nc`, read once and never written."""
+"""What a report is drawn from: facts as JSON and arrays as netCDF, read once and never written."""
 
 from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -17,12 +17,13 @@ from lostmotion.results import Array
 
 @dataclass(frozen=True)
 class Evidence:
-    """Facts of a diagnosis, its numeric arrays and text coordinates, and the units of the arrays."""
+    """Facts of a result, its numeric arrays and text coordinates, and the units and long names of the arrays."""
 
     facts: Mapping[str, Any]
     arrays: Mapping[str, Array]
     labels: Mapping[str, tuple[str, ...]]
     units: Mapping[str, str]
+    long_names: Mapping[str, str] = field(default_factory=dict)
 
     def has(self, *names: str) -> bool:
         """Return whether every array of `names` is there and holds at least one finite number."""
@@ -62,16 +63,21 @@ class Evidence:
 
 def read_evidence(folder: Path) -> Evidence:
     """Return what is in a folder written by `lostmotion diagnose`; arrays may be absent, the diagnosis may not."""
-    page = folder / "diagnosis.json"
+    return gathered(folder, ("diagnosis.json", "arrays.nc"), "lostmotion diagnose CASE.toml")
+
+
+def gathered(folder: Path, names: tuple[str, str], command: str) -> Evidence:
+    """Return the facts and the arrays that a command left in a folder; the arrays may be absent, the facts may not."""
+    page, arrays = folder / names[0], folder / names[1]
     if not page.is_file():
-        raise DataError(f"no diagnosis.json in {folder}: run `lostmotion diagnose CASE.toml --out {folder}` first")
+        raise DataError(f"no {page.name} in {folder}: run `{command} --out {folder}` first")
+    again = f"run `{' '.join(command.split()[:2])}` again"
     try:
         facts = json.loads(page.read_text(encoding="utf-8"))
     except json.JSONDecodeError as error:
-        raise DataError(f"{page} is not JSON ({error}): run `lostmotion diagnose` again") from error
+        raise DataError(f"{page} is not JSON ({error}): {again}") from error
     if not isinstance(facts, dict):
-        raise DataError(f"{page} holds a {type(facts).__name__}, not an object: run `lostmotion diagnose` again")
-    arrays = folder / "arrays.nc"
+        raise DataError(f"{page} holds a {type(facts).__name__}, not an object: {again}")
     return _with_arrays(facts, xr.load_dataset(arrays, engine="h5netcdf") if arrays.is_file() else xr.Dataset())
 
 
@@ -83,6 +89,7 @@ def _with_arrays(facts: Mapping[str, Any], data: xr.Dataset) -> Evidence:
         arrays={name: np.asarray(variable.values, dtype=float) for name, variable in numeric.items()},
         labels={name: tuple(_decoded(v) for v in variable.values.ravel()) for name, variable in text.items()},
         units={name: str(variable.attrs.get("units", "")) for name, variable in numeric.items()},
+        long_names={name: str(variable.attrs.get("long_name", "")) for name, variable in numeric.items()},
     )
 
 

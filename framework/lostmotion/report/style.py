@@ -13,12 +13,13 @@ from typing import Any
 import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.axis import Axis
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
-from matplotlib.ticker import MaxNLocator
+from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
 from PIL import Image
 
-from lostmotion.report.words import Scale, readable
+from lostmotion.report.words import Scale, figures, power_of_ten, readable
 from lostmotion.results import Array
 
 # Okabe and Ito: told apart by colour-blind readers, and in grey print by their lightness.
@@ -87,6 +88,17 @@ def few_ticks(axes: Axes, across: int = 6, up: int = 5) -> None:
     axes.xaxis.set_major_locator(MaxNLocator(across))
     axes.yaxis.set_major_locator(MaxNLocator(up))
     axes.ticklabel_format(useOffset=False)
+
+
+def log_ticks(axis: Axis, most: int = 6) -> None:
+    """Mark the powers of ten of a logarithmic axis, or 1, 2, 5 where it spans less than two of them."""
+    low, high = sorted(axis.get_view_interval())
+    plain = low >= 5e-3 and high <= 2e3
+    axis.set_major_locator(
+        LogLocator(subs=(1.0, 2.0, 5.0) if low > 0.0 and high / low < 100.0 else (1.0,), numticks=most)
+    )
+    axis.set_major_formatter(FuncFormatter(lambda value, _place: figures(value) if plain else power_of_ten(value)))
+    axis.set_minor_formatter(NullFormatter())
 
 
 def span_of(values: Array, margin: float) -> tuple[float, float]:

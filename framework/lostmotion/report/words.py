@@ -16,6 +16,23 @@ PROPER = {
     "wen": "Wen",
     "dahl": "Dahl",
     "lugre": "LuGre",
+    "lyapunov": "Lyapunov",
+    "rosenstein": "Rosenstein",
+    "kantz": "Kantz",
+    "wolf": "Wolf",
+    "grassberger": "Grassberger",
+    "procaccia": "Procaccia",
+    "takens": "Takens",
+    "theiler": "Theiler",
+    "schreiber": "Schreiber",
+    "cao": "Cao",
+    "fourier": "Fourier",
+    "ami": "AMI",
+    "knn": "k-nearest-neighbour",
+    "fnn": "FNN",
+    "aaft": "AAFT",
+    "iaaft": "IAAFT",
+    "ghkss": "GHKSS",
 }
 DASH = "–"
 
@@ -49,7 +66,11 @@ def with_unit(name: str, unit: str) -> str:
 
 def spoken(name: str) -> str:
     """Return a name such as `coulomb_friction` as words: `Coulomb friction`."""
-    return " ".join(PROPER.get(word, word) for word in name.split("_")).replace("Bouc Wen", "Bouc–Wen")
+    return (
+        " ".join(PROPER.get(word, word) for word in name.split("_"))
+        .replace("Bouc Wen", "Bouc–Wen")
+        .replace("Grassberger Procaccia", "Grassberger–Procaccia")
+    )
 
 
 def sentence(text: str) -> str:
@@ -69,6 +90,22 @@ def figures(value: Any, digits: int = 3) -> str:
         return f"{mantissa.rstrip('0').rstrip('.') if '.' in mantissa else mantissa}e{int(exponent)}"
     text = _signed(f"{value:.{max(0, digits - 1 - power)}f}")
     return text.rstrip("0").rstrip(".") if "." in text else text
+
+
+def power_of_ten(value: float) -> str:
+    """Return a positive number as the tick of a logarithmic axis: `1`, `10⁻⁵`, `2·10⁻⁵`."""
+    power = math.floor(math.log10(value) + 1e-9)
+    factor = figures(float(value) / 10.0**power, 2)
+    if power == 0:
+        return factor
+    raised = f"10{str(power).translate(RAISED)}"
+    return raised if factor == "1" else f"{factor}·{raised}"
+
+
+def shortened(text: str, most: int = 48) -> str:
+    """Return a text on one line, cut where it is too long for a figure."""
+    line = " ".join(text.split())
+    return line if len(line) <= most else line[: most - 1].rstrip() + "…"
 
 
 def measured(value: Any, unit: str) -> str:

@@ -40,7 +40,7 @@ def stroboscopic(x: Array, dt: float, period: float, *, phase: float = 0.0, lag:
         raise DataError(f"a lag of {lag} samples leaves nothing of {len(x)} samples: choose a shorter one")
     # Without the margin rounding would now and then lose the last point.
     count = math.floor((last / period - phase % 1.0) * (1.0 + 1e-12) + 1e-9) + 1
-    time = (phase % 1.0 + np.arange(max(count, 0))) * period
+    time = (phase % 1.0 + np.arange(max(count, 0), dtype=np.float64)) * period
     return Section(time, _at(x, time / dt), _at(x, time / dt + lag))
 
 

@@ -1,0 +1,77 @@
+"""Figure of the surrogate tests: where the recording stands among series that only look like it."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from lostmotion.report import style
+from lostmotion.report.analysis_facts import rows_of
+from lostmotion.report.evidence import Evidence
+from lostmotion.report.words import probability, shortened, spoken
+from lostmotion.results import Array
+
+ABREAST = 3
+CELLS = 24
+
+
+def tests(evidence: Evidence) -> Figure | None:
+    """Return one panel for each test: the statistic of the surrogates, and that of the recording."""
+    values = _values(evidence)
+    if values is None:
+        return None
+    columns = min(ABREAST, len(values))
+    rows = math.ceil(len(values) / columns)
+    figure = style.blank(2.4 * rows + 0.5)
+    panels = figure.subplots(rows, columns, squeeze=False).ravel()
+    for k, axes in enumerate(panels):
+        if k < len(values):
+            _draw_test(axes, evidence, k, values[k])
+        else:
+            axes.remove()
+    style.legend_above(figure, panels[0])
+    return figure
+
+
+def tests_caption(evidence: Evidence) -> str:
+    """Return what the figure of the tests shows."""
+    refused = int(np.sum(~np.isfinite(evidence.arrays["surrogate_values"])))
+    lost = f" {refused} values could not be had and are not drawn." if refused else ""
+    return (
+        "The statistic of each surrogate (bars) and of the recording (line). A recording within the crowd is no"
+        f" different from what the null hypothesis makes; the p-value is its rank, and cannot be 0.{lost}"
+    )
+
+
+def _values(evidence: Evidence) -> Array | None:
+    values = evidence.arrays.get("surrogate_values")
+    if values is None or not values.size or not np.isfinite(values).any():
+        return None
+    return np.atleast_2d(values)
+
+
+def _draw_test(axes: Axes, evidence: Evidence, place: int, values: Array) -> None:
+    rows = rows_of(evidence, "surrogates")
+    facts = rows[place] if place < len(rows) else {}
+    original, finite = _original(evidence, place), values[np.isfinite(values)]
+    if finite.size:
+        cells = min(CELLS, max(6, round(1.6 * math.sqrt(finite.size))))
+        counts, edges = np.histogram(finite, bins=cells)
+        axes.stairs(counts, edges, fill=True, color="#b8b8b8", label="surrogates")
+        axes.set_ylim(0.0, 1.15 * float(counts.max()))
+    if math.isfinite(original):
+        axes.axvline(original, color=style.BEFORE, linewidth=2.0, label="recording")
+    axes.set_xlim(*style.span_of(np.append(finite, original), 0.1))
+    style.few_ticks(axes, 4, 4)
+    axes.set_xlabel(shortened(spoken(str(facts.get("statistic") or "statistic")), 36))
+    axes.set_ylabel("surrogates" if place % ABREAST == 0 else "")
+    name = shortened(spoken(str(facts.get("name") or facts.get("method") or f"test {place + 1}")), 26)
+    axes.set_title(f"{name}: p = {probability(facts.get('p'))}".replace("= <", "<").replace("= >", ">"))
+
+
+def _original(evidence: Evidence, place: int) -> float:
+    found = np.atleast_1d(evidence.arrays.get("surrogate_original", np.array([])))
+    return float(found[place]) if place < found.size else math.nan
