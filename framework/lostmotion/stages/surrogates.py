@@ -1,0 +1,151 @@
+"""Whether a series differs from what a null hypothesis makes of it, by its rank among surrogates."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lostmotion.contracts import Quantifier, Series, Surrogate
+from lostmotion.errors import ContractError, DataError
+from lostmotion.kernels.threads import spread
+
+Array = NDArray[np.float64]
+Statistic = Quantifier[Series] | Callable[[Array], float]
+Sided = Literal["two", "low", "high"]
+
+
+@dataclass(frozen=True, eq=False)
+class SurrogateTest:
+    """The rank of a recording's statistic among surrogates: `values` (draws,), NaN where it was refused.
+
+    `p_low` is the chance under the null of a value as low as `original`, `p_high` of one as high; `p` is that of the
+    side asked for, or min(1, 2 min(p_low, p_high)). `refused` counts the surrogates without a number: they stand
+    against rejection, as ties do. `piece` is the part of the series that was compared.
+    """
+
+    method: str
+    null: str
+    statistic: str
+    original: float
+    values: Array
+    p_low: float
+    p_high: float
+    sided: Sided
+    refused: int
+    piece: slice
+    says: str
+
+    @property
+    def p(self) -> float:
+        """The p-value; NaN where the statistic was refused for the recording."""
+        two = min(1.0, 2.0 * min(self.p_low, self.p_high)) if self.p_low == self.p_low else self.p_low
+        return {"low": self.p_low, "high": self.p_high, "two": two}[self.sided]
+
+    def rejects(self, level: float = 0.05) -> bool:
+        """Return whether the null is rejected at `level`; never where the statistic was refused."""
+        return self.p <= level
+
+
+def surrogate_test(
+    series: Series,
+    surrogate: Surrogate,
+    statistic: Statistic,
+    *,
+    draws: int = 99,
+    rng: np.random.Generator,
+    sided: Sided = "two",
+    jobs: int = 0,
+) -> SurrogateTest:
+    """Return how the statistic of `series` ranks among those of `draws` surrogates.
+
+    `statistic` is a quantifier, or a function of x (m,) that may run in several threads; it sees the same piece of the
+    recording that the surrogates are made of. Each draw has a random stream of its own, so the outcome does not
+    depend on `jobs`. Raises `DataError` for a number of draws with which no level of 5 % can be reached.
+    """
+    _require_enough(draws, sided)
+    for_draws, for_original, *streams = rng.spawn(draws + 2)
+    drawn = np.asarray(surrogate.draw(series, draws=draws, rng=for_draws), dtype=float)
+    part = _piece(series, surrogate, drawn, draws)
+    original, why = _value(statistic, replace(series, x=series.x[part]), for_original)
+    values = np.full(draws, np.nan)
+
+    def work(begin: int, end: int) -> None:
+        for k in range(begin, end):
+            values[k] = _value(statistic, replace(series, x=drawn[k]), streams[k])[0]
+
+    if np.isfinite(original):
+        spread(work, draws, jobs=jobs, slices=draws)
+    return _ranked(surrogate, _name(statistic), original, values, sided, part, why)
+
+
+def _require_enough(draws: int, sided: Sided) -> None:
+    least = 39 if sided == "two" else 19
+    if sided not in ("two", "low", "high"):
+        raise DataError(f"the test is {sided!r} sided: say two, low (the recording lies lower) or high")
+    if draws < least:
+        raise DataError(f"{draws} surrogates cannot reject at 5 %: {least} are wanted at least")
+
+
+def _piece(series: Series, surrogate: Surrogate, drawn: Array, draws: int) -> slice:
+    """Return the piece that was drawn of: the surrogate says it in `piece`, or it is the beginning."""
+    if drawn.ndim != 2 or len(drawn) != draws or not np.isfinite(drawn).all() or drawn.shape[1] > series.n:
+        raise ContractError(
+            f"{surrogate.name} returned an array {drawn.shape}, and {draws} finite rows of at most {series.n} were "
+            "wanted: write to its author"
+        )
+    asked = getattr(surrogate, "piece", None)
+    part = asked(series) if asked else slice(0, drawn.shape[1])
+    if part.stop - part.start != drawn.shape[1]:
+        raise ContractError(f"{surrogate.name} says {part} and drew {drawn.shape[1]} samples: write to its author")
+    return slice(part.start, part.stop)
+
+
+def _value(statistic: Statistic, series: Series, rng: np.random.Generator) -> tuple[float, str]:
+    """Return the number, NaN where it is refused, and why."""
+    if not isinstance(statistic, Quantifier):
+        return float(statistic(series.x)), ""
+    estimate = statistic.estimate(series, rng=rng)
+    return float(estimate.value), estimate.says
+
+
+def _name(statistic: Statistic) -> str:
+    name = getattr(statistic, "name", None) or getattr(statistic, "__name__", None) or type(statistic).__name__
+    return str(name).replace("_", " ")
+
+
+def _ranked(
+    surrogate: Surrogate, name: str, original: float, values: Array, sided: Sided, part: slice, why: str
+) -> SurrogateTest:
+    """Return the test, with ties and refusals counted against rejection."""
+    n, method = len(values), surrogate.name
+    refused = int((~np.isfinite(values)).sum())
+    if not np.isfinite(original):
+        nothing, reason = float("nan"), why.rstrip(".") or "it is not finite"
+        says = f"No test: the {name} of the recording was refused ({reason})."
+        return SurrogateTest(method, surrogate.null, name, original, values, nothing, nothing, sided, n, part, says)
+    lower = int((values <= original).sum()) + refused
+    higher = int((values >= original).sum()) + refused
+    p_low, p_high = (1 + lower) / (1 + n), (1 + higher) / (1 + n)
+    bare = SurrogateTest(method, surrogate.null, name, original, values, p_low, p_high, sided, refused, part, "")
+    return replace(bare, says=_sentence(bare))
+
+
+def _sentence(test: SurrogateTest) -> str:
+    """Return what the test found, in words."""
+    n, side = len(test.values), test.sided
+    if side == "two":
+        side = "low" if test.p_low <= test.p_high else "high"
+    worse = round((test.p_low if side == "low" else test.p_high) * (1 + n)) - 1 - test.refused
+    count = "none has" if worse == 0 else f"{worse} {'has' if worse == 1 else 'have'}"
+    tails = ", two-sided" if test.sided == "two" else ""
+    level = f"p = {test.p:.2g}{tails}"
+    says = f"Of {n} {test.method} surrogates {count} a {test.statistic} as {side} as the recording's ({level})"
+    verdict = "is not rejected" if not test.rejects() else "is rejected"
+    lost = ""
+    if test.refused:
+        lost = f" For {test.refused} surrogates it was refused: they count against a rejection."
+    return f"{says}: that it is {test.null} {verdict} at 5 %.{lost}"

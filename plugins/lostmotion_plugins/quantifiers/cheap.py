@@ -1,0 +1,142 @@
+"""Numbers that cost milliseconds: what a surrogate test asks of each of its series."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+from scipy.stats import t as student
+
+from lostmotion.contracts import Array, Quantifier, Series
+from lostmotion.kernels import neighbours
+from lostmotion.results import Estimate
+from lostmotion.signals import delay_vectors
+
+FEWEST = 100
+"""Fewer terms than this are no average."""
+BLOCKS = (6, 60)
+"""Fewest and most blocks of a bootstrap."""
+
+
+@dataclass(frozen=True)
+class MutualInformation(Quantifier[Series]):
+    """Average mutual information (nats) of x(t) and x(t + lag), lag that of the embedding. Fraser, Swinney (1986).
+
+    Histogram of `bins` equal bins a side (0: as many as the length allows, 64 at most), with the bias of its finite
+    counts taken off (Miller 1955); `details["plain"]` is the number before that.
+    """
+
+    bins: int = 0
+    name: ClassVar[str] = "mutual_information"
+    paper: ClassVar[str] = "Fraser, Swinney, Physical Review A 33 (1986) 1134-1140; Miller (1955) for the bias"
+    unit: ClassVar[str] = "nat"
+
+    def estimate(self, data: Series, *, rng: np.random.Generator) -> Estimate:
+        lag, pairs = data.embedding.lag, data.n - data.embedding.lag
+        if pairs < FEWEST:
+            return _short(pairs, self.unit)
+        bins = self.bins or int(np.clip(np.sqrt(data.n / 4.8), 4, 64))
+        codes = _binned(data.x, bins)
+        cells = codes[:-lag] * bins + codes[lag:]
+        counts = np.bincount(cells, minlength=bins * bins).reshape(bins, bins)
+        rows, columns = counts.sum(axis=1), counts.sum(axis=0)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            local = np.log(counts * float(pairs) / np.outer(rows, columns))
+        plain = float((counts * np.where(counts > 0, local, 0.0)).sum()) / pairs
+        excess = np.count_nonzero(counts) - np.count_nonzero(rows) - np.count_nonzero(columns) + 1
+        value = plain - excess / (2.0 * pairs)
+        return _with_interval(value, local.ravel()[cells] - plain, data, rng, self.unit, plain=plain, bins=bins)
+
+
+@dataclass(frozen=True)
+class TimeReversal(Quantifier[Series]):
+    """Skewness of x(t + lag) - x(t), <d^3> / <d^2>^(3/2): zero for what looks alike in both directions of time.
+
+    Theiler et al., Physica D 58 (1992) 77-94; Schreiber, Schmitz, Physical Review E 55 (1997) 5443-5447.
+    """
+
+    name: ClassVar[str] = "time_reversal"
+    paper: ClassVar[str] = "Schreiber, Schmitz, Physical Review E 55 (1997) 5443-5447"
+    unit: ClassVar[str] = "1"
+
+    def estimate(self, data: Series, *, rng: np.random.Generator) -> Estimate:
+        lag = data.embedding.lag
+        if data.n - lag < FEWEST:
+            return _short(data.n - lag, self.unit)
+        d = data.x[lag:] - data.x[:-lag]
+        square, cube = float(np.mean(d**2)), float(np.mean(d**3))
+        if square <= (1e-12 * np.ptp(data.x)) ** 2:
+            return Estimate.refused("failed", f"the series repeats itself after {lag} samples: choose another lag")
+        value = cube / square**1.5
+        pull = (d**3 - cube) / square**1.5 - 1.5 * value * (d**2 - square) / square
+        return _with_interval(value, pull, data, rng, self.unit)
+
+
+@dataclass(frozen=True)
+class PredictionError(Quantifier[Series]):
+    """Error (rms, as a share of the standard deviation) of forecasts one lag ahead by what neighbours did.
+
+    The forecast of a point is the mean over what became of its `neighbours` nearest neighbours, those within the
+    Theiler window left out (Farmer, Sidorowich 1987; as a test statistic Theiler et al. 1992, Schreiber, Schmitz 1997).
+    `queries` points, spread evenly, are forecast.
+    """
+
+    neighbours: int = 5
+    queries: int = 4000
+    name: ClassVar[str] = "prediction_error"
+    paper: ClassVar[str] = "Farmer, Sidorowich, PRL 59 (1987) 845-848; Schreiber, Schmitz, PRE 55 (1997) 5443-5447"
+    unit: ClassVar[str] = "1"
+
+    def estimate(self, data: Series, *, rng: np.random.Generator) -> Estimate:
+        lag, dim, theiler = data.embedding.lag, data.embedding.dim, data.embedding.theiler
+        ahead = data.embedding.window - 1 + lag
+        rows = data.n - ahead
+        if rows < max(FEWEST, 2 * theiler + 4 * self.neighbours):
+            return _short(rows, self.unit)
+        points = delay_vectors(data.x[: data.n - lag], lag, dim)
+        future = data.x[ahead:]
+        asked = np.arange(0, rows, max(rows // self.queries, 1))
+        near, _ = neighbours.several(points, self.neighbours, theiler=theiler, least=-1.0, queries=asked)
+        if (near < 0).any():
+            return Estimate.refused("too_few_neighbours", "points have no neighbours outside of the Theiler window")
+        square = (future[near].mean(axis=1) - future[asked]) ** 2
+        spread = float(np.std(data.x))
+        value = float(np.sqrt(np.mean(square))) / spread
+        pull = (square / spread**2 - value**2) / (2.0 * value) if value > 0.0 else np.zeros(len(square))
+        return _with_interval(value, pull, data, rng, self.unit)
+
+
+def _short(terms: int, unit: str) -> Estimate:
+    says = f"{max(terms, 0)} samples are left behind lag and window, and {FEWEST} are wanted at least: record longer"
+    return Estimate.refused("too_short", says, unit=unit)
+
+
+def _binned(x: Array, bins: int) -> Array:
+    """Return the number of the bin (n,) of each sample, equal bins over the range."""
+    low, high = float(x.min()), float(x.max())
+    scale = bins / (high - low) if high > low else 0.0
+    return np.minimum(((x - low) * scale).astype(np.int64), bins - 1)
+
+
+def _with_interval(
+    value: float, pull: Array, data: Series, rng: np.random.Generator, unit: str, **details: float
+) -> Estimate:
+    """Return the estimate with a central 95 % interval: a bootstrap of the means of blocks of `pull` (m,).
+
+    `pull` says by how much each term moves the value, to first order (its influence function). Blocks are ten times
+    as long as the Theiler window, or shorter where that leaves too few; the widening by Student's t repays the few.
+    """
+    fewest, most = BLOCKS
+    length = 10 * max(data.embedding.theiler, data.embedding.window) * len(pull) / data.n
+    blocks = int(np.clip(len(pull) / length, fewest, most))
+    size = len(pull) // blocks
+    means = pull[: size * blocks].reshape(blocks, size).mean(axis=1)
+    shifts = means[rng.integers(blocks, size=(400, blocks))].mean(axis=1) - means.mean()
+    wider = float(student.ppf(0.975, blocks - 1)) / 1.96 * np.sqrt(blocks / (blocks - 1))
+    low, high = np.quantile(shifts, [0.025, 0.975]) * wider
+    status, says = "ok", ""
+    if len(pull) < fewest * length:
+        status, says = "uncertain", "the series is short beside its own memory: the interval may be too narrow"
+    numbers = {"blocks": float(blocks), **details}
+    return Estimate(value, value + min(low, 0.0), value + max(high, 0.0), status, unit, {}, says, numbers)
