@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, cast
 
-from lostmotion.contracts import Array, Interface, Model, Param
+from lostmotion.contracts import Array, Flow, Interface, Model, Param
 from lostmotion.quantities import DAMPING, INERTIA, LENGTH, STIFFNESS
 
 
@@ -53,6 +54,15 @@ class LinBacklash(Model):
         seen[0] = y[0]
         seen[1] = y[1]
         seen[2] = dydt[1]
+
+    @classmethod
+    def exact(
+        cls, values: Mapping[str, float], drive: tuple[float, float, float], start: Array | None = None
+    ) -> Flow | None:
+        """Return the flow under (amplitude, omega, phase), solved in closed form from contact to contact."""
+        from lostmotion_plugins.models.exact import exact_of
+
+        return cast("Flow | None", exact_of(values, drive, start))
 
     @staticmethod
     def normalised(

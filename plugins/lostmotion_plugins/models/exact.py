@@ -1,0 +1,81 @@
+"""The oscillator with backlash as a flow that is exact up to rounding: no steps, no crossing missed."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from lostmotion.contracts import Array, Orbit
+from lostmotion.errors import ContractError
+from lostmotion_plugins.models._kernels import march
+
+_RESONANCE = 1e-7
+"""Relative distance from a resonance without damping below which the closed form loses its digits."""
+
+
+@dataclass(frozen=True, eq=False)
+class ExactBacklash:
+    """m x'' + c x' + k1 x + F(x) = A cos(omega t + phase) solved in closed form from contact to contact.
+
+    Contact times are found to rounding (see `_kernels`). A force that is continuous needs no saltation, so the tangent
+    is the product of the propagators of the pieces: exact as well.
+    """
+
+    numbers: tuple[float, ...]
+    start: Array
+    states: tuple[str, ...] = ("position", "velocity")
+
+    @property
+    def period(self) -> float:
+        """The period of the drive, or the time between looks (s)."""
+        return 2.0 * math.pi / self.numbers[6]
+
+    @property
+    def driven(self) -> bool:
+        """Whether the phase of a drive is one more direction of the flow, with the exponent zero."""
+        return self.numbers[5] != 0.0
+
+    def march(self, start: Array, *, periods: int, tangents: int) -> Orbit:
+        """Return the orbit from `start` (2,) at drive phase 0, with `tangents` tangent vectors kept orthogonal."""
+        return self._run(start, periods, 1, tangents)[0]
+
+    def sample(self, start: Array, *, periods: int, looks: int) -> Array:
+        """Return states (periods * looks + 1, 2) at `looks` evenly spaced times of each period."""
+        return self._run(start, periods, looks, 0)[0].states
+
+    def crossings(self, start: Array, *, periods: int, looks: int = 1) -> int:
+        """Return how often the motion from `start` enters or leaves the gap; `looks` as in `sample`."""
+        return self._run(start, periods, looks, 0)[1]
+
+    def _run(self, start: Array, periods: int, looks: int, tangents: int) -> tuple[Orbit, int]:
+        begin = np.asarray(start, dtype=float)
+        if begin.shape != (2,) or not 0 <= tangents <= 2:
+            raise ContractError(f"a start of shape {begin.shape} and {tangents} tangents do not fit 2 states")
+        states, growth = np.full((periods * looks + 1, 2), np.nan), np.zeros((periods, tangents))
+        done, crossings = march(begin, self.numbers, looks, states, growth)
+        if done < len(states):
+            growth[max(done - 1, 0) // looks :] = np.nan
+        return Orbit(states, growth, "ok" if done == len(states) else "failed"), crossings
+
+
+def exact_of(
+    values: Mapping[str, float], drive: tuple[float, float, float], start: Array | None
+) -> ExactBacklash | None:
+    """Return the exact flow of these parameters under (amplitude, omega, phase), or None where it is not one.
+
+    That is where a parameter is out of its bounds, and at a resonance without damping.
+    """
+    m, c, k1, k0, x0 = (float(values[name]) for name in ("m", "c", "k1", "k0", "x0"))
+    amplitude, omega, phase = (float(x) for x in drive)
+    begin = np.zeros(2) if start is None else np.asarray(start, dtype=float)
+    numbers = (m, c, k1, k0, x0, amplitude, omega, phase)
+    if not np.isfinite([*numbers, *begin]).all() or m <= 0.0 or omega <= 0.0 or min(c, k1, k0, x0) < 0.0:
+        return None
+    for k in (k1, k1 + k0):
+        near = abs(complex(k / m - omega * omega, c / m * omega)) < _RESONANCE * (k / m + omega * omega)
+        if near and amplitude:
+            return None
+    return ExactBacklash(numbers, begin)
