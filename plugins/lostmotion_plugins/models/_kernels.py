@@ -3,8 +3,8 @@
 From any moment on, the acceleration of a damped linear oscillator under a harmonic force is bounded: with the energy
 E = g^2 + w^2 h^2 of its free part (position h, velocity g), which never grows, by
 M = sqrt(4 a^2 + w^2) sqrt(E) + B omega^2. So the motion cannot reach a boundary at distance d, approached at rate r,
-before d = r t + M t^2 / 2: it may leap so far and look again, and misses nothing. Where r^2 >= 2 M d it must cross, once
-and with a velocity that keeps its sign; that crossing is found by roots of local parabolas in a bracket.
+before d = r t + M t^2 / 2: it may leap so far and look again, and misses nothing. Where r^2 >= 2 M d it must cross,
+once and with a velocity that keeps its sign; that crossing is found by roots of local parabolas in a bracket.
 """
 
 from __future__ import annotations
