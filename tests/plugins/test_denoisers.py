@@ -172,7 +172,7 @@ def test_simple_scheme_agrees_with_a_published_program(reference, key, level, le
 @pytest.mark.real
 @pytest.mark.parametrize(("key", "level", "left"), KEYS)
 def test_projection_agrees_with_a_published_program(reference, key, level, left):
-    """TISEAN 3.0.1 `ghkss`, m = 7, q = 3, k = 30, once: the noise that is left, within 2 %; and the default leaves less.
+    """TISEAN 3.0.1 `ghkss`, m = 7, q = 3, k = 30, once: the noise left, within 2 %; and the default leaves less.
 
     Neighbourhoods begin at a thousandth of the range there, and all their members count.
     """

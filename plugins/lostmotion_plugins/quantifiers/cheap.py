@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
+from scipy.special import digamma
 from scipy.stats import t as student
 
 from lostmotion.contracts import Array, Quantifier, Series
@@ -23,13 +24,13 @@ BLOCKS = (6, 60)
 class MutualInformation(Quantifier[Series]):
     """Average mutual information (nats) of x(t) and x(t + lag), lag that of the embedding. Fraser, Swinney (1986).
 
-    Histogram of `bins` equal bins a side (0: as many as the length allows, 64 at most), with the bias of its finite
-    counts taken off (Miller 1955); `details["plain"]` is the number before that.
+    Histogram of `bins` equal bins a side (0: as many as the length allows, 64 at most), with entropies whose bias at
+    small counts is next to none (Grassberger 2003); `details["plain"]` is the number without that care.
     """
 
     bins: int = 0
     name: ClassVar[str] = "mutual_information"
-    paper: ClassVar[str] = "Fraser, Swinney, Physical Review A 33 (1986) 1134-1140; Miller (1955) for the bias"
+    paper: ClassVar[str] = "Fraser, Swinney, Physical Review A 33 (1986) 1134-1140; Grassberger, arXiv:physics/0307138"
     unit: ClassVar[str] = "nat"
 
     def estimate(self, data: Series, *, rng: np.random.Generator) -> Estimate:
@@ -44,8 +45,7 @@ class MutualInformation(Quantifier[Series]):
         with np.errstate(divide="ignore", invalid="ignore"):
             local = np.log(counts * float(pairs) / np.outer(rows, columns))
         plain = float((counts * np.where(counts > 0, local, 0.0)).sum()) / pairs
-        excess = np.count_nonzero(counts) - np.count_nonzero(rows) - np.count_nonzero(columns) + 1
-        value = plain - excess / (2.0 * pairs)
+        value = _entropy(rows) + _entropy(columns) - _entropy(counts.ravel())
         return _with_interval(value, local.ravel()[cells] - plain, data, rng, self.unit, plain=plain, bins=bins)
 
 
@@ -117,6 +117,14 @@ def _binned(x: Array, bins: int) -> Array:
     low, high = float(x.min()), float(x.max())
     scale = bins / (high - low) if high > low else 0.0
     return np.minimum(((x - low) * scale).astype(np.int64), bins - 1)
+
+
+def _entropy(counts: Array) -> float:
+    """Return the entropy (nats) of the distribution that `counts` (k,) were drawn from: Grassberger (2003), eq. (35)."""
+    n = counts[counts > 0].astype(np.float64)
+    sign = np.where(n % 2 == 0, 0.5, -0.5)
+    logs = digamma(n) + sign * (digamma((n + 1.0) / 2.0) - digamma(n / 2.0))
+    return float(np.log(n.sum()) - (n * logs).sum() / n.sum())
 
 
 def _with_interval(
