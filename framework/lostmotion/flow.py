@@ -88,10 +88,9 @@ def _exact(system: System, values: Mapping[str, float], beat: Harmonic, start: A
     """Return the flow that the model knows in closed form, if it does; a term is more than the model knows."""
     if system.terms:
         return None
-    named = {system.slot(name).key: value for name, value in values.items()}
-    full = dict(zip((slot.key for slot in system.slots), system.vector(named).tolist(), strict=True))
     offer = getattr(system.model, "exact", None)
-    found = offer(full, (beat.amplitude, beat.omega, beat.phase), start) if offer else None
+    full = dict(zip((slot.key for slot in system.slots), _full(system, values).tolist(), strict=True))
+    found = offer(full, (beat.amplitude, beat.omega, beat.phase), _begun(system, start)) if offer else None
     return cast("Flow | None", found)
 
 
@@ -105,17 +104,34 @@ def stepped(
 ) -> Stepped:
     """Return the flow by RK4, with arguments as in `flow_of`."""
     beat, period = _beat(drive)
-    full = system.vector(values)
-    if not np.isfinite(full).all():
-        bad = system.slots[int(np.flatnonzero(~np.isfinite(full))[0])].key
-        raise ContractError(f"the parameter {bad} is {full[system.index[bad]]:g}: wanted a finite number")
-    n = system.states(system.everything)
-    begin = np.zeros(n)
-    if start is not None:
-        begin[: len(start)] = np.asarray(start, dtype=float)
-    if not np.isfinite(begin).all():
-        raise ContractError(f"the start is {begin}: wanted finite numbers")
-    return Stepped(system, full, beat, period, begin, steps or FEWEST, np.full(n, 1e100))._measured(bool(steps))
+    full, begin = _full(system, values), _begun(system, start)
+    raw = Stepped(system, full, beat, period, begin, steps or FEWEST, np.full(len(begin), 1e100))
+    return raw._measured(bool(steps))
+
+
+def _full(system: System, values: Mapping[str, float]) -> Array:
+    """Return the parameter vector, or raise a `ContractError` that names what is not given or out of its bounds."""
+    given = {system.slot(name).key: float(value) for name, value in values.items()}
+    inertias = {place.inertia for place in system.model.interfaces}
+    for slot in system.slots:
+        q, value = slot.param, given.get(slot.key)
+        if value is None:
+            if slot.term is not None or q.scale == "log" or q.low > 0.0:
+                raise ContractError(f"{system.model.name} lacks {slot.key} ({q.meaning}, {slot.unit}): give it a value")
+        elif not (math.isfinite(value) and q.low <= value <= q.high and (value > 0.0 or slot.key not in inertias)):
+            wanted = "a number above 0" if slot.key in inertias else f"a finite number from {q.low:g} to {q.high:g}"
+            raise ContractError(f"{slot.key} ({q.meaning}) is {value:g}: wanted {wanted} {slot.unit}")
+    return system.vector(given)
+
+
+def _begun(system: System, start: Array | None) -> Array:
+    """Return the state to start from, zero where nothing is told."""
+    begin = np.zeros(system.states(system.everything))
+    told = np.zeros(0) if start is None else np.asarray(start, dtype=float)
+    if told.ndim != 1 or len(told) > len(begin) or not np.isfinite(told).all():
+        raise ContractError(f"the start is {told}: wanted up to {len(begin)} finite numbers")
+    begin[: len(told)] = told
+    return begin
 
 
 def _beat(drive: Harmonic | tuple[float, float] | float) -> tuple[Harmonic | None, float]:
@@ -151,7 +167,7 @@ class Stepped:
     @property
     def driven(self) -> bool:
         """Whether the phase of a drive is one more direction of the flow, with the exponent zero."""
-        return self.beat is not None
+        return self.beat is not None and self.beat.amplitude != 0.0
 
     def march(self, start: Array, *, periods: int, tangents: int) -> Orbit:
         """Return the orbit from `start` (n,) at drive phase 0, with `tangents` tangent vectors kept orthogonal."""

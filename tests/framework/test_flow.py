@@ -96,8 +96,15 @@ def test_rest_and_nonsense_are_answered():
     for wrong in (-1.0, 0.0, math.inf, (1.0, 0.0)):
         with pytest.raises(ContractError, match="above zero"):
             flow_of(LinearOscillator(), SOFT, drive=wrong)
-    with pytest.raises(ContractError, match="finite"):
-        flow_of(LinearOscillator(), {**SOFT, "c": math.nan}, drive=2.0)
+    for bad in (math.nan, -1.0):
+        with pytest.raises(ContractError, match=r"c \(viscous friction\) is .*: wanted a finite number from 0 to inf"):
+            flow_of(LinearOscillator(), {**SOFT, "c": bad}, drive=2.0)
+    with pytest.raises(ContractError, match=r"m .* above 0 kg"):
+        flow_of(LinearOscillator(), {**SOFT, "m": 0.0}, drive=2.0)
+    with pytest.raises(ContractError, match=r"lacks k \(stiffness, N/m\)"):
+        flow_of(LinearOscillator(), {"m": 1.0, "c": 1.0}, drive=2.0)
+    with pytest.raises(ContractError, match="up to 2 finite numbers"):
+        flow_of(LinearOscillator(), SOFT, drive=2.0, start=np.zeros(3))
     with pytest.raises(ContractError, match="shape"):
         still.march(np.zeros(3), periods=5, tangents=1)
 

@@ -11,7 +11,8 @@ from lostmotion.errors import ContractError
 from lostmotion.flow import Harmonic, Stepped, flow_of, stepped
 from lostmotion.system import System
 from lostmotion_plugins.models import _kernels
-from lostmotion_plugins.models.exact import ExactBacklash, exact_of
+from lostmotion_plugins.models.exact import ExactBacklash, exact_joint, exact_of
+from lostmotion_plugins.models.joint import RobotJoint
 from lostmotion_plugins.models.lin import LinBacklash
 from lostmotion_plugins.quantifiers.flows import KaplanYorke, LyapunovMax, LyapunovSpectrum
 from lostmotion_plugins.terms.viscous import ViscousDamping
@@ -175,10 +176,14 @@ def test_undriven_motion_comes_to_rest_in_the_gap():
 
 
 def test_exponent_of_case_1_to_a_thousandth():
-    """7.27 +- 0.03 1/s in the reference; lambda_2 = -c/m - lambda_1, and 2.476 by Kaplan and Yorke."""
+    """7.27 +- 0.03 1/s in the reference; lambda_2 = -c/m - lambda_1, and 2.476 by Kaplan and Yorke.
+
+    Ten orbits of 200 000 periods gave 7.235 +- 0.004, and the general kernel 7.25 +- 0.01.
+    """
     found = LyapunovMax(periods=400_000).estimate(exact(), rng=RNG)
     assert found.status == "ok", found.says
-    assert found.value == pytest.approx(7.27, abs=4.0 * math.hypot(0.03 / 2.0, found.details["stderr"]))
+    assert found.value == pytest.approx(7.27, abs=2.0 * math.hypot(0.03, found.details["stderr"]))
+    assert found.value == pytest.approx(7.235, abs=4.0 * found.details["stderr"])
     assert found.details["stderr"] < 1.1e-3 * found.value
     spectrum = LyapunovSpectrum(periods=20_000).estimate(exact(), rng=RNG)
     assert spectrum.details["sum"] == pytest.approx(-8.0, rel=1e-12)
@@ -196,6 +201,20 @@ def test_the_general_flow_agrees():
     settled = stepped(System.of(LinBacklash()), CASE_1, drive=drive, start=START).march(START, periods=400, tangents=0)
     followed = exact(drive=drive).march(settled.states[-9], periods=8, tangents=0)
     np.testing.assert_allclose(followed.states, settled.states[-9:], rtol=1e-3)
+
+
+@pytest.mark.parametrize("phase", [0.0, 1.1])
+def test_a_joint_on_a_moving_base_agrees_with_the_general_flow(phase):
+    values = {"m": 1.0, "c": 2.0, "k0": 4e3, "x0": 0.02, "mgl": 0.0}
+    drive, start = (0.05, 9.7, phase), np.array([0.03, 0.2])
+    flow = exact_joint(values, drive, start)
+    general = stepped(System.of(RobotJoint()), values, drive=Harmonic(*drive), start=start, steps=4000)
+    np.testing.assert_allclose(
+        flow.sample(start, periods=2, looks=6), general.sample(start, periods=2, looks=6), atol=1e-4
+    )
+    one, other = (f.march(start, periods=2, tangents=2).growth for f in (flow, general))
+    np.testing.assert_allclose(one.sum(axis=1), other.sum(axis=1), rtol=1e-5)
+    assert exact_joint({**values, "mgl": 3.0}, drive, start) is None
 
 
 def test_what_is_not_exact_goes_to_the_general_flow():

@@ -1,10 +1,10 @@
-"""The oscillator with backlash as a flow that is exact up to rounding: no steps, no crossing missed."""
+"""Oscillators with backlash as flows that are exact up to rounding: no steps, no crossing missed."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -21,11 +21,13 @@ class ExactBacklash:
     """m x'' + c x' + k1 x + F(x) = A cos(omega t + phase) solved in closed form from contact to contact.
 
     Contact times are found to rounding (see `_kernels`). A force that is continuous needs no saltation, so the tangent
-    is the product of the propagators of the pieces: exact as well.
+    is the product of the propagators of the pieces: exact as well. With a `base` motion of this amplitude, of the same
+    frequency and phase, the states are those of base plus x.
     """
 
     numbers: tuple[float, ...]
     start: Array
+    base: float = 0.0
     states: tuple[str, ...] = ("position", "velocity")
 
     @property
@@ -55,10 +57,31 @@ class ExactBacklash:
         if begin.shape != (2,) or not 0 <= tangents <= 2:
             raise ContractError(f"a start of shape {begin.shape} and {tangents} tangents do not fit 2 states")
         states, growth = np.full((periods * looks + 1, 2), np.nan), np.zeros((periods, tangents))
-        done, crossings = march(begin, self.numbers, looks, states, growth)
+        carried = self._carried(np.arange(len(states)) % looks / looks)
+        done, crossings = march(begin - carried[0], self.numbers, looks, states, growth)
+        states += carried
         if done < len(states):
             growth[max(done - 1, 0) // looks :] = np.nan
         return Orbit(states, growth, "ok" if done == len(states) else "failed"), crossings
+
+    def _carried(self, share: Array) -> Array:
+        """Return position and velocity (looks, 2) of the base at these shares of the period."""
+        angle, omega = 2.0 * math.pi * share + self.numbers[7], self.numbers[6]
+        return self.base * np.stack([np.cos(angle), -omega * np.sin(angle)], axis=1)
+
+
+def exact_joint(
+    values: Mapping[str, float], drive: tuple[float, float, float], start: Array | None
+) -> ExactBacklash | None:
+    """Return the exact flow of a joint with backlash under a base motion (amplitude, omega, phase), or None.
+
+    Relative to its base a link without weight is the oscillator with backlash, moved by m * amplitude * omega^2. None
+    where `mgl` is not zero, and where `exact_of` has none.
+    """
+    amplitude, omega, phase = drive
+    pull = (values["m"] * amplitude * omega**2, omega, phase)
+    flow = None if values["mgl"] != 0.0 else exact_of({**values, "k1": 0.0}, pull, start)
+    return flow and replace(flow, base=amplitude)
 
 
 def exact_of(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import ClassVar
 
 import numpy as np
@@ -116,7 +116,7 @@ class KaplanYorke(Quantifier[Flow]):
     def estimate(self, data: Flow, *, rng: np.random.Generator) -> Estimate:
         growth = _followed(data, self.periods, self.transient, len(data.states))
         if growth.refusal:
-            return growth.refusal
+            return replace(growth.refusal, unit="1")
         mean = _mean(growth.rates, growth.period)
         value = _dimension(mean.value, mean.stderr, growth.driven)
         picks = rng.integers(len(mean.blocks), size=(_DRAWS, len(mean.blocks)))
