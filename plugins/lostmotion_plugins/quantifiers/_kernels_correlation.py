@@ -73,3 +73,52 @@ def _tally(joint, count, part):  # type: ignore[no-untyped-def]
         part[3, joint[4 * i + 3]] += 1
     for i in range(4 * quarter, count):
         part[0, joint[i]] += 1
+
+
+@numba.njit(cache=True, nogil=True)
+def sort_cells(grid, lag, n, side, cells):  # type: ignore[no-untyped-def]
+    """Return the points in the order of their cells (n,), and where each cell begins (cells^2 + 1,).
+
+    A cell is `side` grid steps wide in the first two coordinates of a delay vector; there are `cells` along each.
+    """
+    begins = np.zeros(cells * cells + 1, np.int64)
+    for i in range(n):
+        begins[(grid[i] // side) * cells + grid[i + lag] // side + 1] += 1
+    for c in range(cells * cells):
+        begins[c + 1] += begins[c]
+    order = np.empty(n, np.int32)
+    filled = begins.copy()
+    for i in range(n):
+        cell = (grid[i] // side) * cells + grid[i + lag] // side
+        order[filled[cell]] = i
+        filled[cell] += 1
+    return order, begins
+
+
+@numba.njit(cache=True, nogil=True)
+def count_near(grid, lag, span, cells, order, begins, theiler, block, counts):  # type: ignore[no-untyped-def]
+    """Add all pairs closer than the side of a cell, to `counts` (blocks, dims, CODES) by the block of the later point.
+
+    `span` is (first, last, side): first <= i < last. Dimension 1 is left alone: the cells are made of two coordinates.
+    """
+    first, last, side = span
+    dims = counts.shape[1]
+    for i in range(first, last):
+        across, along = grid[i] // side, grid[i + lag] // side
+        for row in range(max(0, across - 1), min(cells, across + 2)):
+            begin = begins[row * cells + max(0, along - 1)]
+            end = begins[row * cells + min(cells - 1, along + 1) + 1]
+            for at in range(begin, end):
+                j = np.int64(order[at])
+                if j - i <= theiler:
+                    continue
+                apart = max(abs(grid[j] - grid[i]), abs(grid[j + lag] - grid[i + lag]))
+                m = 1
+                while apart < side:
+                    step = np.float32(np.int32(apart))
+                    code = np.int32(step.view(np.int32) >> np.int32(20)) - np.int32(1015)
+                    counts[block[j], m, code if code > 0 else 0] += 1
+                    m += 1
+                    if m == dims:
+                        break
+                    apart = max(apart, abs(grid[j + m * lag] - grid[i + m * lag]))

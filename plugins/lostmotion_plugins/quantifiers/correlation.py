@@ -15,6 +15,7 @@ from lostmotion.contracts import Array
 from lostmotion.errors import DataError
 from lostmotion.kernels.threads import spread
 from lostmotion_plugins.quantifiers._kernels_correlation import CODES, count_tile
+from lostmotion_plugins.quantifiers.correlation_boxes import count_boxes, joined, widest
 
 Counts = NDArray[np.int64]
 GRID = 2**30
@@ -34,10 +35,12 @@ def edges() -> Array:
 class Effort:
     """How much is counted: about `pairs` pairs, in `blocks` blocks of the orbit, by `jobs` threads (0: all cores).
 
-    `only` names the dimensions that are counted; None stands for all of them.
+    Where that leaves pairs out, about the `near` closest (in dimension 2) are counted in full all the same. `only`
+    names the dimensions that are counted; None stands for all of them.
     """
 
     pairs: int = 200_000_000
+    near: int = 30_000_000
     blocks: int = 25
     only: tuple[int, ...] | None = None
     jobs: int = 0
@@ -80,6 +83,11 @@ class Sums:
         """The logarithm of the correlation sum (dims, CODES), minus infinity where no pair is so close."""
         with np.errstate(divide="ignore"):
             return np.asarray(np.log(self.total / self.pairs.sum()))
+
+    @property
+    def extent(self) -> float:
+        """The range of the series."""
+        return float(self.radii[30 * EIGHTHS])
 
     def ties(self, dim: int) -> float:
         """Return the share of pairs that agree in all of `dim` coordinates to the last digit."""
@@ -142,5 +150,10 @@ def correlation_sums(x: Array, lag: int, dims: int, *, theiler: int, effort: Eff
             count_tile(grid, lag, (ends[a], ends[a + 1], ends[b], ends[b + 1]), lags, wanted, counts[a, b])
 
     spread(some, len(tiles), jobs=effort.jobs, slices=32)
+    share = float(counts[:, :, int(np.argmax(wanted))].sum() / ((n - theiler - 1) * (n - theiler) / 2))
+    if share < 1.0 and effort.near and dims > 1 and wanted[1]:
+        code = widest(np.cumsum(counts[:, :, 1].sum(axis=(0, 1))), share, effort.near)
+        near = count_boxes(grid, lag, theiler, ends, shape=(blocks, dims), code=code)
+        counts = joined(near * wanted[:, None], counts, code, share)
     pairs = np.asarray(counts[:, :, int(np.argmax(wanted))].sum(axis=-1))
     return Sums(counts, pairs, wide * edges(), lag, theiler)

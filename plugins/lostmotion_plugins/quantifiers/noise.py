@@ -36,11 +36,13 @@ FEW, MANY = 40_000_000, 200_000_000
 """Pairs to look at first, and where they show no noise."""
 
 
-def noise_level(x: Array, embedding: Embedding, *, rng: np.random.Generator | None = None) -> Estimate:
+def noise_level(
+    x: Array, embedding: Embedding, *, rng: np.random.Generator | None = None, thorough: bool = True
+) -> Estimate:
     """Return the standard deviation of white noise in `x` (n,), as a share of that of `x`.
 
     Only the Theiler window of `embedding` is used. Where no noise is seen the value is 0, and `high` is the most that
-    could hide.
+    could hide; `thorough` then looks at more pairs, so that this is less.
     """
     rng = np.random.default_rng(0) if rng is None else rng
     need = max(LEAST, 3 * embedding.theiler)
@@ -53,12 +55,12 @@ def noise_level(x: Array, embedding: Embedding, *, rng: np.random.Generator | No
     step = quantisation(x)
     dithered = x + step * (rng.random(len(x)) - 0.5) if step > 0.0 else x
     found = _looked(dithered, embedding.theiler, step, rng, FEW)
-    return found if found.value > 0.0 else _looked(dithered, embedding.theiler, step, rng, MANY)
+    return found if found.value > 0.0 or not thorough else _looked(dithered, embedding.theiler, step, rng, MANY)
 
 
 def _looked(x: Array, theiler: int, step: float, rng: np.random.Generator, pairs: int) -> Estimate:
     """Return the noise level from about so many pairs; `step` is that of the sensor, made even by a dither."""
-    sums = correlation_sums(x, 1, HIGH, theiler=theiler, effort=Effort(pairs=pairs, only=(LOW, MIDDLE, HIGH)))
+    sums = correlation_sums(x, 1, HIGH, theiler=theiler, effort=Effort(pairs=pairs, near=0, only=(LOW, MIDDLE, HIGH)))
     sd = float(np.std(x))
     radii, floor = sums.radii / sd, step / sd
     value, most = _read(sums.total, radii, floor)
