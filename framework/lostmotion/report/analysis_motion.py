@@ -30,6 +30,7 @@ CYCLES = 12
 LAGS_SHOWN = 80
 SAMPLES = 6000
 ORBIT = 8000
+PIECE = 2500
 BINS = 1200
 HARMONICS = 12
 
@@ -105,12 +106,12 @@ def _draw_course(axes: Axes, evidence: Evidence, name: str, colour: str) -> None
     axes.grid(visible=False, axis="x")
 
 
-def draw_portrait(axes: Axes, evidence: Evidence, what: tuple[str, str], shown: Scale) -> None:
+def draw_portrait(axes: Axes, evidence: Evidence, what: tuple[str, str], shown: Scale, *, most: int = ORBIT) -> None:
     """Draw a series against itself one delay later, from the middle of the recording."""
     key, colour = what
     values, lag = evidence.arrays[key], lag_of(evidence)
-    first = max(0, (values.size - lag - ORBIT) // 2)
-    x, y = values[: values.size - lag][first : first + ORBIT], values[lag:][first : first + ORBIT]
+    first = max(0, (values.size - lag - most) // 2)
+    x, y = values[: values.size - lag][first : first + most], values[lag:][first : first + most]
     axes.plot(shown.factor * x, shown.factor * y, color=colour, linewidth=0.4)
     across, up = delayed(evidence, shown)
     axes.set_xlabel(across)
@@ -127,7 +128,7 @@ def portraits(evidence: Evidence) -> Figure | None:
     shown = scale(evidence)
     panels = figure.subplots(1, 2, sharex=True, sharey=True)
     for axes, (key, words, colour) in zip(panels, both, strict=True):
-        draw_portrait(axes, evidence, (key, colour), shown)
+        draw_portrait(axes, evidence, (key, colour), shown, most=PIECE)
         axes.set_title(words, color=colour)
     panels[1].set_ylabel("")
     return figure
@@ -182,13 +183,13 @@ def spectra_caption(evidence: Evidence) -> str:
 
 
 def _outline(frequency: Array, density: Array) -> tuple[Array, Array]:
-    """Return the lowest and the highest density of each group of bins, so that no line is lost in a small picture."""
+    """Return the median and the highest density of each group of bins, so that no line is lost in a small picture."""
     size = max(1, math.ceil(len(density) / BINS))
     if size == 1:
         return frequency, density
     rows = len(density) // size
     groups = density[: rows * size].reshape(rows, size)
-    ends = np.stack([groups.min(axis=1), groups.max(axis=1)], axis=1).ravel()
+    ends = np.stack([np.median(groups, axis=1), groups.max(axis=1)], axis=1).ravel()
     return np.repeat(frequency[: rows * size : size], 2), ends
 
 
@@ -241,7 +242,7 @@ def draw_section(axes: Axes, evidence: Evidence, what: tuple[str, str], shown: S
     """Draw the points (hits, 2) of one section."""
     key, colour = what
     points = thinned(shown.factor * evidence.arrays[key].reshape(-1, 2), ORBIT)
-    size = float(np.clip(60.0 / math.sqrt(max(1, len(points))), 1.2, 5.0))
+    size = float(np.clip(60.0 / math.sqrt(max(1, len(points))), 1.8, 5.0))
     axes.plot(points[:, 0], points[:, 1], ".", color=colour, markersize=size, markeredgewidth=0)
     across, up = delayed(evidence, shown) if math.isfinite(period_of(evidence)) else _later(evidence, shown)
     axes.set_xlabel(across)

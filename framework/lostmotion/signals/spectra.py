@@ -15,6 +15,8 @@ Array = NDArray[np.float64]
 SEGMENTS = 16
 """Pieces of the series whose phases are compared: a line goes on from one to the next, a hump of noise does not."""
 FALSE_ALARM = 1e-3
+CHANCE_MEMORY = 0.3
+"""Correlation of successive amplitudes that 16 independent ones may show by chance."""
 CANDIDATES = 8
 FEWEST_CYCLES = 3.0
 STEPS = 12
@@ -64,6 +66,7 @@ def fundamental(x: Array, dt: float) -> Line | None:
 
     A peak is a line if its complex amplitudes in 16 successive pieces agree better than those of noise would at the
     best of all frequencies in one series of a thousand. The line of a subharmonic or harmonic may be the strongest.
+    A resonance so narrow that the series holds fewer than ten of its coherence times passes for a line now and then.
     """
     centred = x - x.mean()
     power = float(centred @ centred)
@@ -149,8 +152,8 @@ def _judged(x: Array, dt: float, frequency: float) -> Line | None:
     if squares == 0.0:
         return None
     coherence = float(np.abs(pieces.sum()) ** 2 / (SEGMENTS * squares))
-    # The agreement of independent Gaussian amplitudes has the distribution Beta(1, segments - 1).
-    chance = min(1.0, 0.5 * len(x) * max(0.0, 1.0 - coherence) ** (SEGMENTS - 1))
+    # The agreement of independent Gaussian amplitudes has the distribution Beta(1, number - 1).
+    chance = min(1.0, 0.5 * len(x) * max(0.0, 1.0 - coherence) ** (_independent(pieces) - 1.0))
     if chance > FALSE_ALARM:
         return None
     part = _fitted(x, frequency * dt, 1)
@@ -165,6 +168,16 @@ def _amplitudes(x: Array, turns: float) -> NDArray[np.complex128]:
     wave = np.exp(-2j * np.pi * turns * np.arange(length * SEGMENTS)).reshape(SEGMENTS, length)
     taper = signal.windows.hann(length, sym=False) if turns * length > 3.0 else np.ones(length)
     return np.asarray((pieces * wave) @ taper / taper.sum())
+
+
+def _independent(pieces: NDArray[np.complex128]) -> float:
+    """Return how many of the amplitudes count: those of a narrow resonance wander slowly, and are worth fewer."""
+    left = pieces - pieces.mean()
+    power = float(np.sum(np.abs(left) ** 2))
+    memory = float(np.real(np.vdot(left[:-1], left[1:]))) / power if power > 0.0 else 0.0
+    if memory < CHANCE_MEMORY:
+        return float(SEGMENTS)
+    return max(3.0, SEGMENTS * (1.0 - memory) / (1.0 + memory))
 
 
 def _phase_error(pieces: NDArray[np.complex128], duration: float) -> float:
