@@ -68,12 +68,9 @@ class Picky(Quantifier[Series]):
         return Estimate(value, value, value, "ok")
 
 
-def test(statistic, surrogate=None, seed=0, **options):
+def ranked(statistic, surrogate=None, seed=0, **options):
     options = {"draws": 99, "sided": "two", **options}
     return surrogate_test(DATA, surrogate or Numbered(), statistic, rng=np.random.default_rng(seed), **options)
-
-
-test.__test__ = False
 
 
 def statistic_of(original):
@@ -88,32 +85,32 @@ def statistic_of(original):
 def test_ranks(original, low, high):
     """p = (1 + k) / (1 + n) on either side: never zero, and a tie counts against rejection on both."""
     for sided, p in (("low", low), ("high", high), ("two", min(1.0, 2 * min(low, high)))):
-        found = test(statistic_of(original), sided=sided)
+        found = ranked(statistic_of(original), sided=sided)
         assert (found.p_low, found.p_high) == pytest.approx((low, high))
         assert found.p == pytest.approx(p)
         assert found.rejects() == (p <= 0.05)
 
 
 def test_all_ties_are_no_rejection():
-    found = test(lambda x: 1.0)
+    found = ranked(lambda x: 1.0)
     assert (found.p_low, found.p_high, found.p) == (1.0, 1.0, 1.0)
 
 
 def test_two_sided_never_exceeds_one():
     """Another library doubles a tail and says 1.2."""
-    assert test(statistic_of(49.0)).p == 1.0
+    assert ranked(statistic_of(49.0)).p == 1.0
 
 
 def test_sentence_says_what_was_found():
-    found = test(statistic_of(-1.0), sided="low")
+    found = ranked(statistic_of(-1.0), sided="low")
     assert found.says.startswith("Of 99 numbered surrogates none has a ")
     assert "as low as the recording's (p = 0.01)" in found.says
     assert found.says.endswith("that it is nothing is rejected at 5 %.")
-    one, more = test(statistic_of(0.0), sided="low"), test(statistic_of(6.0), sided="low")
+    one, more = ranked(statistic_of(0.0), sided="low"), ranked(statistic_of(6.0), sided="low")
     assert "1 has" in one.says
     assert "7 have" in more.says
     assert "is not rejected" in more.says
-    assert "two-sided" in test(statistic_of(-1.0)).says
+    assert "two-sided" in ranked(statistic_of(-1.0)).says
 
 
 def test_the_recording_is_cut_as_the_surrogates_are():
@@ -127,8 +124,8 @@ def test_the_recording_is_cut_as_the_surrogates_are():
 @pytest.mark.parametrize("jobs", [1, 2, 5])
 def test_outcome_does_not_depend_on_workers(jobs):
     """Neither does it on how many draws there are: the first ones stay."""
-    reference = test(Noisy(), Shuffle(), jobs=1)
-    found = test(Noisy(), Shuffle(), jobs=jobs)
+    reference = ranked(Noisy(), Shuffle(), jobs=1)
+    found = ranked(Noisy(), Shuffle(), jobs=jobs)
     assert np.array_equal(found.values, reference.values)
     assert found.original == reference.original
     assert len(np.unique(found.values)) == 99
@@ -144,13 +141,13 @@ def test_workers_are_used():
         names.add(threading.current_thread().name)
         return float(x[0])
 
-    test(statistic, jobs=2)
+    ranked(statistic, jobs=2)
     assert len(names) >= 2
 
 
 def test_refusals_count_against_rejection_and_are_said():
     """49 of 99 surrogates are refused, all others are higher: the recording may be one of 50, not of 100."""
-    found = test(Picky(), sided="low")
+    found = ranked(Picky(), sided="low")
     assert found.refused == 49
     assert np.isnan(found.values).sum() == 49
     assert found.p == pytest.approx(0.5 + 0.01 * (found.values <= found.original).sum())
@@ -158,7 +155,7 @@ def test_refusals_count_against_rejection_and_are_said():
 
 
 def test_refused_for_the_recording():
-    found = test(Picky(everything=True))
+    found = ranked(Picky(everything=True))
     assert np.isnan(found.p)
     assert not found.rejects()
     assert found.says == "No test: the picky number of the recording was refused (The number keeps rising)."
@@ -167,12 +164,12 @@ def test_refused_for_the_recording():
 @pytest.mark.parametrize(("sided", "draws"), [("two", 38), ("low", 18), ("high", 0)])
 def test_too_few_draws_are_refused(sided, draws):
     with pytest.raises(DataError, match="cannot reject at 5 %"):
-        test(np.mean, sided=sided, draws=draws)
+        ranked(np.mean, sided=sided, draws=draws)
 
 
 def test_unknown_side():
     with pytest.raises(DataError, match="say two, low"):
-        test(np.mean, sided="left")
+        ranked(np.mean, sided="left")
 
 
 @pytest.mark.parametrize("bad", [np.zeros((3, 400)), np.zeros((99, 500)), np.full((99, 400), np.nan), np.zeros(99)])
@@ -182,7 +179,7 @@ def test_bad_surrogates_are_named(bad):
             return bad
 
     with pytest.raises(ContractError, match="shuffle returned an array"):
-        test(np.mean, Bad())
+        ranked(np.mean, Bad())
 
 
 def test_a_piece_that_does_not_fit_is_named():
@@ -191,7 +188,7 @@ def test_a_piece_that_does_not_fit_is_named():
             return slice(0, 10)
 
     with pytest.raises(ContractError, match="drew 250 samples"):
-        test(np.mean, Bad())
+        ranked(np.mean, Bad())
 
 
 def test_p_is_uniform_under_the_null():

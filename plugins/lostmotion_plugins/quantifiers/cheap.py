@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.special import digamma
 from scipy.stats import t as student
 
@@ -119,8 +120,8 @@ def _binned(x: Array, bins: int) -> Array:
     return np.minimum(((x - low) * scale).astype(np.int64), bins - 1)
 
 
-def _entropy(counts: Array) -> float:
-    """Return the entropy (nats) of the distribution that `counts` (k,) were drawn from: Grassberger (2003), eq. (35)."""
+def _entropy(counts: NDArray[Any]) -> float:
+    """Return the entropy (nats) of what `counts` (k,) were drawn from: Grassberger (2003), eq. (35)."""
     n = counts[counts > 0].astype(np.float64)
     sign = np.where(n % 2 == 0, 0.5, -0.5)
     logs = digamma(n) + sign * (digamma((n + 1.0) / 2.0) - digamma(n / 2.0))
