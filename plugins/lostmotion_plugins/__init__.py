@@ -62,6 +62,7 @@ def lostmotion_quantifiers() -> dict[str, str]:
         "lyapunov_wolf": f"{at}.wolf:Wolf",
         "mutual_information": f"{at}.cheap:MutualInformation",
         "noise_level": f"{at}.noise:NoiseLevel",
+        "prediction_error": f"{at}.cheap:PredictionError",
         "time_reversal": f"{at}.cheap:TimeReversal",
     }
 

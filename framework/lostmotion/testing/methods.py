@@ -20,12 +20,14 @@ _N, _DT = 1200, 0.05
 def _beating() -> Array:
     """Return a motion of two frequencies with a little noise: what most recordings look like."""
     t = _DT * np.arange(_N)
-    return np.sin(2.1 * t) + 0.4 * np.sin(5.3 * t + 1.0) + 0.02 * np.random.default_rng(1).normal(size=_N)
+    wave: Array = np.sin(2.1 * t) + 0.4 * np.sin(5.3 * t + 1.0)
+    return wave + 0.02 * np.random.default_rng(1).normal(size=_N)
 
 
 def _repeating() -> Array:
     """Return a motion that an encoder of 64 steps saw coming back to the same numbers in each period."""
-    return np.round(32 * np.sin(2 * np.pi * np.arange(_N) / 24)) / 32
+    wave: Array = np.round(32 * np.sin(2 * np.pi * np.arange(_N) / 24)) / 32
+    return wave
 
 
 def _noise() -> Array:
@@ -93,11 +95,16 @@ def answers_every_series(component: Any) -> str:
 def same_seed_same_answer(component: Any) -> str:
     """Draw from the generator that is handed in, and from nothing else: the same seed must give the same answer."""
     series = _series(_beating())
-    state = np.random.get_state()[1].copy()  # noqa: NPY002 - it is watched, not used
+    state = _global_state()
     first, second = _answer(component, series), _answer(component, series)
-    if not np.array_equal(state, np.random.get_state()[1]):  # noqa: NPY002
+    if not np.array_equal(state, _global_state()):
         return "it draws from NumPy's global generator"
     return "" if np.array_equal(first, second, equal_nan=True) else "the same seed gave two answers"
+
+
+def _global_state() -> Any:
+    """Return the state of NumPy's global generator: it is watched, not used."""
+    return np.random.get_state(legacy=True)[1].copy()  # type: ignore[index]  # noqa: NPY002
 
 
 @rule(*METHODS)

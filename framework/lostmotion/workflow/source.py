@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from lostmotion.case import load_case
 from lostmotion.errors import CaseError, DataError, nearest
 from lostmotion.provenance import digest
-from lostmotion.recording import Recording, load_recording, read_columns
+from lostmotion.recording import load_recording, read_columns
 from lostmotion.recording.timing import check_time
 
 Array = NDArray[np.float64]
@@ -58,8 +58,8 @@ def _of_case(path: Path, wanted: Wanted) -> Source:
     notes = list(recording.notes)
     if len(names) > 1 and wanted.column is None:
         notes.append(f"The first of {len(names)} recordings is analysed: name another one with --column.")
-    keep = _whole_stretch(recording, notes)
     response = recording.data["response"]
+    keep = _whole_stretch(np.asarray(response), notes)
     return Source(
         title=case.title,
         x=np.asarray(response)[keep],
@@ -72,15 +72,18 @@ def _of_case(path: Path, wanted: Wanted) -> Source:
     )
 
 
-def _whole_stretch(recording: Recording, notes: list[str]) -> slice:
+def _whole_stretch(x: Array, notes: list[str]) -> slice:
     """Return the longest stretch without a lost sample; a note says what was left aside."""
-    lost = np.isnan(np.asarray(recording.data["response"]))
+    lost = ~np.isfinite(x)
     if not lost.any():
         return slice(None)
     edges = np.concatenate([[-1], np.flatnonzero(lost), [len(lost)]])
     longest = int(np.argmax(np.diff(edges)))
     keep = slice(int(edges[longest]) + 1, int(edges[longest + 1]))
-    notes.append(f"Samples were lost: the longest stretch without a gap is analysed, {keep.stop - keep.start} samples.")
+    notes.append(
+        f"{int(lost.sum())} samples were lost: the longest stretch without a gap is analysed, "
+        f"{keep.stop - keep.start} of {len(x)} samples."
+    )
     return keep
 
 
@@ -89,11 +92,17 @@ def _of_file(path: Path, wanted: Wanted) -> Source:
     clock = next((name for name in TIMES if name in columns), None)
     name = _column(columns, wanted.column, clock, path.name)
     x = columns[name]
-    dt, notes = _clocked(columns, clock, wanted, len(x), path.name)
-    if np.isnan(x).all():
-        raise DataError(f"{path.name}: the column {name!r} holds no number: name another one with --column")
+    dt, told = _clocked(columns, clock, wanted, len(x), path.name)
+    notes = list(told)
     return Source(
-        title=path.stem, x=x, dt=dt, unit="", label=name, excitation=None, inputs={path.name: digest(path)}, notes=notes
+        title=path.stem,
+        x=x[_whole_stretch(x, notes)],
+        dt=dt,
+        unit="",
+        label=name,
+        excitation=None,
+        inputs={path.name: digest(path)},
+        notes=tuple(notes),
     )
 
 

@@ -1,0 +1,80 @@
+"""`lostmotion analyse`: what kind of motion a recording shows, and how sure that is."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from lostmotion.cli._lazy import PluginName, examples, registry_of
+from lostmotion.cli._progress import progress
+
+RATES = ("1/s", "bit/s", "1/period", "bit/period")
+
+
+@click.command(
+    epilog=examples(
+        "lostmotion analyse recording.csv --column position --out result",
+        "lostmotion analyse case.toml --out result",
+        "lostmotion analyse case.toml --out result --unit bit/s --surrogate iaaft --draws 199",
+        "lostmotion plugins     the embedders, quantifiers, surrogates and denoisers there are",
+    )
+)
+@click.argument("recording", metavar="CASE.toml|RECORDING", type=click.Path(path_type=Path))
+@click.option(
+    "--out",
+    required=True,
+    metavar="DIR",
+    type=click.Path(file_okay=False, path_type=Path),
+    help="Where the results go.",
+)
+@click.option("--column", help="Which column of the recording, or which recording of the case.")
+@click.option("--rate", type=float, metavar="HZ", help="The sampling rate, where there is no column 'time'.")
+@click.option("--period", type=float, metavar="S", help="The period of the drive, where it was not recorded.")
+@click.option("--embedder", type=PluginName("embedder"), default="ami_cao", show_default=True)
+@click.option(
+    "--denoiser",
+    type=PluginName("denoiser"),
+    help="How noise is taken off; 'none' leaves it. If not given, what suits the noise.",
+)
+@click.option("--quantifier", "quantifiers", type=PluginName("quantifier"), multiple=True, help="A further measure.")
+@click.option("--surrogate", "surrogates", type=PluginName("surrogate"), multiple=True, help="A null to be tested.")
+@click.option("--draws", default=99, show_default=True, type=click.IntRange(19, 9999), help="Surrogates for each test.")
+@click.option("--unit", default="1/s", show_default=True, type=click.Choice(RATES), help="Unit of the exponents.")
+@click.option("--seed", default=0, show_default=True, type=click.IntRange(0), help="The same seed, the same bytes.")
+@click.option("--jobs", default=2, show_default=True, type=click.IntRange(1), help="How many cores to use.")
+@click.option("--quiet", is_flag=True, help="Show no progress.")
+@click.pass_context
+def command(ctx: click.Context, /, recording: Path, out: Path, quiet: bool, **asked: object) -> None:
+    """Tell whether a recorded motion is periodic, chaotic, or noise that looks like it, and how sure that is.
+
+    Delay, dimension, noise reduction, largest exponent, correlation dimension and surrogate tests, in this order.
+    Writes analysis.json, analysis.nc and report.html into DIR. Exit status 0 when the chain ran to its end, whatever
+    it says; 2 for a recording that cannot be used.
+    """
+    from lostmotion.workflow.analyse import Request, run_analysis
+
+    with progress("analyse", quiet=quiet) as say:
+        content = run_analysis(recording, out, registry_of(ctx), Request(**asked), say)  # type: ignore[arg-type]
+    click.echo(f"{content['verdict']}: {content['says']}")
+    for line in (*_numbers(content), *content["notes"]):
+        click.echo(line)
+    click.echo(str(out / "report.html"))
+
+
+def _numbers(content: dict[str, object]) -> list[str]:
+    """Return one line for each number that was measured."""
+    rows = []
+    for key, what in (("lyapunov", "largest exponent"), ("d2", "correlation dimension"), ("k2", "correlation entropy")):
+        entry = content[key]
+        if isinstance(entry, dict):
+            rows.append(f"{what:<22} {_said(entry)}")
+    return rows
+
+
+def _said(entry: dict[str, object]) -> str:
+    value = entry["value"]
+    if value is None:
+        return f"no number: {entry['says']}"
+    unit = "" if entry["unit"] == "1" else f" {entry['unit']}"
+    return f"{value:.3g}{unit}  95 % [{entry['low']:.3g}, {entry['high']:.3g}]  {entry['says']}".rstrip()

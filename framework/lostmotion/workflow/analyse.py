@@ -1,0 +1,223 @@
+"""The chaos laboratory from end to end: a recording in, `analysis.json`, `analysis.nc` and `report.html` out."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import asdict, dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from lostmotion.contracts import Array, Quantifier, Series
+from lostmotion.errors import DataError
+from lostmotion.provenance import provenance
+from lostmotion.rates import exponent_in
+from lostmotion.registry import Registry
+from lostmotion.report.analysis import write_analysis
+from lostmotion.results import Estimate
+from lostmotion.signals import checked
+from lostmotion.stages.denoise import Denoised, denoise
+from lostmotion.stages.embed import embed
+from lostmotion.stages.quantify import quantify
+from lostmotion.stages.surrogates import SurrogateTest, surrogate_test
+from lostmotion.storage import folder_for, save_arrays, save_json
+from lostmotion.workflow.analysis_arrays import arrays_of
+from lostmotion.workflow.analysis_words import statement
+from lostmotion.workflow.motion import Beat, Evidence, Verdict, beat_of, judged
+from lostmotion.workflow.source import Source, Wanted, source_of
+
+Say = Callable[[str], None]
+EXPONENT, DIMENSION, ENTROPY, METER = (
+    "lyapunov_rosenstein",
+    "correlation_dimension",
+    "correlation_entropy",
+    "noise_level",
+)
+CLEANER, STATISTIC = "local_projective", "prediction_error"
+STREAMS = ("denoise", "exponent", "dimension", "entropy", "surrogates", "others", "dimensions")
+QUIET = 0.003
+"""Noise below this share of the standard deviation is left alone: no method here sees it."""
+PICTURED = 9
+
+
+@dataclass(frozen=True)
+class Request:
+    """What is asked for: which channel, which methods, how many surrogates, the unit of exponents, seed and cores."""
+
+    column: str | None = None
+    rate: float | None = None
+    period: float | None = None
+    embedder: str = "ami_cao"
+    denoiser: str | None = None
+    quantifiers: tuple[str, ...] = ()
+    surrogates: tuple[str, ...] = ()
+    draws: int = 99
+    unit: str = "1/s"
+    seed: int = 0
+    jobs: int = 2
+
+    def rng(self, stream: str) -> np.random.Generator:
+        """Return the random stream of one stage: no stage depends on what another one has drawn."""
+        return np.random.default_rng([self.seed, STREAMS.index(stream)])
+
+
+@dataclass(frozen=True, eq=False)
+class Analysis:
+    """Everything that was found out about one recorded channel."""
+
+    source: Source
+    beat: Beat
+    raw: Series
+    denoised: Denoised
+    exponent: Estimate
+    dimension: Estimate
+    entropy: Estimate
+    others: dict[str, Estimate]
+    tests: tuple[SurrogateTest, ...]
+    surrogate_dims: Array | None
+    verdict: Verdict
+    methods: dict[str, str]
+    denoiser: str
+
+    @property
+    def clean(self) -> Series:
+        """The series that was measured: cleaned, and embedded anew."""
+        return self.denoised.series
+
+
+def run_analysis(
+    path: Path, out: Path, registry: Registry, request: Request, say: Say = lambda _step: None
+) -> dict[str, Any]:
+    """Return the content of `analysis.json` after writing it, the arrays and the report into the folder `out`."""
+    say("reading")
+    _require_known(registry, request)
+    source = source_of(path, Wanted(request.column, request.rate))
+    folder = folder_for(out)
+    analysis = analyse(source, registry, request, say)
+    say("report")
+    settings = {k: v for k, v in asdict(request).items() if k not in ("jobs", "seed")}
+    content = {
+        **statement(analysis, request),
+        "provenance": provenance("analyse", settings, request.seed, source.inputs),
+    }
+    variables, coords = arrays_of(analysis)
+    save_arrays(folder / "analysis.nc", variables, coords, {"title": source.title})
+    save_json(folder / "analysis.json", content)
+    write_analysis(folder)
+    return content
+
+
+def analyse(source: Source, registry: Registry, request: Request, say: Say = lambda _step: None) -> Analysis:
+    """Return what the chain finds: delay, dimension, noise, exponent, correlation dimension, surrogate tests."""
+    beat = beat_of(checked(source.x), source, request.period)
+    embedder = registry.make("embedder", request.embedder)
+    say("delay and dimension")
+    raw = embed(source.x, embedder, dt=source.dt, period=beat.driven)
+    say("noise")
+    denoised, denoiser = _cleaned(raw, registry, request)
+    if denoised.series is not raw:
+        again = embed(denoised.series.x, embedder, dt=source.dt, period=beat.driven)
+        denoised = replace(denoised, series=again)
+    measured = _Measured(denoised.series, registry, request, beat, say)
+    exponent, dimension = measured(EXPONENT, "exponent"), measured(DIMENSION, "dimension")
+    entropy = measured(ENTROPY, "entropy")
+    others = {name: measured(name, "others") for name in request.quantifiers}
+    tests = _tests(raw, registry, request, say)
+    return Analysis(
+        source=source,
+        beat=beat,
+        raw=raw,
+        denoised=denoised,
+        exponent=exponent,
+        dimension=dimension,
+        entropy=entropy,
+        others=others,
+        tests=tests,
+        surrogate_dims=_surrogate_dims(raw, registry, request, say),
+        verdict=judged(Evidence(beat, raw, denoised, exponent, dimension, tests)),
+        methods={"lyapunov": EXPONENT.removeprefix("lyapunov_")},
+        denoiser=denoiser,
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class _Measured:
+    """Quantifiers by name on one series, exponents in the unit that was asked for."""
+
+    series: Series
+    registry: Registry
+    request: Request
+    beat: Beat
+    say: Say
+
+    def __call__(self, name: str, stream: str) -> Estimate:
+        """Return the estimate of the quantifier `name`."""
+        self.say(name.replace("_", " "))
+        found = quantify(self.series, _reader(self.registry, name), rng=self.request.rng(stream))
+        return _converted(found, self.request, self.beat)
+
+
+def _require_known(registry: Registry, request: Request) -> None:
+    """Refuse a name that is unknown before the work begins."""
+    registry.load("embedder", request.embedder)
+    for name in request.surrogates:
+        registry.load("surrogate", name)
+    for name in request.quantifiers:
+        _reader(registry, name)
+    if request.denoiser not in (None, "none"):
+        registry.load("denoiser", str(request.denoiser))
+
+
+def _reader(registry: Registry, name: str) -> Quantifier[Series]:
+    """Return the quantifier of recordings of this name."""
+    quantifier: Quantifier[Series] = registry.make("quantifier", name)
+    if quantifier.reads != "series":
+        raise DataError(f"{name} measures a model, not a recording: name one that reads a series")
+    return quantifier
+
+
+def _cleaned(raw: Series, registry: Registry, request: Request) -> tuple[Denoised, str]:
+    """Return the series with less noise, and how that was done."""
+    meter, rng = _reader(registry, METER), request.rng("denoise")
+    level = meter.estimate(raw, rng=rng)
+    if request.denoiser == "none" or (request.denoiser is None and not level.value > QUIET):
+        return Denoised(raw, level, level), "none"
+    name = request.denoiser or CLEANER
+    return denoise(raw, registry.make("denoiser", name), meter, rng=rng), name
+
+
+def _converted(estimate: Estimate, request: Request, beat: Beat) -> Estimate:
+    """Return an exponent in the unit that was asked for; any other estimate as it is."""
+    if estimate.unit != "1/s":
+        return estimate
+    if request.unit.endswith("/period") and beat.period is None:
+        raise DataError(f"the unit {request.unit} needs a period, and none was found: give --period, or another unit")
+    return exponent_in(estimate, request.unit, period=beat.period)
+
+
+def _tests(raw: Series, registry: Registry, request: Request, say: Say) -> tuple[SurrogateTest, ...]:
+    """Return the surrogate tests: on the recording as it is, since noise reduction makes any series look ruled."""
+    names = request.surrogates or (("iaaft", "pseudo_periodic") if raw.period else ("iaaft",))
+    statistic = _reader(registry, STATISTIC)
+    tests = []
+    for stream, name in zip(request.rng("surrogates").spawn(len(names)), names, strict=True):
+        say(f"{name} surrogates")
+        surrogate = registry.make("surrogate", name)
+        tests.append(
+            surrogate_test(raw, surrogate, statistic, draws=request.draws, rng=stream, sided="low", jobs=request.jobs)
+        )
+    return tuple(tests)
+
+
+def _surrogate_dims(raw: Series, registry: Registry, request: Request, say: Say) -> Array | None:
+    """Return the dimension of a few surrogates over the embedding dimension (draws, dims), as in Fig. 21."""
+    say("dimension of surrogates")
+    rng = request.rng("dimensions")
+    quantifier = registry.make("quantifier", DIMENSION, fast=True)
+    rows = []
+    for x in registry.make("surrogate", "iaaft").draw(raw, draws=PICTURED, rng=rng):
+        found = quantify(replace(raw, x=x), quantifier, rng=rng)
+        if "dimension_by_dim" in found.curve:
+            rows.append(found.curve["dimension_by_dim"])
+    return np.array(rows) if len({len(r) for r in rows}) == 1 else None

@@ -1,0 +1,137 @@
+"""The arrays behind an analysis, as they are stored and drawn."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from lostmotion.contracts import Array, Series
+from lostmotion.results import Embedding, Estimate
+from lostmotion.signals import spectrum, stroboscopic, without_harmonics
+from lostmotion.storage import Column
+
+if TYPE_CHECKING:
+    from lostmotion.workflow.analyse import Analysis
+
+Table = dict[str, Column]
+UNITS = {"lag": "s", "time": "s", "ami": "nat", "ami_floor": "nat", "slope": "1"}
+"""The units of curves that have one."""
+
+
+def arrays_of(analysis: Analysis) -> tuple[Table, Table]:
+    """Return the variables and the coordinates of `analysis.nc`."""
+    variables = {
+        **_series(analysis),
+        **_spectra(analysis),
+        **_sections(analysis),
+        **_embedding("embedding_", analysis.clean.embedding),
+        **_exponent(analysis.exponent),
+        **_dimension(analysis.dimension),
+        **_tests(analysis),
+    }
+    if analysis.clean is not analysis.raw:
+        variables |= _embedding("embedding_raw_", analysis.raw.embedding)
+    time = np.arange(analysis.raw.n) * analysis.raw.dt
+    return variables, {"time": Column(("time",), time, "s", "time from the start")}
+
+
+def _series(analysis: Analysis) -> Table:
+    source, raw, clean = analysis.source, analysis.raw, analysis.clean
+    table = {"x": Column(("time",), raw.x, source.unit, f"{source.label}, mean taken off")}
+    if clean is not raw:
+        table["cleaned"] = Column(("time",), clean.x, source.unit, f"{source.label}, noise reduced")
+    if source.excitation is not None:
+        table["excitation"] = Column(("time",), source.excitation, "", "measured excitation")
+    return table
+
+
+def _spectra(analysis: Analysis) -> Table:
+    raw, unit = analysis.raw, analysis.source.unit
+    density = f"({unit})^2/Hz" if unit else "1/Hz"
+    frequency, power = spectrum(raw.x, raw.dt)
+    table = {
+        "frequency": Column(("frequency",), frequency, "Hz", "frequency"),
+        "density": Column(("frequency",), power, density, "power spectral density"),
+    }
+    if analysis.beat.period is not None:
+        rest, _ = without_harmonics(raw.x, raw.dt, analysis.beat.period)
+        table["density_rest"] = Column(
+            ("frequency",), spectrum(rest, raw.dt)[1], density, "power spectral density, harmonics taken out"
+        )
+    return table
+
+
+def _sections(analysis: Analysis) -> Table:
+    if analysis.beat.period is None:
+        return {}
+    unit, table = analysis.source.unit, {}
+    pairs = {"section": analysis.raw, "section_cleaned": analysis.clean}
+    for name, series in pairs.items():
+        if name == "section" or series is not analysis.raw:
+            said = "stroboscopic section: value and delayed value"
+            table[name] = Column(("hit", "axis"), _section(series, analysis.beat.period), unit, said)
+    return table
+
+
+def _section(series: Series, period: float) -> Array:
+    """Return the section (hits, 2) of a series at drive phase 0: its value and its delayed value."""
+    delay = series.embedding.lag
+    here = stroboscopic(series.x[: series.n - delay], series.dt, period)[1]
+    there = stroboscopic(series.x[delay:], series.dt, period)[1]
+    return np.stack([here, there], axis=1)
+
+
+def _embedding(prefix: str, chosen: Embedding) -> Table:
+    """Return the curves of an embedding: those over the lag, those over the dimension, those of false neighbours."""
+    axes = {"lag": ("lag", "ami", "ami_floor", "autocorrelation"), "dim": ("dim", "e1", "e2")}
+    axes["dim_fnn"] = ("dim_fnn", "fnn", "fnn_distance", "fnn_loneliness")
+    table = {}
+    for axis, names in axes.items():
+        for name in (n for n in names if n in chosen.curves):
+            table[prefix + name] = Column((prefix + axis,), chosen.curves[name], UNITS.get(name, "1"), name)
+    return table
+
+
+def _exponent(found: Estimate) -> Table:
+    """Return the divergence with its variants and local slopes; the slope in the unit of the estimate."""
+    dims = {"members": ("lyapunov_variant", "lyapunov_time")}
+    table = {}
+    for name in ("time", "divergence", "members", "slope"):
+        if name in found.curve:
+            unit = UNITS.get(name, "1") if name != "slope" else "1/s"
+            table[f"lyapunov_{name}"] = Column(dims.get(name, ("lyapunov_time",)), found.curve[name], unit, name)
+    return table
+
+
+def _dimension(found: Estimate) -> Table:
+    plane, line = ("d2_dim", "d2_radius"), ("d2_dim",)
+    dims: Mapping[str, tuple[str, ...]] = {
+        "radius": ("d2_radius",),
+        "log_correlation": plane,
+        "slope": plane,
+        "dim": line,
+        "dimension_by_dim": line,
+        "low_by_dim": line,
+        "high_by_dim": line,
+    }
+    return {f"d2_{name}": Column(d, found.curve[name], "1", name) for name, d in dims.items() if name in found.curve}
+
+
+def _tests(analysis: Analysis) -> Table:
+    if not analysis.tests:
+        return {}
+    width = max(len(t.values) for t in analysis.tests)
+    values = np.full((len(analysis.tests), width), np.nan)
+    for row, test in zip(values, analysis.tests, strict=True):
+        row[: len(test.values)] = test.values
+    originals = np.array([t.original for t in analysis.tests])
+    table = {
+        "surrogate_values": Column(("test", "draw"), values, "1", "statistic of the surrogates"),
+        "surrogate_original": Column(("test",), originals, "1", "statistic of the recording"),
+    }
+    if analysis.surrogate_dims is not None:
+        said = "dimension of surrogates"
+        table["surrogate_d2_by_dim"] = Column(("d2_draw", "d2_dim"), analysis.surrogate_dims, "1", said)
+    return table

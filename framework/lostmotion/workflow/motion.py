@@ -1,0 +1,185 @@
+"""What kind of motion it is: periodic, quasiperiodic, chaotic or stochastic, weighed from all that was measured."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from lostmotion.contracts import Array, Series
+from lostmotion.results import Estimate
+from lostmotion.signals import fundamental, refined_period, return_spread
+from lostmotion.signals.tones import two_tones
+from lostmotion.stages.denoise import Denoised
+from lostmotion.stages.surrogates import SurrogateTest
+from lostmotion.workflow.source import Source
+
+Motion = Literal["periodic", "quasiperiodic", "chaotic", "stochastic", "undecided"]
+SLACK, FLOOR = 1.4, 0.01
+"""What repeats to within so many times its noise, and a hundredth of its size, is taken to repeat."""
+TONES_FLOOR = 0.02
+SIGNIFICANT = 0.05
+FEWEST_PERIODS = 20
+
+
+@dataclass(frozen=True)
+class Beat:
+    """The period (s) of a motion, where it comes from, and whether it is one that a drive keeps."""
+
+    period: float | None
+    source: Literal["excitation", "given", "spectrum", "none"]
+    notes: tuple[str, ...] = ()
+
+    @property
+    def driven(self) -> float | None:
+        """The period (s) of the drive; a line that keeps its phase in the spectrum is taken for one."""
+        return self.period
+
+
+@dataclass(frozen=True, eq=False)
+class Evidence:
+    """What the verdict is made of."""
+
+    beat: Beat
+    raw: Series
+    denoised: Denoised
+    exponent: Estimate
+    dimension: Estimate
+    tests: tuple[SurrogateTest, ...]
+
+    @property
+    def noise(self) -> float:
+        """The upper end of the noise level, as a share of the standard deviation."""
+        high = self.denoised.before.high
+        return high if math.isfinite(high) else 0.0
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """The kind of motion, one or two sentences, and the observations it rests on."""
+
+    motion: Motion
+    says: str
+    because: tuple[str, ...]
+
+
+def beat_of(x: Array, source: Source, given: float | None) -> Beat:
+    """Return the period of the drive: as given, as measured going in, or as the strongest line of the response."""
+    if given is not None:
+        return Beat(given, "given")
+    if source.excitation is not None:
+        period = refined_period(source.excitation, source.dt)
+        if period is not None and _fits(period, x, source.dt):
+            return Beat(period, "excitation")
+        return Beat(None, "none", ("The excitation is not periodic: nothing is said about periods.",))
+    line = fundamental(x, source.dt)
+    if line is None or not _fits(line.period, x, source.dt):
+        return Beat(None, "none")
+    note = f"The period of {line.period:.6g} s was read from the spectrum: give --period if the drive has another one."
+    return Beat(line.period, "spectrum", (note,))
+
+
+def _fits(period: float, x: Array, dt: float) -> bool:
+    return 2.0 * dt < period < 0.2 * len(x) * dt
+
+
+def judged(evidence: Evidence) -> Verdict:
+    """Return the verdict on a motion; the first that holds of periodic, quasiperiodic, chaotic and stochastic."""
+    return _periodic(evidence) or _quasiperiodic(evidence) or _ruled_or_random(evidence)
+
+
+def _periodic(evidence: Evidence) -> Verdict | None:
+    """Return the verdict if the motion comes back to itself after some periods, to within its noise."""
+    period = evidence.beat.period
+    if period is None:
+        return None
+    raw = evidence.raw
+    spread = return_spread(raw.x, raw.dt, period) / math.sqrt(2.0)
+    limit = SLACK * evidence.noise + FLOOR
+    back = np.flatnonzero(spread <= limit)
+    if not len(back):
+        return None
+    times = int(back[0]) + 1
+    cycle = "each period" if times == 1 else f"every {times} periods"
+    noise = f"{100 * spread[times - 1]:.2g} %"
+    return Verdict(
+        "periodic",
+        f"The motion repeats itself {cycle} of {period:.4g} s; {noise} of it does not repeat, no more than noise.",
+        (f"return after {times} periods: {noise}, noise at most {100 * evidence.noise:.2g} %",),
+    )
+
+
+def _quasiperiodic(evidence: Evidence) -> Verdict | None:
+    """Return the verdict if two frequencies and their combinations explain the motion, to within its noise."""
+    period, raw = evidence.beat.period, evidence.raw
+    if period is None:
+        return None
+    tones = two_tones(raw.x, raw.dt, 1.0 / period)
+    duration = raw.n * raw.dt
+    if tones.left > SLACK * evidence.noise + TONES_FLOOR or tones.second * duration < FEWEST_PERIODS:
+        return None
+    if evidence.exponent.ok and evidence.exponent.low > 0.0:
+        return None
+    return Verdict(
+        "quasiperiodic",
+        f"Two frequencies, {1.0 / period:.4g} Hz and {tones.second:.4g} Hz, and their combinations make up the motion; "
+        f"{100 * tones.left:.2g} % of it is left, no more than noise.",
+        (f"left by two tones: {100 * tones.left:.2g} %, noise at most {100 * evidence.noise:.2g} %",),
+    )
+
+
+def _ruled_or_random(evidence: Evidence) -> Verdict:
+    """Return chaotic, stochastic or undecided, by the tests, the exponent and the dimension together."""
+    exponent, dimension = evidence.exponent, evidence.dimension
+    rejected = [t.p <= SIGNIFICANT for t in evidence.tests]
+    ruled = bool(rejected) and all(rejected)
+    grows = exponent.status in ("ok", "uncertain") and exponent.low > 0.0
+    levels = dimension.status in ("ok", "uncertain")
+    because = (*(t.says for t in evidence.tests), _said("largest exponent", exponent), _said("dimension", dimension))
+    if ruled and grows and (levels or dimension.status == "below_noise"):
+        return Verdict("chaotic", _chaotic_words(evidence), because)
+    if not any(rejected) or (not grows and not levels):
+        return Verdict("stochastic", _stochastic_words(evidence), because)
+    return Verdict("undecided", _undecided_words(ruled, grows, levels), because)
+
+
+def _said(what: str, found: Estimate) -> str:
+    if not math.isfinite(found.value):
+        return f"{what}: {found.says}"
+    unit = "" if found.unit == "1" else f" {found.unit}"
+    return f"{what}: {found.value:.3g}{unit} [{found.low:.3g}, {found.high:.3g}]"
+
+
+def _chaotic_words(evidence: Evidence) -> str:
+    exponent, dimension = evidence.exponent, evidence.dimension
+    p = max(t.p for t in evidence.tests)
+    level = f", its correlation dimension levels off at {dimension.value:.2f}" if math.isfinite(dimension.value) else ""
+    return (
+        f"Neighbouring states part at {exponent.value:.3g} {exponent.unit} [{exponent.low:.3g}, {exponent.high:.3g}]"
+        f"{level}, and noise with the same spectrum and values does not look like it (p = {p:.2g})."
+    )
+
+
+def _stochastic_words(evidence: Evidence) -> str:
+    p = min((t.p for t in evidence.tests), default=1.0)
+    if p > SIGNIFICANT:
+        return f"Noise with the same spectrum and values looks just like it (p = {p:.2g}): nothing speaks for chaos."
+    return (
+        "It is not linear noise, but no separation of near states and no dimension can be found either: "
+        f"{evidence.dimension.says or evidence.exponent.says}"
+    )
+
+
+def _undecided_words(ruled: bool, grows: bool, levels: bool) -> str:
+    signs = {
+        "the surrogate tests": ruled,
+        "the exponent": grows,
+        "the dimension": levels,
+    }
+    pro = " and ".join(name for name, yes in signs.items() if yes)
+    con = " and ".join(name for name, yes in signs.items() if not yes)
+    return (
+        f"The signs disagree: {pro or 'nothing'} for chaos, {con} against it. A longer or cleaner recording would tell."
+    )

@@ -1,0 +1,64 @@
+"""The channel that `analyse` looks at: of a case, or of a bare file."""
+
+import numpy as np
+import pytest
+
+from lostmotion.errors import CaseError, DataError
+from lostmotion.workflow.source import Wanted, source_of
+
+ROWS = 400
+CASE = """
+title = "Two levels"
+[[recordings]]
+file = "low.csv"
+time = "time"
+excitation = { column = "force", quantity = "force", unit = "kN" }
+response = { column = "position", quantity = "position", unit = "mm" }
+[[recordings]]
+file = "high.csv"
+time = "time"
+excitation = { column = "force", quantity = "force", unit = "kN" }
+response = { column = "position", quantity = "position", unit = "mm" }
+[model]
+name = "lin_backlash"
+"""
+
+
+@pytest.fixture
+def folder(tmp_path):
+    t = 0.1 * np.arange(ROWS)
+    for name, level in (("low", 1.0), ("high", 2.0)):
+        table = np.column_stack([t, np.cos(t), level * np.sin(t)])
+        table[7, 2] = np.nan
+        np.savetxt(tmp_path / f"{name}.csv", table, delimiter=",", header="time,force,position", comments="")
+    (tmp_path / "case.toml").write_text(CASE, encoding="utf-8")
+    return tmp_path
+
+
+def test_a_case_gives_its_first_recording_in_si_units_and_says_so(folder):
+    source = source_of(folder / "case.toml", Wanted())
+    assert source.unit == "m"
+    assert np.ptp(source.x) == pytest.approx(2e-3, rel=0.01)
+    assert source.excitation is not None
+    assert any("first of 2 recordings" in note for note in source.notes)
+
+
+def test_another_recording_is_had_by_its_name(folder):
+    source = source_of(folder / "case.toml", Wanted(column="high"))
+    assert np.ptp(source.x) == pytest.approx(4e-3, rel=0.01)
+    with pytest.raises(CaseError, match="did you mean 'high'"):
+        source_of(folder / "case.toml", Wanted(column="hihg"))
+
+
+@pytest.mark.parametrize("name", ["case.toml", "low.csv"])
+def test_the_longest_stretch_without_a_gap_is_taken(folder, name):
+    source = source_of(folder / name, Wanted(column=None if name == "case.toml" else "position"))
+    assert len(source.x) == ROWS - 8
+    assert any(f"{ROWS - 8} of {ROWS} samples" in note for note in source.notes)
+
+
+def test_a_rate_stands_in_for_time(folder):
+    np.savetxt(folder / "bare.csv", np.sin(np.arange(300)), header="angle", comments="")
+    assert source_of(folder / "bare.csv", Wanted(rate=250.0)).dt == pytest.approx(0.004)
+    with pytest.raises(DataError, match="--rate HZ"):
+        source_of(folder / "bare.csv", Wanted())
