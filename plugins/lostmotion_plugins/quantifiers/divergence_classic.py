@@ -1,0 +1,72 @@
+"""The exponent as the paper of 1993 has it: nearest neighbours, whole distances, one straight line."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from lostmotion.contracts import Array, Series
+from lostmotion.kernels.neighbours import nearest
+from lostmotion.kernels.threads import spread
+from lostmotion.results import Estimate
+from lostmotion.signals import delay_vectors
+from lostmotion_plugins.quantifiers._kernels_divergence import COUNT, LOG, follow
+from lostmotion_plugins.quantifiers.divergence import BLOCKS, Indices
+from lostmotion_plugins.quantifiers.exponent import UNIT, refused, short
+
+
+def classical(series: Series, begin: float, end: float) -> Estimate:
+    """Return the slope (1/s) of the mean logarithm of distance between the times `begin` and `end` (s).
+
+    Without an `end`, twenty delay windows are followed and the line is fitted to the first half. The number of pairs
+    is the same at all times.
+    """
+    if no := short(series):
+        return no
+    dt, e = series.dt, series.embedding
+    last = round(end / dt) if end > 0.0 else min(10 * e.window, series.n // 8)
+    steps = min(2 * last, series.n // 4)
+    points = delay_vectors(series.x, e.lag, e.dim)
+    limit = len(points) - steps
+    if last > steps or limit < LEAST_PAIRS:
+        return refused("too_short", f"{series.n} samples do not hold pairs followed for {last} samples")
+    index, _ = nearest(points[:limit], theiler=e.theiler, norm="euclidean")
+    return _fitted(points, index, (round(begin / dt), last, steps), dt)
+
+
+LEAST_PAIRS = 5 * BLOCKS
+
+
+def _fitted(points: Array, index: Indices, span: tuple[int, int, int], dt: float) -> Estimate:
+    first, last, steps = span
+    wanted = np.nonzero(index >= 0)[0]
+    sums = np.zeros((BLOCKS, 1, steps, 4))
+    ends = np.linspace(0, len(wanted), BLOCKS + 1).astype(int)
+    pairs = index[wanted][:, None, None]
+
+    def work(a: int, b: int) -> None:
+        for k in range(a, b):
+            part = slice(ends[k], ends[k + 1])
+            follow(points, wanted[part], pairs[part], (False, False, 0.0, 0.0), sums[k])
+
+    spread(work, BLOCKS)
+    total = sums.sum(axis=0)
+    times = np.arange(steps) * dt
+    with np.errstate(invalid="ignore", divide="ignore"):
+        curve = total[0, :, LOG] / total[0, :, COUNT]
+        left = (total[0, :, LOG] - sums[:, 0, :, LOG]) / (total[0, :, COUNT] - sums[:, 0, :, COUNT])
+    kept = {"time": times, "divergence": curve, "slope": np.gradient(curve, dt)}
+    part = slice(first, last + 1)
+    if not np.isfinite(left[:, part]).all():
+        return refused("below_noise", "all neighbours are exact repeats: the motion is periodic", (kept, {}))
+    slope, intercept = np.polyfit(times[part], curve[part], 1)
+    others = np.polyfit(times[part], left[:, part].T, 1)[0]
+    error = float(np.sqrt((BLOCKS - 1) / BLOCKS * ((others - others.mean()) ** 2).sum()))
+    details = {
+        "fit_begin": first * dt,
+        "fit_end": last * dt,
+        "intercept": float(intercept),
+        "pairs": float(len(wanted)),
+    }
+    says = "the classical recipe: its interval is that of the record only, and knows nothing of the bias of the method"
+    value, wide = float(slope), 2.09 * error
+    return Estimate(value, value - wide, value + wide, "uncertain", UNIT, kept, says, details)

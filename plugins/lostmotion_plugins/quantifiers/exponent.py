@@ -1,0 +1,158 @@
+"""The largest Lyapunov exponent of a recording as an estimate: with an interval, or with the reason for none."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from lostmotion.contracts import Array, Series
+from lostmotion.results import Estimate
+from lostmotion_plugins.quantifiers.divergence import (
+    BLOCKS,
+    Pairs,
+    Spread,
+    States,
+    followed,
+    horizon,
+    states,
+    strangers,
+)
+from lostmotion_plugins.quantifiers.divergence_fit import Curves, Growth, curves, growth
+
+Gather = Callable[[States, int, float], Pairs]
+UNIT = "1/s"
+FEWER = 0.5
+"""Share of the references that other embeddings are tried with."""
+LEAST = 500
+"""Fewer points are refused."""
+WINDOWS = 10
+"""Delay windows that must go into a record."""
+PERIODIC = 0.2
+"""If points one drive period apart differ by less than this share of the motion, it may be periodic."""
+NOISY = 0.5
+"""With more pairs than this within the noise nothing can be read."""
+
+
+def refused(status: str, says: str, kept: tuple[Mapping[str, Array], Mapping[str, float]] | None = None) -> Estimate:
+    """Return a refusal with its curve and details."""
+    curve, details = kept or ({}, {})
+    return Estimate.refused(status, says, unit=UNIT, curve=curve, details=details)
+
+
+def short(series: Series) -> Estimate | None:
+    """Return a refusal if the record is too short, else None."""
+    need = max(LEAST, WINDOWS * series.embedding.window, WINDOWS * series.embedding.theiler)
+    if series.n >= need:
+        return None
+    return refused("too_short", f"{series.n} samples are too few to see neighbours part, {need} are wanted")
+
+
+def exponent(series: Series, gather: Gather, *, before: bool = False) -> Estimate:
+    """Return the exponent (1/s) from the pairs that `gather(states, steps, share of the references)` finds."""
+    if no := short(series):
+        return no
+    made = states(series)
+    away = strangers(made)
+    steps = horizon(made, away)
+    pairs = gather(made, steps, 1.0)
+    paired = float((pairs.groups[:, 0, 0] >= 0).mean())
+    details = {"pairs": float((pairs.groups >= 0).sum()), "repeats": pairs.repeats, "paired": paired}
+    if paired < 0.5 or (pairs.groups[:, 0, 0] >= 0).sum() < 5 * BLOCKS:
+        return _unpaired(pairs.repeats, paired, details)
+    read = followed(made, pairs, steps, before=before)
+    c = curves(read.sums.sum(axis=0), made, away)
+    found = growth(read, made)
+    if found is None:
+        return _flat(made, c, details)
+    rates = [_rate(other, gather, steps, before) for other in others(series)]
+    doubt = float(np.std([found.rate, *(r for r in rates if np.isfinite(r))]))
+    return _judged(found, doubt, (made, read, c), details)
+
+
+def others(series: Series) -> tuple[Series, ...]:
+    """Return the series with one more dimension, and with a longer delay: what the embedding might have been."""
+    e = series.embedding
+    higher, longer = replace(e, dim=e.dim + 1), replace(e, lag=round(1.5 * e.lag))
+    return tuple(replace(series, embedding=c) for c in ((higher, longer) if e.lag > 1 else (higher,)))
+
+
+def _rate(series: Series, gather: Gather, steps: int, before: bool) -> float:
+    """Return the exponent (1/s) of a series embedded otherwise, from fewer references; NaN where there is none."""
+    made = states(series)
+    pairs = gather(made, steps, FEWER)
+    if (pairs.groups[:, 0, 0] >= 0).sum() < 5 * BLOCKS:
+        return float("nan")
+    found = growth(followed(made, pairs, steps, before=before), made)
+    return found.rate if found else float("nan")
+
+
+def _unpaired(repeats: float, paired: float, details: Mapping[str, float]) -> Estimate:
+    if repeats > 0.5:
+        says = f"{repeats:.0%} of the points repeat exactly: the motion is periodic to the resolution of the sensor"
+        return refused("below_noise", says, ({}, details))
+    says = f"only {paired:.0%} of the points have a neighbour at another time: record longer, or lower the dimension"
+    return refused("too_few_neighbours", says, ({}, details))
+
+
+def _judged(
+    found: Growth, doubt: float, behind: tuple[States, Spread, Curves], details: Mapping[str, float]
+) -> Estimate:
+    """Return the estimate that the curves allow."""
+    made, read, c = behind
+    begin, end = found.domain.begin, found.domain.ends[0]
+    middle = 0.5 * (made.smooth - 1)
+    details = {
+        **details,
+        "fit_begin": (begin + middle) * made.dt,
+        "fit_end": (end - 1 + middle) * made.dt,
+        "intercept": found.intercept,
+        "e_folds": float(c.log[0, end - 1] - c.log[0, begin]),
+        "record_error": found.record,
+        "window_error": found.windows,
+        "embedding_error": doubt,
+        "noise_error": abs(found.noise),
+        "noise": read.noise,
+        "within_noise": found.lost,
+    }
+    return _answer(found, details, drawn(made, c))
+
+
+def _answer(found: Growth, details: Mapping[str, float], curve: Mapping[str, Array]) -> Estimate:
+    low, high = found.interval(details["embedding_error"])
+    if found.lost > NOISY:
+        says = f"{found.lost:.0%} of the pairs are closer than the noise: clean the series, or measure with less noise"
+        return refused("below_noise", says, (curve, details))
+    if low <= 0.0:
+        says = "neighbours part no faster than chance has it: the motion looks regular, or the record is too short"
+        return Estimate(found.rate, low, high, "uncertain", UNIT, curve, says, details)
+    if high - low > 2.0 * found.rate * 0.5:
+        says = "the interval is wide: more than half the value to either side"
+        return Estimate(found.rate, low, high, "uncertain", UNIT, curve, says, details)
+    return Estimate(found.rate, low, high, "ok", UNIT, curve, "", details)
+
+
+def _flat(made: States, c: Curves, details: Mapping[str, float]) -> Estimate:
+    """Return what is to be said of curves without a region: near strangers at once, or never parting."""
+    curve = drawn(made, c)
+    if made.locked and c.strangers < PERIODIC * made.size:
+        share = c.strangers / made.size
+        says = f"the motion repeats with the drive: periods differ by {share:.1%} of the motion only, as noise has it"
+        return refused("below_noise", says, (curve, details))
+    at = min(made.window, c.far.shape[1] - 1)
+    if c.far[0, at] > 0.25 * c.strangers:
+        says = "neighbours are strangers as soon as they leave the delay window, as in noise: no straight piece"
+        return refused("no_scaling_region", says, (curve, details))
+    return refused(
+        "no_scaling_region",
+        "neighbours do not part: the motion is regular (periodic or quasi-periodic), with an exponent of zero or less",
+        (curve, details),
+    )
+
+
+def drawn(made: States, c: Curves) -> Mapping[str, Array]:
+    """Return the curves to draw: time (s), mean logarithm of the distance of the nearest pairs, and of all groups."""
+    times = (np.arange(c.log.shape[1]) + 0.5 * (made.smooth - 1)) * made.dt
+    slope = np.gradient(c.log[0], made.dt) if len(times) > 1 else np.zeros(len(times))
+    return {"time": times, "divergence": c.log[0], "members": c.log, "slope": slope}

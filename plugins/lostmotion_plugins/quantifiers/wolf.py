@@ -1,0 +1,81 @@
+"""The largest Lyapunov exponent from one long chain of pairs, for reference."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from lostmotion.contracts import Array, Quantifier, Series
+from lostmotion.kernels.neighbours import nearest, several
+from lostmotion.results import Estimate
+from lostmotion.signals import delay_vectors
+from lostmotion_plugins.quantifiers._kernels_divergence import walk
+from lostmotion_plugins.quantifiers.exponent import UNIT, refused, short
+
+LEAST = 10
+"""Pieces of chain that an interval can be drawn from."""
+REPEATS = 0.5
+"""Share of points with an exact repeat from which on a record is periodic to the resolution of its sensor."""
+STRANGERS = 0.5
+"""Share of the usual distance from which on the ends of pieces tell nothing."""
+JUMP, SUDDEN = 0.1, 0.3
+"""A growth by more than JUMP e-folds, of which less than SUDDEN as much again follows, is that of noise."""
+SAYS = "for reference: replacing neighbours turns their direction, which biases the value in ways the interval omits"
+
+
+@dataclass(frozen=True)
+class Wolf(Quantifier[Series]):
+    """Growth along one chain of replaced neighbours: Wolf, Swift, Swinney, Vastano, Physica D 16 (1985) 285-317.
+
+    A pair is followed for `steps` samples (0: half a delay window), then replaced by the one of `choice` nearest
+    neighbours whose direction is closest to the old one's. Repeats, at distance 0, are no neighbours.
+    """
+
+    steps: int = 0
+    choice: int = 8
+    name: ClassVar[str] = "lyapunov_wolf"
+    paper: ClassVar[str] = "Wolf, Swift, Swinney, Vastano, Physica D 16 (1985) 285-317"
+    unit: ClassVar[str] = "1/s"
+
+    def estimate(self, data: Series, *, rng: np.random.Generator) -> Estimate:
+        if no := short(data):
+            return no
+        e = data.embedding
+        steps = self.steps or max(1, e.window // 2)
+        points = delay_vectors(data.x, e.lag, e.dim)
+        tie = 1e-9 * float(data.x.std())
+        queries = np.arange(1, len(points) - steps, steps)
+        closest = nearest(points, theiler=e.theiler, norm="euclidean", least=-1.0, queries=queries)[1]
+        if (repeats := float((closest <= tie).mean())) > REPEATS:
+            return refused("below_noise", f"{repeats:.0%} of the points repeat exactly: the motion is periodic")
+        found, _ = several(points, self.choice, theiler=e.theiler, norm="euclidean", least=tie, queries=queries)
+        near = np.full((len(points), self.choice), -1)
+        near[queries] = found
+        room = np.zeros((len(points) // steps + 1, 3))
+        gained = room[: walk(points, near, (steps, tie * tie), room)]
+        size = float(np.sqrt(2.0 * points.var(axis=0).sum()))
+        return _noise(gained, size) or _estimated(gained[:, 1] / (steps * data.dt), steps * data.dt)
+
+
+def _noise(gained: Array, size: float) -> Estimate | None:
+    """Return a refusal where pairs part at once, or are strangers at the end of their piece, as in noise."""
+    if len(gained) < LEAST:
+        return refused("too_few_neighbours", f"{len(gained)} pairs could be followed, {LEAST} are wanted")
+    first, whole, far = gained.mean(axis=0)
+    if far > STRANGERS * size:
+        return refused("no_scaling_region", "neighbours are strangers at the end of each piece, as in noise")
+    if first > JUMP and whole - first < SUDDEN * first:
+        return refused("below_noise", "neighbours part at once and then no more, as noise lets them")
+    return None
+
+
+def _estimated(rates: Array, piece: float) -> Estimate:
+    """Return the mean of the rates (1/s) of all pieces, its interval from blocks of them, and the running mean."""
+    blocks = np.array([b.mean() for b in np.array_split(rates, min(20, len(rates) // 2))])
+    value, wide = float(rates.mean()), 2.1 * float(blocks.std(ddof=1)) / float(np.sqrt(len(blocks)))
+    times: Array = piece * np.arange(1.0, len(rates) + 1)
+    running = np.cumsum(rates) / np.arange(1, len(rates) + 1)
+    curve: dict[str, Array] = {"time": times, "divergence": np.cumsum(rates) * piece, "slope": running}
+    return Estimate(value, value - wide, value + wide, "uncertain", UNIT, curve, SAYS, {"pairs": float(len(rates))})
