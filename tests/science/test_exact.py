@@ -149,6 +149,24 @@ def test_crossings_are_those_that_a_fine_look_sees():
         assert (counted - seen) % 2 == 0
 
 
+def test_any_machine_is_followed():
+    """300 machines with parameters over many decades: 20 periods, and one with 13 looks that ends where one look does."""
+    rng = np.random.default_rng(11)
+    for _ in range(300):
+        m, k0, x0, share = 10.0 ** rng.uniform([-3, -3, -6, -4], [3, 7, 1, 1])
+        pace = math.sqrt(k0 / m)
+        c = 2.0 * math.sqrt(k0 * m) * 10.0 ** rng.uniform(-4.0, 1.5) * (rng.random() > 0.1)
+        values = {"m": m, "c": c, "k1": k0 * share * (rng.random() > 0.5), "k0": k0, "x0": x0 * (rng.random() > 0.1)}
+        start = rng.normal(size=2) * x0 * [1.0, pace] * 10.0 ** rng.uniform(-1.0, 1.0, 2)
+        drive = (k0 * x0 * 10.0 ** rng.uniform(-2.0, 2.0), pace * 10.0 ** rng.uniform(-1.0, 2.0), rng.uniform(0.0, 6.0))
+        flow = exact(values, Harmonic(*drive), start)
+        orbit = flow.march(start, periods=20, tangents=2)
+        assert orbit.status == "ok"
+        assert np.isfinite(orbit.growth).all()
+        looked = flow.sample(start, periods=1, looks=13)
+        assert np.abs(looked[-1] - orbit.states[1]) == pytest.approx(0.0, abs=1e-9 * np.abs(looked).max())
+
+
 def test_looks_do_not_change_the_motion():
     flow = exact()
     whole = flow.march(START, periods=5, tangents=0).states
@@ -164,6 +182,18 @@ def test_beginnings_on_a_boundary(start, amplitude):
     assert orbit.status == "ok"
     assert np.isfinite(orbit.states).all()
     assert np.isfinite(orbit.growth).all()
+
+
+def test_a_long_period_does_not_underflow():
+    """The tangent shrinks by e^-2000 in a period, in one stay without a contact, and in many."""
+    for drive in ((1.0, 0.01), (100.0, 0.01)):
+        orbit = exact(drive=drive).march(START, periods=3, tangents=2)
+        assert orbit.status == "ok"
+        assert np.isfinite(orbit.growth).all()
+        assert orbit.growth.sum(axis=1) == pytest.approx(-8.0 * 2.0 * math.pi / 0.01)
+    still = exact({**CASE_1, "x0": 0.0, "c": 600.0}, drive=0.1).march(START, periods=2000, tangents=2)
+    assert still.status == "ok"
+    assert np.isfinite(still.growth).all()
 
 
 def test_undriven_motion_comes_to_rest_in_the_gap():

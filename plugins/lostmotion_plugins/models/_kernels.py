@@ -128,7 +128,7 @@ def stay(law, angle, x, v, side, x0, left):  # type: ignore[no-untyped-def]
             return tau, whole, part, to * x0, v, to
         if side == 0.0:
             hop = min(hop, leap(max(x0 + to * x, 0.0), -r, bound))
-        tau += max(hop, math.sqrt(2e-16 * x0 / bound), 1e-12 * left)
+        tau += max(hop, math.sqrt((2e-16 * x0 + 1e-150) / bound), 1e-12 * left)
         over = tau >= left
         tau = min(tau, left)
         whole, part, h, g, x, v, push = seen(law, angle, h0, g0, tau)
@@ -151,6 +151,7 @@ def march(start, numbers, looks, states, growth):  # type: ignore[no-untyped-def
     shift = k0 * x0 / (k1 + k0) if k0 > 0.0 else 0.0
     upper, lower = (kind, a, wd, w2, re, im, shift, omega), (kind, a, wd, w2, re, im, -shift, omega)
     span = 2.0 * math.pi / omega / looks
+    patience = 300.0 / a if a > 0.0 else math.inf
     x, v = start[0], start[1]
     side = 1.0 if x > x0 else (-1.0 if x < -x0 else 0.0)
     p, q = math.sqrt(0.5), math.sqrt(0.5)
@@ -164,18 +165,22 @@ def march(start, numbers, looks, states, growth):  # type: ignore[no-untyped-def
         theta, begun = phase + 2.0 * math.pi * (n % looks) / looks, 0.0
         for _ in range(_STUCK):
             law = free if side == 0.0 else (upper if side > 0.0 else lower)
-            tau, whole, part, x, v, to = stay(law, theta + omega * begun, x, v, side, x0, span - begun)
+            last = span - begun <= patience
+            ahead = span - begun if last else patience
+            tau, whole, part, x, v, to = stay(law, theta + omega * begun, x, v, side, x0, ahead)
             # As E p = (whole + a part) p + part q, and with -w2 part and whole - a part in the second row.
             p, q = (whole + a * part) * p + part * q, (whole - a * part) * q - law[3] * part * p
             begun += tau
-            if to == 0.0:
+            ended = last and to == 0.0
+            if growth.shape[1] > 0 and (ended or abs(p) + abs(q) < 1e-100):
+                size = math.hypot(p, q)
+                p, q = p / size, q / size
+                growth[n // looks, 0] += math.log(size)
+            if ended:
                 break
-            side = to if side == 0.0 else 0.0
-            crossings += 1
-        if growth.shape[1] > 0:
-            size = math.hypot(p, q)
-            p, q = p / size, q / size
-            growth[n // looks, 0] += math.log(size)
+            if to != 0.0:
+                side = to if side == 0.0 else 0.0
+                crossings += 1
     if growth.shape[1] > 1:
         for n in range(growth.shape[0]):
             growth[n, 1] = -c / m * span * looks - growth[n, 0]
