@@ -89,7 +89,7 @@ def test_it_opens_with_the_verdict_and_its_first_sentence(pages):
     [
         ("It is 0.5 s. No more is known.", ["It is 0.5 s.", "No more is known."]),
         (["One.", "Two."], ["One.", "Two."]),
-        ("p = 0.02 vs. noise", ["p = 0.02 vs. noise"]),
+        ("p = 0.02 vs. noise", ["P = 0.02 vs. noise."]),
         (None, ["Nothing was said about this recording."]),
     ],
 )
@@ -131,9 +131,19 @@ def test_facts_alone_make_a_page(whole):
 
 def test_numbers_stand_with_their_interval_and_unit(pages):
     words = _words(pages["chaotic"])
-    for text in ("7.3 [6.6, 8.1] 1/s", "0.0393 s (12 samples)", "3.1 %", "0.5 %", "< 0.001", "99 IAAFT", "two-sided"):
+    for text in (
+        "7.3 [6.6, 8.1] 1/s",
+        "6.9 [5.2, 9.0] 1/s",
+        "2.41 [2.20, 2.60]",
+        "0.0393 s (12 samples)",
+        "3.1 %",
+        "0.5 %",
+        "< 0.001",
+        "99 IAAFT",
+        "two-sided",
+    ):
         assert text in words
-    assert "1.3 [1.1, 1.4] bit/s" in _words(pages["undriven"])
+    assert "1.30 [1.10, 1.45] bit/s" in _words(pages["undriven"])
     assert "Period of the drive" in words
     assert "Period of the strongest line" in _words(pages["periodic"])
 

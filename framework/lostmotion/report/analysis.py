@@ -16,7 +16,7 @@ from lostmotion.report import analysis_motion as motion
 from lostmotion.report import analysis_surrogates as surrogates
 from lostmotion.report import analysis_tables as tables
 from lostmotion.report import style
-from lostmotion.report.analysis_facts import read_analysis
+from lostmotion.report.analysis_facts import read_analysis, whole
 from lostmotion.report.evidence import Evidence
 from lostmotion.report.pages import template
 
@@ -82,7 +82,7 @@ def render(evidence: Evidence) -> str:
 
 def _strings(evidence: Evidence, key: str) -> list[str]:
     found = evidence.fact(key)
-    return [str(part) for part in found if str(part).strip()] if isinstance(found, list) else []
+    return [whole(str(part)) for part in found if str(part).strip()] if isinstance(found, list) else []
 
 
 def _drawn(evidence: Evidence) -> Iterator[Drawn]:

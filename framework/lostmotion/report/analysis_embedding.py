@@ -15,6 +15,7 @@ from lostmotion.report.evidence import Evidence
 from lostmotion.report.words import DASH, figures, shortened, spoken
 
 CLEAN, RAW = "embedding_", "embedding_raw_"
+DELAYS = 14.0
 CAO = (("e1", "E1", "o", "-"), ("e2", "E2", "s", (0, (4, 2))))
 UNITS = {"nat": "nat", "bit": "bit"}
 
@@ -30,7 +31,8 @@ def delay(evidence: Evidence) -> Figure | None:
         _draw_over(axes, evidence, name, "lag")
         _mark_delay(axes, evidence)
         axes.set_xlabel("lag (s)")
-        axes.set_xlim(left=0.0)
+        axes.set_xlim(0.0, _longest(evidence))
+        _lower_start(axes, evidence, name)
         style.few_ticks(axes, 6, 5)
     unit = shortened(evidence.units.get(CLEAN + "ami", "") or evidence.units.get(RAW + "ami", ""), 12)
     words = {"ami": f"mutual information ({UNITS.get(unit, 'nat')})", "autocorrelation": "autocorrelation"}
@@ -113,6 +115,21 @@ def _draw_over(axes: Axes, evidence: Evidence, name: str, axis: str) -> None:
             axes.plot(evidence.arrays[prefix + axis], evidence.arrays[key], color=colour, label=label)
 
 
+def _longest(evidence: Evidence) -> float:
+    """Return the lag (s) up to which curves are drawn: some delays, so that the chosen one can be seen."""
+    lags = np.concatenate([evidence.arrays[p + "lag"] for p in (CLEAN, RAW) if evidence.has(p + "lag")])
+    seconds, last = evidence.number("delay", "seconds"), float(np.nanmax(lags))
+    return min(last, DELAYS * seconds) if seconds > 0 else last or 1.0
+
+
+def _lower_start(axes: Axes, evidence: Evidence, name: str) -> None:
+    """Cut off what a value tells about itself at lag 0, which would dwarf the rest."""
+    keys = [shown.key for shown in _versions(evidence, name)]
+    later = [np.nanmax(evidence.arrays[key][1:]) for key in keys if np.isfinite(evidence.arrays[key][1:]).any()]
+    if name == "ami" and later:
+        axes.set_ylim(0.0, 1.08 * float(max(later)))
+
+
 def _mark_delay(axes: Axes, evidence: Evidence) -> None:
     seconds = evidence.number("delay", "seconds")
     if math.isfinite(seconds):
@@ -129,7 +146,6 @@ def _draw_floor(axes: Axes, evidence: Evidence, name: str) -> None:
         floor = np.broadcast_to(evidence.arrays[CLEAN + "ami_floor"], evidence.arrays[CLEAN + "lag"].shape)
         axes.plot(evidence.arrays[CLEAN + "lag"], floor, color=style.QUIET, linestyle=(0, (1, 2)),
                   label="independent values")  # fmt: skip
-        axes.set_ylim(bottom=0.0)
 
 
 def _draw_cao(axes: Axes, evidence: Evidence) -> None:

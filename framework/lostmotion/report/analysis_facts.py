@@ -98,6 +98,12 @@ def thinned(values: Array, most: int) -> Array:
     return values[:: max(1, math.ceil(len(values) / most))]
 
 
+def whole(text: str) -> str:
+    """Return a text as a sentence: with a capital at its start and a stop at its end."""
+    text = sentence(text.strip())
+    return text if not text or text.endswith((".", "!", "?", "…")) else text + "."
+
+
 def listed(parts: list[str]) -> str:
     """Return parts as one sentence after another, without the empty ones."""
     return " ".join(sentence(part) for part in parts if part)

@@ -42,7 +42,9 @@ def divergence(evidence: Evidence) -> Figure | None:
 
 def divergence_caption(evidence: Evidence) -> str:
     """Return what the figure of the divergence shows."""
-    members = "thin: other delays, dimensions and halves of the recording." if evidence.has("lyapunov_members") else ""
+    members = (
+        "thin: with other delays and dimensions, shifted upright onto it." if evidence.has("lyapunov_members") else ""
+    )
     fit = "shaded: the piece from which the exponent was read." if _fitted(evidence) else _refusal(evidence, "lyapunov")
     slopes = "right, the local slope; an exponent shows as a level piece." if evidence.has("lyapunov_slope") else ""
     return listed(
@@ -56,14 +58,22 @@ def draw_divergence(axes: Axes, evidence: Evidence) -> None:
     members = evidence.arrays.get("lyapunov_members")
     if members is not None and members.ndim == 2 and members.shape[1] == time.size:
         for k, member in enumerate(members):
-            axes.plot(time, member, color="#b8b8b8", linewidth=0.7, label="variants" if k == 0 else None)
+            axes.plot(
+                time,
+                member + _shift(member, curve),
+                color="#b8b8b8",
+                linewidth=0.7,
+                label="variants" if k == 0 else None,
+            )
     axes.plot(time, curve, color=style.AFTER, linewidth=1.8, label="mean divergence")
     if _fitted(evidence):
         begin, end, slope = _line(evidence)
         axes.axvspan(begin, end, color=style.SHADE, zorder=0.3)
         window = np.linspace(begin - 0.15 * (end - begin), end + 0.15 * (end - begin), 2)
         value = shortened(f"{figures(evidence.number('lyapunov', 'value'))} {pretty(_unit(evidence))}", 32)
-        axes.plot(window, _intercept(evidence, time, curve) + slope * window, color=style.BEFORE, linewidth=2.0,
+        middle = 0.5 * (begin + end)
+        line = np.interp(middle, time, curve) + slope * (window - middle)
+        axes.plot(window, line, color=style.BEFORE, linewidth=2.0,
                   linestyle=(0, (5, 2)), label=f"fit: {value}")  # fmt: skip
     if time.size > 1:
         axes.set_xlim(float(time.min()), float(time.max()))
@@ -116,12 +126,10 @@ def _line(evidence: Evidence) -> tuple[float, float, float]:
     return begin, end, natural(evidence, evidence.number("lyapunov", "value"))
 
 
-def _intercept(evidence: Evidence, time: Array, curve: Array) -> float:
-    """Return the height of the line at time 0: as stated, or so that it meets the curve in the middle of its piece."""
-    stated = evidence.number("lyapunov", "details", "intercept")
-    begin, end, slope = _line(evidence)
-    middle = 0.5 * (begin + end)
-    return stated if math.isfinite(stated) else float(np.interp(middle, time, curve)) - slope * middle
+def _shift(member: Array, curve: Array) -> float:
+    """Return how far a curve must be lifted to lie on another one: only slopes are compared."""
+    both = np.isfinite(member) & np.isfinite(curve)
+    return float(np.mean(curve[both] - member[both])) if both.any() else 0.0
 
 
 def _refusal(evidence: Evidence, key: str) -> str:
@@ -181,16 +189,18 @@ def _draw_sums(axes: Axes, evidence: Evidence) -> None:
     for curve, name, colour in _each(evidence, "d2_log_correlation"):
         axes.plot(evidence.arrays["d2_radius"], curve, color=colour, linewidth=1.1, label=name)
     _over_radius(axes, evidence)
+    inside = np.atleast_2d(evidence.arrays["d2_log_correlation"])[:, evidence.arrays["d2_radius"] >= axes.get_xlim()[0]]
+    axes.set_ylim(*style.span_of(inside, 0.04))
     axes.set_ylabel("ln of correlation sum")
     axes.legend(title="dimension", loc="lower right", fontsize=8, title_fontsize=8, ncols=2, labelspacing=0.2,
                 handlelength=1.2, columnspacing=0.8, frameon=True, framealpha=0.85, edgecolor="none")  # fmt: skip
 
 
 def _draw_local(axes: Axes, evidence: Evidence) -> None:
-    tallest = 1.0
+    tallest, least = 1.0, _smallest(evidence, evidence.arrays["d2_radius"])
     for curve, _, colour in _each(evidence, "d2_slope"):
         axes.plot(evidence.arrays["d2_radius"], curve, color=colour, linewidth=1.1)
-        finite = curve[np.isfinite(curve)]
+        finite = curve[np.isfinite(curve) & (evidence.arrays["d2_radius"] >= least)]
         tallest = max(tallest, float(np.quantile(finite, 0.97)) if finite.size else 0.0)
     _over_radius(axes, evidence)
     _draw_interval(axes, evidence)
@@ -210,15 +220,25 @@ def _over_radius(axes: Axes, evidence: Evidence) -> None:
     radius = evidence.arrays["d2_radius"]
     unit = evidence.units.get("d2_radius") or evidence.units.get("x", "")
     axes.set_xscale("log")
-    positive = radius[radius > 0]
-    if positive.size > 1:
-        axes.set_xlim(float(positive.min()), float(positive.max()))
+    if radius.size > 1:
+        axes.set_xlim(_smallest(evidence, radius), float(radius.max()))
     style.log_ticks(axes.xaxis, 5)
     low, high, value = _plateau(evidence)
     if math.isfinite(low) and math.isfinite(high) and math.isfinite(value):
         axes.axvspan(low, high, color=style.SHADE, zorder=0.3)
     said = pretty(shortened(unit, 16))
     axes.set_xlabel(f"radius ({said})" if said else "radius")
+
+
+def _smallest(evidence: Evidence, radius: Array) -> float:
+    """Return the radius from which most curves say something, a little less than that of the highest dimension."""
+    name = "d2_log_correlation" if evidence.has("d2_log_correlation") else "d2_slope"
+    last = np.atleast_2d(evidence.arrays[name])[-1]
+    seen = radius[np.isfinite(last) & (radius > 0)] if last.shape == radius.shape else radius[:0]
+    low, _, _ = _plateau(evidence)
+    wanted = min(0.3 * float(seen.min()) if seen.size else math.inf, 0.5 * low if low > 0 else math.inf)
+    least = float(radius[radius > 0].min())
+    return max(least, wanted) if math.isfinite(wanted) else least
 
 
 def draw_dimensions(axes: Axes, evidence: Evidence) -> None:

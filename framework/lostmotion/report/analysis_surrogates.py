@@ -7,6 +7,7 @@ import math
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
 from lostmotion.report import style
 from lostmotion.report.analysis_facts import rows_of
@@ -66,6 +67,7 @@ def _draw_test(axes: Axes, evidence: Evidence, place: int, values: Array) -> Non
         axes.axvline(original, color=style.BEFORE, linewidth=2.0, label="recording")
     axes.set_xlim(*style.span_of(np.append(finite, original), 0.1))
     style.few_ticks(axes, 4, 4)
+    axes.yaxis.set_major_locator(MaxNLocator(4, integer=True))
     axes.set_xlabel(shortened(spoken(str(facts.get("statistic") or "statistic")), 36))
     axes.set_ylabel("surrogates" if place % ABREAST == 0 else "")
     name = shortened(spoken(str(facts.get("name") or facts.get("method") or f"test {place + 1}")), 26)

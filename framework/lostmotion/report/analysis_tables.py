@@ -7,15 +7,14 @@ import re
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
-from lostmotion.report.analysis_facts import beat, entry, period_of, rows_of
+from lostmotion.report.analysis_facts import beat, entry, period_of, rows_of, whole
 from lostmotion.report.evidence import Evidence
 from lostmotion.report.words import (
     DASH,
-    Scale,
     figures,
-    interval,
     measured,
     percent,
+    pretty,
     probability,
     sentence,
     shortened,
@@ -31,6 +30,7 @@ VERDICTS = {
 }
 SIGNIFICANT = 0.05
 EXPONENT = "lyapunov_"
+NO_RANK = "No p-value: the statistic could not be had."
 SIDES = {"two": "two-sided", "low": "one-sided, low", "high": "one-sided, high"}
 DRIVES = {
     "excitation": "from the measured excitation",
@@ -70,7 +70,7 @@ def opening(evidence: Evidence) -> list[str]:
     parts = [str(part) for part in says] if isinstance(says, list) else [str(says or "")]
     first, *rest = [part.strip() for part in parts if part.strip()] or ["Nothing was said about this recording."]
     head, _, tail = re.sub(r"(?<=[.!?])\s+(?=[A-Z])", "\0", first, count=1).partition("\0")
-    return [part for part in (head, tail, *rest) if part]
+    return [whole(part) for part in (head, tail, *rest) if part]
 
 
 def numbers(evidence: Evidence) -> list[Row]:
@@ -101,19 +101,21 @@ def _brief(name: str) -> str:
 def estimate(name: str, facts: Mapping[str, Any]) -> Row:
     """Return the row of one estimate: a number with its interval, or the sentence that stands in its place."""
     status, how = str(facts.get("status") or "ok"), _method(facts)
-    said = str(facts.get("says") or "")
+    said = whole(str(facts.get("says") or ("" if status == "ok" else STATUSES.get(status, status))))
     if not _is_number(facts.get("value")):
-        return Row(name, "no number", how, said or sentence(STATUSES.get(status, status)) + ".", "refused")
-    if status == "ok":
-        return Row(name, _value(facts), how, said)
-    return Row(name, _value(facts), how, said or sentence(STATUSES.get(status, status)) + ".", "uncertain")
+        return Row(name, "no number", how, said or "No reason was stated.", "refused")
+    return Row(name, _value(facts), how, said, "ok" if status == "ok" else "uncertain")
 
 
 def _value(facts: Mapping[str, Any]) -> str:
     unit = shortened(str(facts.get("unit") or "1"), 16)
     if not (_is_number(facts.get("low")) and _is_number(facts.get("high"))):
         return measured(facts["value"], unit) + ", no interval"
-    return interval({"median": facts["value"], "low": facts["low"], "high": facts["high"]}, Scale(1.0, unit))
+    value, low, high = (float(facts[key]) for key in ("value", "low", "high"))
+    # Two figures of the width of the interval, as many as the opening sentence has.
+    decimals = max(0, min(9, 1 - math.floor(math.log10(high - low)))) if high > low else 3
+    text = f"{value:.{decimals}f} [{low:.{decimals}f}, {high:.{decimals}f}]".replace("-", "−")
+    return f"{text} {pretty(unit)}".rstrip()
 
 
 def _is_number(value: Any) -> bool:
@@ -165,6 +167,7 @@ def _noise(evidence: Evidence) -> list[Row]:
             percent(facts.get(key)) if "share" in unit or not unit else measured(facts.get(key), shortened(unit, 16))
         )
         lacking = value == DASH
+        value = "none found" if facts.get(key) == 0 else value
         remark = (said or "The noise could not be told from the motion.") if lacking else unit
         rows.append(Row(name, "no number" if lacking else value, how if key == "after" else "", _of(remark),
                         "refused" if lacking else "ok"))  # fmt: skip
@@ -192,5 +195,5 @@ def _test(facts: Mapping[str, Any]) -> Test:
         method=f"{draws} {_brief(str(facts.get('name') or facts.get('method') or 'surrogates'))}",
         statistic=statistic,
         p=probability(p),
-        says=str(facts.get("says") or (default if _is_number(p) else "No p-value: the statistic could not be had.")),
+        says=whole(str(facts.get("says") or (default if _is_number(p) else NO_RANK))),
     )
