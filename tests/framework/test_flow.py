@@ -1,6 +1,7 @@
 """The flow of a model: what may be asked of it, and what it says of what it cannot do."""
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 import pytest
@@ -87,6 +88,30 @@ def test_a_force_that_jumps_in_position_says_so():
 def test_dry_friction_of_ours_is_resolved_by_the_step(values):
     flow = flow_of(RobotJoint() + CoulombFriction("base"), {**JOINT, **values}, drive=(0.05, 9.7))
     assert flow.march(flow.start, periods=200, tangents=2).status == "ok"
+
+
+@dataclass(frozen=True)
+class VanDerPol(LinearOscillator):
+    """A limit cycle that nothing drives: x'' + x = m (1 - x^2) x'."""
+
+    @staticmethod
+    def rhs(t, y, u, p, dydt):
+        dydt[0] = y[1]
+        dydt[1] = p[0] * (1.0 - y[0] * y[0]) * y[1] - y[0]
+
+
+@pytest.mark.parametrize("period", [1.0, 6.6632868593231301, 20.0])
+def test_a_limit_cycle_has_the_dimension_one(period):
+    """Looks that keep step with the cycle (6.6633 s) or not; the other exponent is -1.0594 (by Floquet, scipy)."""
+    flow = flow_of(VanDerPol(), SOFT, drive=period, start=np.array([1.0, 0.0]))
+    assert not flow.driven
+    found = LyapunovSpectrum().estimate(flow, rng=RNG)
+    assert found.status == "ok", found.says
+    assert found.curve["spectrum"] == pytest.approx([0.0, -1.0594], abs=1e-3)
+    assert found.low <= 0.0 <= found.high
+    measured = KaplanYorke().estimate(flow, rng=RNG)
+    assert measured.value == pytest.approx(1.0, abs=1e-3)
+    assert measured.low <= 1.0 <= measured.high
 
 
 def test_rest_and_nonsense_are_answered():

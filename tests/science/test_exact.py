@@ -150,7 +150,7 @@ def test_crossings_are_those_that_a_fine_look_sees():
 
 
 def test_any_machine_is_followed():
-    """300 machines with parameters over many decades: 20 periods, and one with 13 looks that ends where one look does."""
+    """300 machines with parameters over many decades, for 20 periods; a period of 13 looks ends where one look does."""
     rng = np.random.default_rng(11)
     for _ in range(300):
         m, k0, x0, share = 10.0 ** rng.uniform([-3, -3, -6, -4], [3, 7, 1, 1])

@@ -18,8 +18,9 @@ _BLOCKS = 20
 """Blocks that are at least left to judge the error from."""
 _APART = 3.5
 """Standard errors between two halves that tell a transient; 2 seeds in 1000 go beyond with twenty blocks."""
-_NEGLIGIBLE = 1e-3
-"""A difference between halves, in tangent growth over all of one half, that no one need hear of: rounding and phase."""
+_ENDS = 1.0
+"""Standard error, in natural logarithms, of tangent growth over a whole orbit: where on the attractor an orbit begins
+and ends changes the length of a tangent vector by such a factor, however long the orbit is."""
 _DRAWS = 400
 
 
@@ -35,7 +36,10 @@ class _Growth:
 
 @dataclass(frozen=True, eq=False)
 class _Mean:
-    """Means (k,) and standard errors (k,) from means over blocks (blocks, k); `gap` (k,) between halves."""
+    """Means (k,) and standard errors (k,) from means over blocks (blocks, k); `gap` (k,) between halves.
+
+    `ends` is the part of the errors that is due to the ends of the orbit.
+    """
 
     value: Array
     stderr: Array
@@ -43,6 +47,7 @@ class _Mean:
     length: int
     gap: Array
     settled: bool
+    ends: float
 
     @property
     def reach(self) -> float:
@@ -54,8 +59,8 @@ class _Mean:
 class LyapunovMax(Quantifier[Flow]):
     """Largest Lyapunov exponent (1/s, natural logarithm) of a model, by Benettin's method.
 
-    The error is that of means over blocks as long as the memory of the growth asks for. Curve: `running`, the mean
-    (1/s) up to each of some `periods`.
+    The error is that of means over blocks as long as the memory of the growth asks for, and of the ends.
+    Curve: `running`, the mean (1/s) up to each of some `periods`.
     """
 
     periods: int = 2000
@@ -120,7 +125,9 @@ class KaplanYorke(Quantifier[Flow]):
         mean = _mean(growth.rates, growth.period)
         value = _dimension(mean.value, mean.stderr, growth.driven)
         picks = rng.integers(len(mean.blocks), size=(_DRAWS, len(mean.blocks)))
-        drawn = [_dimension(mean.blocks[p].mean(axis=0), mean.stderr, growth.driven) for p in picks]
+        shifts = mean.ends * rng.standard_normal((_DRAWS, mean.value.size))
+        means = mean.blocks[picks].mean(axis=1) + shifts
+        drawn = [_dimension(exponents, mean.stderr, growth.driven) for exponents in means]
         low, high = np.quantile(drawn, [0.025, 0.975])
         curve = {"spectrum": mean.value, "stderr": mean.stderr}
         details = {"section": max(value - 1.0, 0.0), "lyapunov_max": float(mean.value.max())}
@@ -180,9 +187,10 @@ def _mean(rates: Array, period: float) -> _Mean:
     halves = [_block_means(half, length) for half in (rates[: n // 2], rates[n // 2 :])]
     gap = halves[0].mean(axis=0) - halves[1].mean(axis=0)
     errors = np.sqrt(sum(h.var(axis=0, ddof=1) / len(h) for h in halves))
-    slack = _NEGLIGIBLE / (period * (n // 2)) + 1e-9 * np.abs(rates).max(axis=0)
-    settled = bool(np.all(np.abs(gap) <= _APART * errors + slack))
-    return _Mean(rates.mean(axis=0), stderr, blocks, length, gap, settled)
+    ends = _ENDS / (period * n)
+    settled = bool(np.all(np.abs(gap) <= _APART * np.hypot(errors, 2.0 * ends)))
+    stderr = np.hypot(stderr, ends)
+    return _Mean(rates.mean(axis=0), stderr, blocks, length, gap, settled, ends)
 
 
 def _block_means(rates: Array, length: int) -> Array:
