@@ -23,6 +23,7 @@ BUCKET = 16
 class Tree(NamedTuple):
     """Points in buckets. Node `a` holds `order[span[a, 0]:span[a, 1]]`, children `link[a]` and `link[a] + 1`.
 
+    The cut between the children is across `axis[a]`.
     A leaf has a negative link: -1 - bucket, or `SAME` when all its points are equal; then `order` is sorted in it.
     `ages` (nodes, 2) are the least and greatest index in a node, `box` (nodes, 2, dim) its tight bounds.
     """
@@ -31,6 +32,7 @@ class Tree(NamedTuple):
     order: Indices
     span: Indices
     link: Indices
+    axis: Indices
     ages: Indices
     box: Array
     buckets: Array
@@ -117,11 +119,11 @@ def _roomier(array, rows):  # type: ignore[no-untyped-def]
 
 @numba.njit(cache=True, nogil=True)
 def _divide(points, order):  # type: ignore[no-untyped-def]
-    """Return span, link and box of all nodes and the number of buckets, with `order` put in order."""
+    """Return span, link, axis and box of all nodes and the number of buckets, with `order` put in order."""
     n, dim = points.shape
     keys = np.empty(n)
     room = 4 * (n // BUCKET) + 3
-    span, link, box = np.empty((room, 2), np.int64), np.empty((room, 1), np.int64), np.empty((room, 2, dim))
+    span, link, box = np.empty((room, 2), np.int64), np.empty((room, 2), np.int64), np.empty((room, 2, dim))
     span[0, 0], span[0, 1] = 0, n
     nodes, buckets, a = 1, 0, 0
     while a < nodes:
@@ -140,12 +142,12 @@ def _divide(points, order):  # type: ignore[no-untyped-def]
             for p in range(begin, end):
                 keys[p] = points[order[p], widest]
             middle = _cut(keys, order, begin, end)
-            link[a, 0] = nodes
+            link[a, 0], link[a, 1] = nodes, widest
             span[nodes, 0], span[nodes, 1] = begin, middle
             span[nodes + 1, 0], span[nodes + 1, 1] = middle, end
             nodes += 2
         a += 1
-    return span[:nodes].copy(), link[:nodes, 0].copy(), box[:nodes].copy(), buckets
+    return span[:nodes].copy(), link[:nodes, 0].copy(), link[:nodes, 1].copy(), box[:nodes].copy(), buckets
 
 
 @numba.njit(cache=True, nogil=True)
@@ -167,11 +169,11 @@ def _settle(points, order, span, link, ages, buckets):  # type: ignore[no-untype
 
 @numba.njit(cache=True, nogil=True)
 def plant(points):  # type: ignore[no-untyped-def]
-    """Return the arrays of the tree of `points` (n, dim), n >= 1: order, span, link, ages, box, buckets."""
+    """Return the arrays of the tree of `points` (n, dim), n >= 1: order, span, link, axis, ages, box, buckets."""
     n, dim = points.shape
     order = np.arange(n)
-    span, link, box, full = _divide(points, order)
+    span, link, axis, box, full = _divide(points, order)
     ages = np.empty((len(span), 2), np.int64)
     buckets = np.full((full, dim, BUCKET), np.inf)
     _settle(points, order, span, link, ages, buckets)
-    return order, span, link, ages, box, buckets
+    return order, span, link, axis, ages, box, buckets

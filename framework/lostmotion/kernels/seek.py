@@ -52,6 +52,14 @@ def _gap(box, a, points, i, euclidean):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(**LEAN)
+def _true_gap(tree, a, i, euclidean, gap, bound):  # type: ignore[no-untyped-def]
+    """Return how far point i is from node a, at least `gap`; 0 is left as it is, unless it must be exact."""
+    if gap > bound or (gap == 0.0 and tree.link[a] != SAME):
+        return gap
+    return _gap(tree.box, a, tree.points, i, euclidean)
+
+
+@numba.njit(**LEAN)
 def _reach(box, a, points, i, euclidean):  # type: ignore[no-untyped-def]
     """Return how far point i is from the farthest place in box a, squared if `euclidean`."""
     far = 0.0
@@ -104,11 +112,12 @@ def _insert(d, j, index, distance, found):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(**LEAN)
-def _repeats(tree, a, i, theiler, d, best):  # type: ignore[no-untyped-def]
+def _repeats(tree, a, i, rules, d, best):  # type: ignore[no-untyped-def]
     """Insert the equal points of node a, which lie at distance d, as far as they are wanted."""
     index, distance, found = best
+    theiler, least, _ = rules
     p, end = tree.span[a]
-    while p < end and not _beaten(d, tree.order[p], index, distance, found):
+    while d > least and p < end and not _beaten(d, tree.order[p], index, distance, found):
         j = tree.order[p]
         if i - theiler <= j <= i + theiler:
             p += np.searchsorted(tree.order[p:end], i + theiler, side="right")
@@ -136,18 +145,25 @@ def _bucket(tree, a, i, rules, bound, best, far):  # type: ignore[no-untyped-def
 
 @numba.njit(**LEAN)
 def _fork(tree, a, i, euclidean, bound, stack):  # type: ignore[no-untyped-def]
-    """Put the children of node a that are within the bound on the stack, the nearer on top; return its height."""
+    """Put the children of node a that are within the bound on the stack, the nearer on top; return its height.
+
+    Their gaps are taken along the axis of the cut only: less than the true ones, but one subtraction each.
+    """
     nodes, gaps, top = stack
-    near, wide = tree.link[a], tree.link[a] + 1
-    low = _gap(tree.box, near, tree.points, i, euclidean)
-    high = _gap(tree.box, wide, tree.points, i, euclidean)
+    near, wide, axis, gap = tree.link[a], tree.link[a] + 1, tree.axis[a], gaps[top]
+    here = tree.points[i, axis]
+    low = max(here - tree.box[near, 1, axis], tree.box[near, 0, axis] - here)
+    high = max(here - tree.box[wide, 1, axis], tree.box[wide, 0, axis] - here)
     if high < low:
         near, wide, low, high = wide, near, high, low
+    low, high = max(low, 0.0), max(high, 0.0)
+    if euclidean:
+        low, high = low * low, high * high
     if high <= bound:
-        nodes[top], gaps[top] = wide, high
+        nodes[top], gaps[top] = wide, max(gap, high)
         top += 1
     if low <= bound:
-        nodes[top], gaps[top] = near, low
+        nodes[top], gaps[top] = near, max(gap, low)
         top += 1
     return top
 
@@ -158,7 +174,7 @@ def _useless(tree, a, i, rules, gap):  # type: ignore[no-untyped-def]
     theiler, least, euclidean = rules
     if tree.ages[a, 0] >= i - theiler and tree.ages[a, 1] <= i + theiler:
         return True
-    return gap <= least and _reach(tree.box, a, tree.points, i, euclidean) <= least
+    return least > 0.0 and gap <= least and _reach(tree.box, a, tree.points, i, euclidean) <= least
 
 
 @numba.njit(**LEAN)
@@ -173,14 +189,16 @@ def seek(tree, i, rules, bound, index, distance, work):  # type: ignore[no-untyp
     nodes[0], gaps[0] = 0, 0.0
     while top > 0:
         top -= 1
-        a, gap = nodes[top], gaps[top]
+        a = nodes[top]
+        gap = _true_gap(tree, a, i, rules[2], gaps[top], bound)
         if gap > bound or _useless(tree, a, i, rules, gap) or _beaten(gap, tree.ages[a, 0], index, distance, found):
             continue
         if tree.link[a] >= 0:
+            gaps[top] = gap
             top = _fork(tree, a, i, rules[2], bound, (nodes, gaps, top))
             continue
         if tree.link[a] == SAME:
-            found = _repeats(tree, a, i, rules[0], gap, (index, distance, found))
+            found = _repeats(tree, a, i, rules, gap, (index, distance, found))
         else:
             found = _bucket(tree, a, i, rules, bound, (index, distance, found), far)
         if found == k:
@@ -216,14 +234,16 @@ def collect(tree, i, rules, radius, found, work):  # type: ignore[no-untyped-def
     nodes[0], gaps[0] = 0, 0.0
     while top > 0:
         top -= 1
-        a, gap = nodes[top], gaps[top]
-        if _useless(tree, a, i, rules, gap):
+        a = nodes[top]
+        gap = _true_gap(tree, a, i, rules[2], gaps[top], radius)
+        if gap > radius or _useless(tree, a, i, rules, gap):
             continue
         if _all_wanted(tree, a, i, rules, radius, gap):
             for p in range(tree.span[a, 0], tree.span[a, 1]):
                 found[many] = tree.order[p]
                 many += 1
         elif tree.link[a] >= 0:
+            gaps[top] = gap
             top = _fork(tree, a, i, rules[2], radius, (nodes, gaps, top))
         else:
             many = _pick(tree, a, i, rules, radius, found, many)
