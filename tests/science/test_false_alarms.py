@@ -16,6 +16,8 @@ from lostmotion_plugins.surrogates.iterated import Iaaft
 from lostmotion_plugins.surrogates.spectral import Aaft, Fourier
 
 N, REPEATS = 1024, 200
+SIDES = {"information": "high", "reversal": "two", "prediction": "low"}
+"""Where order shows: more information, a smaller error; time may run to either side."""
 STATISTICS = {
     "information": MutualInformation(),
     "reversal": TimeReversal(),
@@ -37,13 +39,13 @@ def curved(rng):
     return x * np.sqrt(np.abs(x))
 
 
-def rejections(make, surrogate, statistic, repeats=REPEATS):
+def rejections(make, surrogate, statistic, sided="two"):
     count = 0
-    for seed in range(repeats):
+    for seed in range(REPEATS):
         rng = np.random.default_rng([seed, 7])
         x = make(rng)
         data = Series(x - x.mean(), 1.0, Embedding(1, 2, 5))
-        count += surrogate_test(data, surrogate, statistic, draws=39, rng=rng).rejects()
+        count += surrogate_test(data, surrogate, statistic, draws=39, rng=rng, sided=sided).rejects()
     return count
 
 
@@ -62,17 +64,32 @@ def rejections(make, surrogate, statistic, repeats=REPEATS):
     ids=lambda v: getattr(v, "name", None) or v.__name__,
 )
 def test_false_alarms_are_as_stated(make, surrogate, statistic):
-    """Level 5 %, 39 surrogates, two-sided, 200 repetitions: at most the 99.9 % point of the binomial, 21."""
-    assert rejections(make, surrogate, STATISTICS[statistic]) <= binom.ppf(0.999, REPEATS, 0.05)
+    """Level 5 %, 39 surrogates, 200 repetitions: at most the 99.9 % point of the binomial, 21.
+
+    AAFT and information are left out: their surrogates are whiter than the recording, and so tell less (Schreiber,
+    Schmitz, Physical Review Letters 77 (1996) 635-638). The next test keeps that in mind.
+    """
+    if (surrogate.name, statistic) == ("aaft", "information"):
+        pytest.skip("AAFT surrogates are known to be whiter than the recording")
+    found = rejections(make, surrogate, STATISTICS[statistic], SIDES[statistic])
+    assert found <= binom.ppf(0.999, REPEATS, 0.05)
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    ("surrogate", "statistic", "least"), [(Fourier(), "information", 40), (Aaft(), "information", 10)]
-)
-def test_the_simpler_nulls_are_rejected_where_a_curved_sensor_breaks_them(surrogate, statistic, least):
-    """Fourier surrogates of a curved sensor: their null is wrong, and 74 of 200 said so; AAFT's are whitened (25)."""
-    assert rejections(curved, surrogate, STATISTICS[statistic]) >= least
+@pytest.mark.parametrize("surrogate", [Fourier(), Aaft(), Iaaft()], ids=lambda s: s.name)
+def test_two_sided_information_is_wrong_for_a_curved_sensor(surrogate):
+    """A warning kept as a test: 74, 25 and 27 of 200 instead of 10, nearly all on the low side.
+
+    The null of Fourier surrogates does not hold here, AAFT's are whitened, and the iteration leaves a dependence in
+    its own draws that the null does not have (Raeth et al., Physical Review Letters 109 (2012) 144101).
+    """
+    assert 15 <= rejections(curved, surrogate, STATISTICS["information"]) <= 100
+
+
+@pytest.mark.slow
+def test_information_of_aaft_surrogates_is_too_low():
+    """A warning kept as a test: more than the 21 false alarms of 200 that the level of 5 % allows."""
+    assert rejections(autoregressive, Aaft(), STATISTICS["information"], "high") > binom.ppf(0.999, REPEATS, 0.05)
 
 
 def periodic(rng, length, noise):

@@ -33,8 +33,8 @@ class PseudoPeriodic(Surrogate):
     noise radius `radius`, or the one with which most stretches of exactly two samples are those of the recording.
     `shuffle` chooses between the two by hand.
 
-    Small's walk is itself noisier than the recording: a statistic that feels noise, as a prediction error does, rejects
-    a noisy periodic orbit too. The shuffled periods do not have that fault.
+    Small's walk is itself noisier than the recording: prediction error and correlation dimension reject a noisy
+    periodic orbit too. The shuffled periods do not have that fault.
     """
 
     shuffle: bool | None = None
