@@ -9,6 +9,7 @@ from scipy.integrate import solve_ivp
 
 from lostmotion.errors import ContractError
 from lostmotion.flow import Harmonic, Stepped, flow_of, stepped
+from lostmotion.rates import exponent_in
 from lostmotion.system import System
 from lostmotion_plugins.models import _kernels
 from lostmotion_plugins.models.exact import ExactBacklash, exact_joint, exact_of
@@ -218,6 +219,21 @@ def test_exponent_of_case_1_to_a_thousandth():
     spectrum = LyapunovSpectrum(periods=20_000).estimate(exact(), rng=RNG)
     assert spectrum.details["sum"] == pytest.approx(-8.0, rel=1e-12)
     assert KaplanYorke(periods=20_000).estimate(exact(), rng=RNG).value == pytest.approx(2.476, abs=0.01)
+
+
+WINDOWS = {2.0: 0.052, 2.6: -0.0288, 4.1: -0.0288, 7.5: 0.060, 7.7: 0.057}
+"""1/alpha and bit per normalised time of Case 1: facts measured beside the paper with RK4 (Fig. 6, and what it found
+of it: 2.6 and 4.1 are periodic, with the multipliers of a complex pair, so that the exponent is -c / 2m)."""
+
+
+@pytest.mark.parametrize("inverse", WINDOWS)
+def test_windows_of_chaos_in_case_1(inverse):
+    """From each of 16 beginnings, within four half widths of its own interval."""
+    for start in np.random.default_rng(7).uniform(-1.0, 1.0, (16, 2)) * [0.0125, 1.5]:
+        flow = exact(drive=(200.0 / inverse, 40.0), start=start)
+        found = exponent_in(LyapunovMax(1000, 500).estimate(flow, rng=RNG), "bit/period", period=1.0 / 200.0)
+        assert found.status == "ok", found.says
+        assert found.value == pytest.approx(WINDOWS[inverse], abs=2.0 * (found.high - found.low))
 
 
 def test_the_general_flow_agrees():
