@@ -330,6 +330,14 @@ def test_a_periodic_motion_gets_a_plain_embedding(kind):
         assert found.theiler == 50
 
 
+def test_a_spike_does_not_decide_on_the_delay():
+    """A sine of 56 samples with one spike of ten thousand times its size: a quarter of the period is 14."""
+    for embedder in EMBEDDERS:
+        found = embedder.choose(checked(series("spike")), dt=0.01)
+        assert 8 <= found.lag <= 20
+        assert found.theiler == pytest.approx(56, abs=3)
+
+
 @pytest.mark.parametrize(("noise", "period"), [(0.0, 50), (0.5, 50)])
 def test_the_mean_period_is_that_of_the_motion_also_in_noise(noise, period):
     x = series("sine") + noise * np.random.default_rng(0).normal(size=3000)

@@ -17,6 +17,7 @@ from lostmotion_plugins.embedders.delay import (
     by_autocorrelation,
     by_information,
     by_neighbours,
+    tamed,
     theiler_window,
 )
 from lostmotion_plugins.embedders.dimension import (
@@ -55,7 +56,7 @@ class AmiCao(Embedder):
 
     def choose(self, x: Array, *, dt: float) -> Embedding:
         delay = by_information(
-            x, self.longest, bins=self.bins, equal_counts=self.equal_counts, prominence=self.prominence
+            tamed(x), self.longest, bins=self.bins, equal_counts=self.equal_counts, prominence=self.prominence
         )
         return _with_cao(x, delay, dt, self)
 
@@ -82,7 +83,7 @@ class AmiFnn(Embedder):
 
     def choose(self, x: Array, *, dt: float) -> Embedding:
         delay = by_information(
-            x, self.longest, bins=self.bins, equal_counts=self.equal_counts, prominence=self.prominence
+            tamed(x), self.longest, bins=self.bins, equal_counts=self.equal_counts, prominence=self.prominence
         )
         return _embedded(
             x, delay, dt, _Search(self.dims, self.norm, self.ratio, self.loneliness), lambda found: self._choice(found)
@@ -114,7 +115,9 @@ class AmiKnnCao(Embedder):
 
     def choose(self, x: Array, *, dt: float) -> Embedding:
         rng = np.random.default_rng(self.seed)
-        delay = by_neighbours(x, self.longest, rng=rng, k=self.neighbours, most=self.most, prominence=self.prominence)
+        delay = by_neighbours(
+            tamed(x), self.longest, rng=rng, k=self.neighbours, most=self.most, prominence=self.prominence
+        )
         return _with_cao(x, delay, dt, self)
 
 
@@ -136,7 +139,7 @@ class AutocorrelationCao(Embedder):
 
     def choose(self, x: Array, *, dt: float) -> Embedding:
         level = 0.0 if self.crossing == "zero" else float(np.exp(-1.0))
-        return _with_cao(x, by_autocorrelation(x, self.longest, level=level), dt, self)
+        return _with_cao(x, by_autocorrelation(tamed(x), self.longest, level=level), dt, self)
 
 
 @dataclass(frozen=True)
@@ -154,7 +157,7 @@ class Fixed(Embedder):
             raise ContractError(f"fixed: lag {self.lag} and dim {self.dim} are given, at least 1 and 1 are wanted")
         if self.theiler >= 0:
             return Embedding(self.lag, self.dim, self.theiler)
-        window, says = theiler_window(x)
+        window, says = theiler_window(tamed(x))
         return Embedding(self.lag, self.dim, window, status="uncertain" if says else "ok", says=says)
 
 
@@ -179,7 +182,7 @@ def _embedded(
     x: Array, delay: Delay, dt: float, search: _Search, choice: Callable[[Unfolding], Dimension]
 ) -> Embedding:
     """Return the embedding with that delay and the dimension that `choice` reads from the search."""
-    theiler, short = theiler_window(x)
+    theiler, short = theiler_window(tamed(x))
     curves = {**delay.curves, "lag": delay.curves["lag"] * dt}
     dims = room(len(x), delay.lag, search.dims, theiler)
     if dims < min(3, search.dims):

@@ -35,6 +35,18 @@ class Delay:
     says: str = ""
 
 
+def tamed(x: Array) -> Array:
+    """Return x (n,) with outliers cut back, if there are any: a single spike would fill all bins but two with nothing.
+
+    Outliers are there if all but 2 of 1000 samples lie within a quarter of the range.
+    """
+    low, high = np.quantile(x, [0.001, 0.999])
+    inner = high - low
+    if inner == 0.0 or np.ptp(x) <= 4.0 * inner:
+        return x
+    return np.clip(x, low - 0.5 * inner, high + 0.5 * inner)
+
+
 def autocorrelation(x: Array, lags: int) -> Array:
     """Return the autocorrelation (lags + 1,) of x, 1 at lag 0, by Fourier transform; each sum is divided by n."""
     centred = x - x.mean()

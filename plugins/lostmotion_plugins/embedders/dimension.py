@@ -211,5 +211,5 @@ def by_false_neighbours(found: Unfolding, *, share: float = 0.01, fewest: int = 
         "fnn",
         "not_saturating",
         f"{100 * found.fnn[dim - 1]:.2g} % of the nearest neighbours stay false in {dim} dimensions and more "
-        f"({100 * share:g} % wanted), as those of noise do",
+        f"({100 * share:g} % wanted): so it is with noise, and with few levels",
     )
