@@ -8,13 +8,14 @@ is a state of the machine. Of the distance only what stands across the flow is c
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
 from lostmotion.contracts import Array, Series
-from lostmotion.kernels.neighbours import grow, several
+from lostmotion.kernels.neighbours import Tree, grow, several
 from lostmotion.kernels.threads import spread
 from lostmotion.signals import delay_vectors
 from lostmotion_plugins.quantifiers._kernels_divergence import COUNT, FAR, follow, same_phase, visits
@@ -65,6 +66,11 @@ class States:
     def tie(self) -> float:
         """The distance below which two points are repeats of each other."""
         return TIES * self.size
+
+    @cached_property
+    def tree(self) -> Tree:
+        """The search tree of the points."""
+        return grow(self.points)
 
     @property
     def locked(self) -> bool:
@@ -144,7 +150,7 @@ def neighbours(made: States, wanted: Indices, limit: int, k: int) -> tuple[Indic
         law = (made.turn, made.theiler, tie * tie, limit)
         spread(lambda a, b: same_phase(made.points, wanted[a:b], law, found[a:b], skipped[a:b]), len(wanted))
         return found, float(skipped.mean())
-    tree = grow(made.points)
+    tree = made.tree
     some = wanted[:: max(1, len(wanted) // 300)]
     closest = several(made.points, 1, theiler=made.theiler, norm="euclidean", least=-1.0, queries=some, tree=tree)[1]
     left, many = np.arange(len(wanted)), 3 * k

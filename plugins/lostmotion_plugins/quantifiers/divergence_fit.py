@@ -30,7 +30,7 @@ LATE = (0.45, 0.6)
 """Ends to try where the usual one leaves nothing to fit."""
 FLOOR = 0.03
 """Share of the value that is always doubtful: what the method was off by on systems with known exponents."""
-POINTS = 25
+POINTS = 16
 FEW = 4
 PARTED = 0.35
 """Samples, and e-folds, that a region must hold."""

@@ -6,11 +6,13 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 
 import numpy as np
+from scipy.interpolate import CubicSpline
 
 from lostmotion.contracts import Array, Series
 from lostmotion.results import Estimate
 from lostmotion_plugins.quantifiers.divergence import (
     BLOCKS,
+    SMOOTH,
     Pairs,
     Spread,
     States,
@@ -23,7 +25,9 @@ from lostmotion_plugins.quantifiers.divergence_fit import Curves, Growth, curves
 
 Gather = Callable[[States, int, float], Pairs]
 UNIT = "1/s"
-FEWER = 0.5
+DRIFT = 0.05
+"""Samples by which the phase may drift over the record before it is sampled anew."""
+FEWER = 0.3
 """Share of the references that other embeddings are tried with."""
 LEAST = 500
 """Fewer points are refused."""
@@ -53,6 +57,7 @@ def exponent(series: Series, gather: Gather, *, before: bool = False) -> Estimat
     """Return the exponent (1/s) from the pairs that `gather(states, steps, share of the references)` finds."""
     if no := short(series):
         return no
+    series = commensurate(series)
     made = states(series)
     away = strangers(made)
     steps = horizon(made, away)
@@ -69,6 +74,20 @@ def exponent(series: Series, gather: Gather, *, before: bool = False) -> Estimat
     rates = [_rate(other, gather, steps, before) for other in others(series)]
     doubt = float(np.std([found.rate, *(r for r in rates if np.isfinite(r))]))
     return _judged(found, doubt, (made, read, c), details)
+
+
+def commensurate(series: Series) -> Series:
+    """Return the series with a whole number of samples to a drive period, by cubic splines where it has another.
+
+    Otherwise neighbours at one drive phase are half a sample off it, and a kink in between makes them look parted.
+    """
+    turn = series.period / series.dt if series.period else 0.0
+    whole = round(turn)
+    if series.period is None or turn < SMOOTH or abs(turn / whole - 1.0) * series.n < DRIFT:
+        return series
+    times = np.arange(int((series.n - 1) * whole / turn) + 1) * turn / whole
+    x = CubicSpline(np.arange(series.n), series.x)(times)
+    return replace(series, x=x, dt=series.period / whole)
 
 
 def others(series: Series) -> tuple[Series, ...]:

@@ -12,6 +12,7 @@ from lostmotion.kernels.neighbours import nearest, several
 from lostmotion.results import Estimate
 from lostmotion.signals import delay_vectors
 from lostmotion_plugins.quantifiers._kernels_divergence import walk
+from lostmotion_plugins.quantifiers.divergence import Indices
 from lostmotion_plugins.quantifiers.exponent import UNIT, refused, short
 
 LEAST = 10
@@ -47,8 +48,7 @@ class Wolf(Quantifier[Series]):
         points = delay_vectors(data.x, e.lag, e.dim)
         tie = 1e-9 * float(data.x.std())
         queries = np.arange(1, len(points) - steps, steps)
-        closest = nearest(points, theiler=e.theiler, norm="euclidean", least=-1.0, queries=queries)[1]
-        if (repeats := float((closest <= tie).mean())) > REPEATS:
+        if (repeats := _repeating(points, e.theiler, queries, tie)) > REPEATS:
             return refused("below_noise", f"{repeats:.0%} of the points repeat exactly: the motion is periodic")
         found, _ = several(points, self.choice, theiler=e.theiler, norm="euclidean", least=tie, queries=queries)
         near = np.full((len(points), self.choice), -1)
@@ -57,6 +57,15 @@ class Wolf(Quantifier[Series]):
         gained = room[: walk(points, near, (steps, tie * tie), room)]
         size = float(np.sqrt(2.0 * points.var(axis=0).sum()))
         return _noise(gained, size) or _estimated(gained[:, 1] / (steps * data.dt), steps * data.dt)
+
+
+def _repeating(points: Array, theiler: int, queries: Indices, tie: float) -> float:
+    """Return the share of points with a repeat that is still one ten pieces later: chaos parts them."""
+    index, far = nearest(points, theiler=theiler, norm="euclidean", least=-1.0, queries=queries)
+    step = 10 * int(queries[1] - queries[0]) if len(queries) > 1 else 1
+    same = (index >= 0) & (far <= tie) & (np.maximum(index, queries) + step < len(points))
+    later = points[queries[same] + step] - points[index[same] + step]
+    return float((np.sqrt((later**2).sum(axis=1)) <= tie).sum() / max(len(queries), 1))
 
 
 def _noise(gained: Array, size: float) -> Estimate | None:
