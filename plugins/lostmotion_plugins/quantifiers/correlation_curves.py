@@ -89,7 +89,7 @@ def quick_slope(data: Series) -> Estimate:
     sums = correlation_sums(it.x, it.lag, dim, theiler=data.embedding.theiler, effort=effort)
     log_c = sums.log_correlation[dim - 1]
     ends = math.log(max(SHARES[0], ENOUGH / float(sums.pairs.sum()))), math.log(SHARES[1])
-    rising = np.isfinite(log_c) & (np.diff(log_c, prepend=-np.inf) > 0.0)
+    rising = np.diff(sums.total[dim - 1], prepend=0.0) > 0.0
     if rising.sum() < 2:
         says = "all pairs lie equally far apart: the recording repeats itself, or has one step only"
         return Estimate.refused("no_scaling_region", says)

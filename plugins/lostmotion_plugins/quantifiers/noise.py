@@ -32,6 +32,8 @@ ENOUGH = 80
 """Pairs within a radius, in the larger dimension, from which on its slope is believed."""
 LEAST = 500
 DRAWS = 100
+SURE = 0.05
+"""Standard error (of the logarithm) above which a first look is not enough."""
 FEW, MANY = 40_000_000, 200_000_000
 """Pairs to look at first, and where they show no noise."""
 
@@ -55,7 +57,8 @@ def noise_level(
     step = quantisation(x)
     dithered = x + step * (rng.random(len(x)) - 0.5) if step > 0.0 else x
     found = _looked(dithered, embedding.theiler, step, rng, FEW)
-    return found if found.value > 0.0 or not thorough else _looked(dithered, embedding.theiler, step, rng, MANY)
+    sure = found.value > 0.0 and found.details["spread"] < SURE
+    return found if sure or not thorough else _looked(dithered, embedding.theiler, step, rng, MANY)
 
 
 def _looked(x: Array, theiler: int, step: float, rng: np.random.Generator, pairs: int) -> Estimate:
@@ -65,13 +68,14 @@ def _looked(x: Array, theiler: int, step: float, rng: np.random.Generator, pairs
     radii, floor = sums.radii / sd, step / sd
     value, most = _read(sums.total, radii, floor)
     curve = {"radius": _middle(radii), "excess": _excess(sums.total, HIGH)}
-    details = {"pairs": float(sums.pairs.sum()), "quantisation": floor}
+    details = {"pairs": float(sums.pairs.sum()), "quantisation": floor, "spread": 0.0}
     if not value > 0.0:
         says = f"no noise is seen: it is at most {100 * most:.2g} % of the motion"
         return Estimate(0.0, 0.0, most, "ok", "1", curve, says, details)
     drawn = [_read(total, radii, floor)[0] for total in sums.resampled(DRAWS, rng)]
     seen = np.log([v for v in drawn if v > 0.0] or [value])
     spread = 0.5 * float(np.diff(np.quantile(seen, [0.159, 0.841]))[0])
+    details["spread"] = spread
     wide = float(np.exp(np.hypot(1.96 * spread, SYSTEMATIC)))
     value = float(np.sqrt(max(value**2 - floor**2 / 12.0, (0.2 * value) ** 2)))
     return Estimate(value, value / wide, min(1.2, value * wide), "ok", "1", curve, "", details)
