@@ -11,7 +11,7 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from typing import Any, ClassVar, Generic, Literal, Protocol, TypeVar
+from typing import Any, ClassVar, Generic, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,10 +19,35 @@ from numpy.typing import NDArray
 from lostmotion.errors import ContractError, nearest
 from lostmotion.quantities import Dimension
 from lostmotion.results import Embedding, Estimate
+from lostmotion.subjects import Data, Flow, Orbit, Series
+
+__all__ = [
+    "KINDS",
+    "PSEUDO_NEEDS",
+    "Array",
+    "Assembly",
+    "Data",
+    "Denoiser",
+    "Drive",
+    "Embedder",
+    "Flow",
+    "Group",
+    "Interface",
+    "Model",
+    "Orbit",
+    "Param",
+    "Quantifier",
+    "Series",
+    "Surrogate",
+    "Term",
+    "Values",
+    "place_of",
+]
 
 Array = NDArray[np.float64]
 Values = tuple[float, ...]
 """What a term is handed for its parameters and states: numbers to be indexed, nothing to be written."""
+Drive = tuple[float, float, float]
 PSEUDO_NEEDS = ("step", "mobility")
 """What a term may need that is no parameter: `step`, the integration step in s, and `mobility`, step / inertia:
 the velocity that a unit force gives the body in one step. A law that jumps at zero velocity is as wide as
@@ -64,6 +89,19 @@ class Interface:
     holds: tuple[str, ...] = ()
 
 
+class Group(NamedTuple):
+    """A dimensionless number of a model: setting it sets the parameter `target` to `law(values, number)`.
+
+    `target` may also be "drive.amplitude"; `values` are the parameters in SI units, and "drive.omega" (rad/s).
+    """
+
+    name: str
+    meaning: str
+    formula: str
+    target: str
+    law: Callable[[Mapping[str, float], float], float]
+
+
 class Model(ABC):
     """A machine as a system of first-order equations, driven by what was *measured* going in.
 
@@ -79,6 +117,7 @@ class Model(ABC):
     channels: ClassVar[tuple[str, ...]]
     params: ClassVar[tuple[Param, ...]]
     interfaces: ClassVar[tuple[Interface, ...]]
+    groups: ClassVar[tuple[Group, ...]] = ()
 
     @staticmethod
     @abstractmethod
@@ -89,6 +128,11 @@ class Model(ABC):
     @abstractmethod
     def observe(t: float, y: Array, dydt: Array, u: Array, p: Array, seen: Array) -> None:
         """Write what the sensors see into `seen` (len(channels),); `dydt` already holds the forces of the terms."""
+
+    @classmethod
+    def exact(cls, values: Mapping[str, float], drive: Drive, start: Array | None) -> Flow | None:
+        """Return the flow under a drive (amplitude, omega, phase) where it is known in closed form, or None."""
+        return None
 
     def __add__(self, term: Term) -> Assembly:
         return Assembly(self) + term
@@ -169,57 +213,6 @@ def place_of(model: Model, term: Term) -> Interface:
     return places[term.at]
 
 
-@dataclass(frozen=True, eq=False)
-class Series:
-    """One recorded channel: `x` (n,) sampled every `dt` s, how it is embedded, and the period (s) of its drive.
-
-    `period` is None where nothing drives the machine, or nobody knows. The host has checked `x`: finite, not
-    constant, centred, double precision. Exact repeats do occur, as every encoder gives them.
-    """
-
-    x: Array
-    dt: float
-    embedding: Embedding
-    period: float | None = None
-
-    @property
-    def n(self) -> int:
-        """The number of samples."""
-        return len(self.x)
-
-
-@dataclass(frozen=True, eq=False)
-class Orbit:
-    """A model followed for some periods: states (periods + 1, n), logarithms of tangent growth (periods, k).
-
-    `growth` holds natural logarithms, the fastest direction first, one row to each period. `status` is "ok", or one
-    of `results.STATUSES`, and what lies behind the end of a diverged orbit is NaN.
-    """
-
-    states: Array
-    growth: Array
-    status: str = "ok"
-
-
-class Flow(Protocol):
-    """A model with fixed parameters under a periodic drive, as its stroboscopic map with tangent vectors.
-
-    `period` is the time (s) between two looks: that of the drive, or for a machine without one the time to be told.
-    `states` names the entries of a state; `start` (n,) is where an orbit begins unless told otherwise.
-    """
-
-    period: float
-    states: tuple[str, ...]
-    start: Array
-
-    def march(self, start: Array, *, periods: int, tangents: int) -> Orbit:
-        """Return the orbit from `start` (n,) at drive phase 0, with `tangents` tangent vectors kept orthogonal."""
-
-
-Data = TypeVar("Data", Series, Flow)
-"""What a quantifier reads: a `Series`, or a `Flow`."""
-
-
 class Embedder(ABC):
     """Chooses the delay and the dimension in which a series unfolds."""
 
@@ -261,7 +254,11 @@ class Surrogate(ABC):
 
     @abstractmethod
     def draw(self, series: Series, *, draws: int, rng: np.random.Generator) -> Array:
-        """Return surrogates (draws, m) of the series, m = n unless ends were cut off to make them meet."""
+        """Return surrogates (draws, m) of the series, m = n unless `piece` cuts its ends off."""
+
+    def piece(self, series: Series) -> slice:
+        """Return the part of the series that surrogates are made of: the recording is compared on the same part."""
+        return slice(0, series.n)
 
 
 class Denoiser(ABC):

@@ -91,14 +91,13 @@ def _require_enough(draws: int, sided: Sided) -> None:
 
 
 def _piece(series: Series, surrogate: Surrogate, drawn: Array, draws: int) -> slice:
-    """Return the piece that was drawn of: the surrogate says it in `piece`, or it is the beginning."""
+    """Return the piece that was drawn of, as the surrogate says it."""
     if drawn.ndim != 2 or len(drawn) != draws or not np.isfinite(drawn).all() or drawn.shape[1] > series.n:
         raise ContractError(
             f"{surrogate.name} returned an array {drawn.shape}, and {draws} finite rows of at most {series.n} were "
             "wanted: write to its author"
         )
-    asked = getattr(surrogate, "piece", None)
-    part = asked(series) if asked else slice(0, drawn.shape[1])
+    part = surrogate.piece(series)
     if part.stop - part.start != drawn.shape[1]:
         raise ContractError(f"{surrogate.name} says {part} and drew {drawn.shape[1]} samples: write to its author")
     return slice(part.start, part.stop)

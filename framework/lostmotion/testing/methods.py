@@ -50,6 +50,7 @@ class Spiral:
     """A flow that contracts by the rates -0.2 and -0.5 1/s whatever happens: its exponents are known."""
 
     period: float = 2.0
+    driven: bool = True
     states: tuple[str, ...] = ("position", "velocity")
 
     @property

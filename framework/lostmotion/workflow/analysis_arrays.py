@@ -9,7 +9,7 @@ import numpy as np
 
 from lostmotion.contracts import Array, Series
 from lostmotion.results import Embedding, Estimate
-from lostmotion.signals import spectrum, stroboscopic, without_harmonics
+from lostmotion.signals import poincare, spectrum, stroboscopic, without_harmonics
 from lostmotion.storage import Column
 
 if TYPE_CHECKING:
@@ -64,23 +64,19 @@ def _spectra(analysis: Analysis) -> Table:
 
 
 def _sections(analysis: Analysis) -> Table:
-    if analysis.beat.period is None:
-        return {}
-    unit, table = analysis.source.unit, {}
-    pairs = {"section": analysis.raw, "section_cleaned": analysis.clean}
-    for name, series in pairs.items():
-        if name == "section" or series is not analysis.raw:
-            said = "stroboscopic section: value and delayed value"
-            table[name] = Column(("hit", "axis"), _section(series, analysis.beat.period), unit, said)
+    unit = analysis.source.unit
+    table = {"section": Column(("hit", "axis"), _section(analysis.raw), unit, "section as recorded")}
+    if analysis.clean is not analysis.raw:
+        table["section_cleaned"] = Column(("hit_cleaned", "axis"), _section(analysis.clean), unit, "section, cleaned")
     return table
 
 
-def _section(series: Series, period: float) -> Array:
-    """Return the section (hits, 2) of a series at drive phase 0: its value and its delayed value."""
-    delay = series.embedding.lag
-    here = stroboscopic(series.x[: series.n - delay], series.dt, period)[1]
-    there = stroboscopic(series.x[delay:], series.dt, period)[1]
-    return np.stack([here, there], axis=1)
+def _section(series: Series) -> Array:
+    """Return the section (hits, 2) at drive phase 0, or where a series without a drive crosses its mean upwards."""
+    lag = series.embedding.lag
+    if series.period is None:
+        return np.asarray(poincare(series.x, dt=series.dt, lag=lag).points)
+    return np.asarray(stroboscopic(series.x, series.dt, series.period, lag=lag).points)
 
 
 def _embedding(prefix: str, chosen: Embedding) -> Table:
