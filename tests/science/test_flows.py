@@ -174,20 +174,22 @@ def red(rng, n, memory):
 
 @pytest.mark.parametrize("memory", [-0.7, 0.0, 0.8])
 def test_error_and_transient_are_judged_as_stated(memory):
-    """200 settled series: the interval misses in 5 % (bound: binomial, 1 in 10^4, with 2 % for its own estimate)."""
+    """200 settled series: the interval misses in 5 %, the alarm goes off in 1 % (bounds: binomial, below 1 in 1000)."""
     rng = np.random.default_rng(5)
     found = [LyapunovMax(800, 0).estimate(Told(red(rng, 800, memory)), rng=rng) for _ in range(200)]
-    assert sum(e.status == "uncertain" for e in found) <= 6
-    assert sum(not e.low <= 0.0 <= e.high for e in found) <= 14 + 14
+    assert sum(e.status == "uncertain" for e in found) <= 8
+    assert sum(not e.low <= 0.0 <= e.high for e in found) <= 21
 
 
-def test_a_transient_that_lasts_is_uncertain():
+@pytest.mark.parametrize("share", [0.15, 0.4, 0.85])
+def test_a_transient_that_lasts_is_uncertain(share):
+    """Chaos that ends in a periodic motion, early or late in what was looked at."""
     rng = np.random.default_rng(1)
-    slow = 0.3 * red(rng, 800, 0.5) - 1.0 + 2.0 * np.exp(-np.arange(800) / 200.0)
-    found = LyapunovMax(800, 0).estimate(Told(slow), rng=rng)
+    settled = np.arange(800) > share * 800
+    rates = np.where(settled, -3.0 + np.sin(np.arange(800)), 7.0 + 6.0 * red(rng, 800, 0.5))
+    found = LyapunovMax(800, 0).estimate(Told(rates), rng=rng)
     assert found.status == "uncertain"
     assert "not settled" in found.says
-    assert math.isfinite(found.value)
 
 
 BASE = {"m": 1.0, "c": 2.0, "k0": 4e3, "x0": 0.02, "mgl": 3.0}
