@@ -23,6 +23,30 @@ def encode(grid, begin, lag, count, out):  # type: ignore[no-untyped-def]
         out[i] = np.uint8(code if code > 0 else 0)
 
 
+@numba.njit(inline="always")
+def _widen(joint, single, shift, count):  # type: ignore[no-untyped-def]
+    """Raise the codes in `joint` to those of one more coordinate."""
+    for i in range(count):
+        code = single[i + shift]
+        joint[i] = code if code > joint[i] else joint[i]
+
+
+@numba.njit(inline="always")
+def _tally(joint, count, part, m):  # type: ignore[no-untyped-def]
+    """Count the codes in four histograms by turns: neighbours share a code, and one histogram would wait for itself.
+
+    The loops are written into their caller: handing over `part[m]` by a call costs half as much again as all else.
+    """
+    quarter = count // 4
+    for i in range(quarter):
+        part[m, 0, joint[4 * i]] += 1
+        part[m, 1, joint[4 * i + 1]] += 1
+        part[m, 2, joint[4 * i + 2]] += 1
+        part[m, 3, joint[4 * i + 3]] += 1
+    for i in range(4 * quarter, count):
+        part[m, 0, joint[i]] += 1
+
+
 @numba.njit(cache=True, nogil=True)
 def count_tile(grid, lag, span, lags, wanted, counts):  # type: ignore[no-untyped-def]
     """Add the pairs (i, i + k) of one tile, k in `lags`, to `counts` (dims, CODES): all dimensions in one pass.
@@ -45,34 +69,14 @@ def count_tile(grid, lag, span, lags, wanted, counts):  # type: ignore[no-untype
         encode(grid, low, k, count + reach, single)
         joint[:count] = single[:count]
         for m in range(dims):
-            _widen(joint, single, m * lag, count)
+            if m > 0:
+                _widen(joint, single, m * lag, count)
             if wanted[m]:
-                _tally(joint, count, part[m])
+                _tally(joint, count, part, m)
     for m in range(dims):
         for four in range(4):
             for code in range(CODES):
                 counts[m, code] += np.int64(part[m, four, code])
-
-
-@numba.njit(cache=True, nogil=True)
-def _widen(joint, single, shift, count):  # type: ignore[no-untyped-def]
-    """Raise the codes in `joint` to those of one more coordinate."""
-    for i in range(count):
-        code = single[i + shift]
-        joint[i] = code if code > joint[i] else joint[i]
-
-
-@numba.njit(cache=True, nogil=True)
-def _tally(joint, count, part):  # type: ignore[no-untyped-def]
-    """Count the codes in four histograms by turns: neighbours share a code, and one histogram would wait for itself."""
-    quarter = count // 4
-    for i in range(quarter):
-        part[0, joint[4 * i]] += 1
-        part[1, joint[4 * i + 1]] += 1
-        part[2, joint[4 * i + 2]] += 1
-        part[3, joint[4 * i + 3]] += 1
-    for i in range(4 * quarter, count):
-        part[0, joint[i]] += 1
 
 
 @numba.njit(cache=True, nogil=True)
