@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar, cast
 
-from lostmotion.contracts import Array, Flow, Interface, Model, Param
+from lostmotion.contracts import Array, Drive, Flow, Interface, Model, Param
 from lostmotion.quantities import DAMPING, INERTIA, LENGTH, STIFFNESS
 
 
@@ -56,9 +56,7 @@ class LinBacklash(Model):
         seen[2] = dydt[1]
 
     @classmethod
-    def exact(
-        cls, values: Mapping[str, float], drive: tuple[float, float, float], start: Array | None = None
-    ) -> Flow | None:
+    def exact(cls, values: Mapping[str, float], drive: Drive, start: Array | None) -> Flow | None:
         """Return the flow under (amplitude, omega, phase), solved in closed form from contact to contact."""
         from lostmotion_plugins.models.exact import exact_of
 

@@ -147,7 +147,7 @@ def _redrawn(mean: _Mean, rng: np.random.Generator) -> Array:
 
 def _followed(flow: Flow, periods: int, transient: int, tangents: int) -> _Growth:
     """Return the growth over `periods` behind the transient, or the refusal that stands in its place."""
-    nothing, driven = np.zeros((0, tangents)), bool(getattr(flow, "driven", True))
+    nothing, driven = np.zeros((0, tangents)), flow.driven
     if periods < _FEWEST:
         says = f"{periods} periods are too few to judge an error from: follow {_FEWEST} or more"
         return _Growth(nothing, flow.period, driven, _refused("too_short", says, nothing))
