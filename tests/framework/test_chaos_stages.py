@@ -128,11 +128,14 @@ def test_a_refusal_is_an_answer():
 
 
 def test_noise_is_measured_before_and_after():
-    series = embed(wave(), Plain(), dt=0.1)
+    series = embed(wave(4000), Plain(), dt=0.1)
     meter = Says(Estimate(0.1, 0.09, 0.11, "ok"))
-    done = denoise(series, Halves(), meter, rng=np.random.default_rng(0))
+    done = denoise(series, Halves(4000), meter, rng=np.random.default_rng(0))
     assert done.series.x == pytest.approx(0.5 * series.x)
     assert done.before is meter.answer
+    # What halves the whole signal leaves half of it as error: sd 0.25, and half of the noise that was put on.
+    assert done.after.value == pytest.approx(np.hypot(0.25, 0.05), rel=0.02)
+    assert done.after.low / done.after.value == pytest.approx(0.9)
 
 
 def test_a_series_without_noise_is_left_alone():

@@ -119,10 +119,12 @@ def analyse(source: Source, registry: Registry, request: Request, say: Say = lam
     if denoised.series is not raw:
         again = embed(denoised.series.x, embedder, dt=source.dt, period=beat.driven)
         denoised = replace(denoised, series=again)
+    # What noise reduction leaves is no longer white, and passes for slow growth: exponents are read from the raw series.
+    grown = _Measured(raw, registry, request, beat, say)
     measured = _Measured(denoised.series, registry, request, beat, say)
-    exponent, dimension = measured(EXPONENT, "exponent"), measured(DIMENSION, "dimension")
+    exponent, dimension = grown(EXPONENT, "exponent"), measured(DIMENSION, "dimension")
     entropy = measured(ENTROPY, "entropy")
-    others = {name: measured(name, "others") for name in request.quantifiers}
+    others = {name: grown(name, "others") for name in dict.fromkeys((*CHECKS, *request.quantifiers))}
     tests = _tests(raw, registry, request, say)
     return Analysis(
         source=source,
