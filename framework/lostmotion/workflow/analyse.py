@@ -28,12 +28,8 @@ from lostmotion.workflow.motion import Beat, Evidence, Verdict, beat_of, judged
 from lostmotion.workflow.source import Source, Wanted, source_of
 
 Say = Callable[[str], None]
-EXPONENT, DIMENSION, ENTROPY, METER = (
-    "lyapunov_rosenstein",
-    "correlation_dimension",
-    "correlation_entropy",
-    "noise_level",
-)
+EXPONENT, DIMENSION, ENTROPY = "lyapunov_kantz", "correlation_dimension", "correlation_entropy"
+METER, CHECKS = "noise_level", ("lyapunov_rosenstein",)
 CLEANER, STATISTIC = "local_projective", "prediction_error"
 STREAMS = ("denoise", "exponent", "dimension", "entropy", "surrogates", "others", "dimensions")
 QUIET = 0.003
@@ -119,7 +115,7 @@ def analyse(source: Source, registry: Registry, request: Request, say: Say = lam
     if denoised.series is not raw:
         again = embed(denoised.series.x, embedder, dt=source.dt, period=beat.driven)
         denoised = replace(denoised, series=again)
-    # What noise reduction leaves is no longer white, and passes for slow growth: exponents are read from the raw series.
+    # What noise reduction leaves is no longer white and makes growth look slow: exponents are read from the raw series.
     grown = _Measured(raw, registry, request, beat, say)
     measured = _Measured(denoised.series, registry, request, beat, say)
     exponent, dimension = grown(EXPONENT, "exponent"), measured(DIMENSION, "dimension")
