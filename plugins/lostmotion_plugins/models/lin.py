@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar, cast
 
-from lostmotion.contracts import Array, Drive, Flow, Interface, Model, Param
+from lostmotion.contracts import Array, Drive, Flow, Group, Interface, Model, Param
 from lostmotion.quantities import DAMPING, INERTIA, LENGTH, STIFFNESS
 
 
@@ -37,6 +37,15 @@ class LinBacklash(Model):
         Param("x0", "half gap", LENGTH, low=0.0, scale="log", aliases=("gap", "backlash")),
     )
     interfaces = (Interface("ground", row=1, inertia="m", motion=ground, holds=("k0", "x0")),)
+    groups = (
+        Group("stiffness_ratio", "stiffness of the free spring", "k1 / k0", "k1", lambda q, n: n * q["k0"]),
+        Group("zeta", "damping ratio", "c / (2 sqrt(k0 m))", "c", lambda q, n: 2.0 * n * math.sqrt(q["k0"] * q["m"])),
+        Group(
+            "frequency_ratio", "frequency of the drive", "omega / sqrt(k0 / m)", "drive.omega",
+            lambda q, n: n * math.sqrt(q["k0"] / q["m"]),
+        ),
+        Group("alpha", "amplitude of the drive", "A / (k0 x0)", "drive.amplitude", lambda q, n: n * q["k0"] * q["x0"]),
+    )  # fmt: skip
 
     @staticmethod
     def rhs(t: float, y: Array, u: Array, p: Array, dydt: Array) -> None:
