@@ -39,6 +39,7 @@ STATUSES: Mapping[str, str] = {
     "too_few_neighbours": "too few points come close enough to one another",
     "no_scaling_region": "the curve has no straight piece to read a slope from",
     "not_saturating": "the curve does not level off: no separation of scales, as noise has it",
+    "regular": "near states do not part: the motion is periodic or quasiperiodic",
     "rising": "the value keeps rising with the embedding dimension, as that of noise does",
     "below_noise": "what could be measured lies below the noise or the resolution of the sensor",
     "diverged": "the motion runs away",

@@ -53,10 +53,21 @@ class Flow(Protocol):
     that the phase of a drive is one more direction of the flow, whose exponent is zero.
     """
 
-    period: float
-    driven: bool
-    states: tuple[str, ...]
-    start: Array
+    @property
+    def period(self) -> float:
+        """The time (s) between two looks."""
+
+    @property
+    def driven(self) -> bool:
+        """Whether a drive keeps the time."""
+
+    @property
+    def states(self) -> tuple[str, ...]:
+        """The names of the states."""
+
+    @property
+    def start(self) -> Array:
+        """The state (n,) in which an orbit begins."""
 
     def march(self, start: Array, *, periods: int, tangents: int) -> Orbit:
         """Return the orbit from `start` (n,) at drive phase 0, with `tangents` tangent vectors kept orthogonal."""
