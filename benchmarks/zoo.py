@@ -127,11 +127,10 @@ def lines(parts: tuple[tuple[float, float], ...], n: int, dt: float) -> Callable
 
 
 def summed(*makers: Callable[[np.random.Generator], Array]) -> Callable[[np.random.Generator], Array]:
-    """Return a maker of the sum of series, each scaled to unit standard deviation but the first."""
+    """Return a maker of the sum of series."""
 
     def draw(rng: np.random.Generator) -> Array:
-        first, *rest = (m(rng) for m in makers)
-        return np.asarray(first + np.sum([r / np.std(r) for r in rest], axis=0))
+        return np.sum([m(rng) for m in makers], axis=0)
 
     return draw
 
@@ -140,6 +139,31 @@ def _shaped(maker: Callable[[np.random.Generator], Array]) -> Callable[[np.rando
     def draw(rng: np.random.Generator) -> Array:
         x = maker(rng)
         return np.sinh(1.5 * x / np.std(x))
+
+    return draw
+
+
+def surrogate(maker: Callable[[np.random.Generator], Array]) -> Callable[[np.random.Generator], Array]:
+    """Return a maker of noise with the spectrum and, nearly, the values of a series: amplitude-adjusted twice."""
+
+    def draw(rng: np.random.Generator) -> Array:
+        x = maker(rng)
+        wanted, ranks = np.abs(np.fft.rfft(x)), np.sort(x)
+        y = rng.permutation(x)
+        for _ in range(60):
+            z = np.fft.irfft(wanted * np.exp(1j * np.angle(np.fft.rfft(y))), len(x))
+            y = ranks[np.argsort(np.argsort(z))]
+        return np.asarray(y)
+
+    return draw
+
+
+def scaled(maker: Callable[[np.random.Generator], Array], size: float) -> Callable[[np.random.Generator], Array]:
+    """Return a maker of a series with this standard deviation."""
+
+    def draw(rng: np.random.Generator) -> Array:
+        x = maker(rng)
+        return np.asarray(size * x / np.std(x))
 
     return draw
 
@@ -154,6 +178,7 @@ def zoo(n: int = 10_000) -> list[Animal]:
     fifty, two = period / 50, period / 200
     chaos, twist = lin(100.0, 50, n), lin(100.0 * 2.0 / 2.6, 50, n)
     near = autoregressive((0.97 * np.exp(0.3j),), n)
+    tone = lines(((1.0, 1.0),), n, 0.0213)
     golden = (math.sqrt(5) - 1) / 2
     torus = lines(((1.0, 1.0), (0.6, golden), (0.2, 1.0 + golden), (0.1, 2.0 - golden)), n, 0.02)
     return [
@@ -172,7 +197,7 @@ def zoo(n: int = 10_000) -> list[Animal]:
         Animal("lin periodic 10 %", "periodic", noisy(twist, 0.10), fifty, period),
         Animal("lin 1/alpha 4.1", "periodic", lin(200.0 / 4.1, 50, n), fifty, period),
         Animal("lin 1/alpha 4.1 8 bit", "periodic", quantised(lin(200.0 / 4.1, 50, n), 8), fifty, period),
-        Animal("sine and noise", "periodic", noisy(lines(((1.0, 1.0),), n, 0.0213), 0.05), 0.0213),
+        Animal("sine and noise", "periodic", noisy(tone, 0.05), 0.0213),
         Animal("torus", "quasiperiodic", torus, 0.02),
         Animal("torus 5 %", "quasiperiodic", noisy(torus, 0.05), 0.02),
         Animal("white noise", "stochastic", lambda rng: rng.normal(size=n), 0.01),
@@ -181,5 +206,8 @@ def zoo(n: int = 10_000) -> list[Animal]:
         Animal("resonance in noise", "stochastic", near, 0.01),
         Animal("resonance, bent", "stochastic", _shaped(near), 0.01),
         Animal("narrow resonance", "stochastic", autoregressive((0.995 * np.exp(0.2j),), n), 0.01),
+        Animal("chaos made noise", "stochastic", surrogate(chaos), fifty),
+        Animal("lin period 3, 5 %", "periodic", noisy(lin(66.0, 50, n), 0.05), fifty, period),
+        Animal("sine, resonating floor", "periodic", summed(tone, scaled(near, 0.15)), 0.0213),
         Animal("two resonances", "stochastic", summed(near, autoregressive((0.98 * np.exp(0.9j),), n)), 0.01),
     ]

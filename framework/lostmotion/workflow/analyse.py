@@ -24,7 +24,7 @@ from lostmotion.stages.surrogates import SurrogateTest, surrogate_test
 from lostmotion.storage import folder_for, save_arrays, save_json
 from lostmotion.workflow.analysis_arrays import arrays_of
 from lostmotion.workflow.analysis_words import statement
-from lostmotion.workflow.motion import Beat, Evidence, Verdict, beat_of, judged
+from lostmotion.workflow.motion import CYCLES, Beat, Evidence, Verdict, beat_of, judged, returns
 from lostmotion.workflow.source import Source, Wanted, source_of
 
 Say = Callable[[str], None]
@@ -32,9 +32,12 @@ EXPONENT, DIMENSION, ENTROPY = "lyapunov_kantz", "correlation_dimension", "corre
 METER, CHECKS = "noise_level", ("lyapunov_rosenstein",)
 CLEANER, STATISTIC = "local_projective", "prediction_error"
 STREAMS = ("denoise", "exponent", "dimension", "entropy", "surrogates", "others", "dimensions")
-QUIET = 0.003
-"""Noise below this share of the standard deviation is left alone: no method here sees it."""
+QUIET, LOUD = 0.003, 0.3
+"""Noise below this share of the standard deviation is left alone, as no method here sees it; and above it, as no
+motion can be told from it."""
 PICTURED = 9
+FEW, APART = 8, 0.7
+"""A motion that returns after k of up to 8 periods so much better than after one is taken to be k times longer."""
 
 
 @dataclass(frozen=True)
@@ -179,7 +182,7 @@ def _cleaned(raw: Series, registry: Registry, request: Request) -> tuple[Denoise
     """Return the series with less noise, and how that was done."""
     meter, rng = _reader(registry, METER), request.rng("denoise")
     level = meter.estimate(raw, rng=rng)
-    if request.denoiser == "none" or (request.denoiser is None and not level.value > QUIET):
+    if request.denoiser == "none" or (request.denoiser is None and not QUIET < level.value < LOUD):
         return Denoised(raw, level, level), "none"
     name = request.denoiser or CLEANER
     return denoise(raw, registry.make("denoiser", name), meter, rng=rng), name
@@ -201,11 +204,20 @@ def _tests(raw: Series, registry: Registry, request: Request, say: Say) -> tuple
     tests = []
     for stream, name in zip(request.rng("surrogates").spawn(len(names)), names, strict=True):
         say(f"{name} surrogates")
-        surrogate = registry.make("surrogate", name)
+        surrogate = registry.make("surrogate", name, **_options(name, raw))
         tests.append(
             surrogate_test(raw, surrogate, statistic, draws=request.draws, rng=stream, sided="low", jobs=request.jobs)
         )
     return tuple(tests)
+
+
+def _options(name: str, raw: Series) -> dict[str, int]:
+    """Return the options of a surrogate: cycles stay together over as many periods as the motion needs to return."""
+    if name != CYCLES or raw.period is None:
+        return {}
+    spread = returns(raw, raw.period)[:FEW]
+    best = int(np.nanargmin(spread))
+    return {"together": best + 1} if spread[best] < APART * spread[0] else {}
 
 
 def _surrogate_dims(raw: Series, registry: Registry, request: Request, say: Say) -> Array | None:

@@ -20,7 +20,9 @@ Motion = Literal["periodic", "quasiperiodic", "chaotic", "stochastic", "undecide
 SLACK, FLOOR = 1.4, 0.01
 """What repeats to within so many times its noise, and a hundredth of its size, is taken to repeat."""
 TONES_FLOOR = 0.02
-SIGNIFICANT = 0.05
+SIGNIFICANT, CYCLES = 0.05, "pseudo_periodic"
+MOST_LEFT = 0.5
+"""Share of the variance that may not repeat in a motion that is called periodic but for fluctuations."""
 FEWEST_PERIODS = 20
 
 
@@ -87,7 +89,12 @@ def _fits(period: float, x: Array, dt: float) -> bool:
 
 def judged(evidence: Evidence) -> Verdict:
     """Return the verdict on a motion; the first that holds of periodic, quasiperiodic, chaotic and stochastic."""
-    return _periodic(evidence) or _quasiperiodic(evidence) or _ruled_or_random(evidence)
+    return _periodic(evidence) or _quasiperiodic(evidence) or _jittering(evidence) or _ruled_or_random(evidence)
+
+
+def returns(series: Series, period: float) -> Array:
+    """Return by how much x(t + k period) misses x(t), k = 1 ... 16, as a share of the standard deviation."""
+    return np.asarray(return_spread(series.x, series.dt, period) / math.sqrt(2.0))
 
 
 def _periodic(evidence: Evidence) -> Verdict | None:
@@ -96,7 +103,7 @@ def _periodic(evidence: Evidence) -> Verdict | None:
     if period is None:
         return None
     raw = evidence.raw
-    spread = return_spread(raw.x, raw.dt, period) / math.sqrt(2.0)
+    spread = returns(raw, period)
     limit = SLACK * evidence.noise + FLOOR
     back = np.flatnonzero(spread <= limit)
     if not len(back):
@@ -130,19 +137,40 @@ def _quasiperiodic(evidence: Evidence) -> Verdict | None:
     )
 
 
+def _jittering(evidence: Evidence) -> Verdict | None:
+    """Return the verdict if shuffled cycles look just like the recording and most of the motion repeats itself."""
+    cycles = [t for t in evidence.tests if t.method == CYCLES]
+    if evidence.beat.period is None or not cycles or any(t.rejects(SIGNIFICANT) for t in cycles):
+        return None
+    left = float(np.nanmin(returns(evidence.raw, evidence.beat.period)))
+    if left**2 > MOST_LEFT:
+        return None
+    return Verdict(
+        "periodic",
+        f"The motion repeats itself with a period of {evidence.beat.period:.4g} s but for random fluctuations of "
+        f"{100 * left:.2g} %: cycles in any other order look just like it (p = {cycles[0].p:.2g}).",
+        tuple(t.says for t in evidence.tests),
+    )
+
+
 def _ruled_or_random(evidence: Evidence) -> Verdict:
     """Return chaotic, stochastic or undecided, by the tests, the exponent and the dimension together."""
     exponent, dimension = evidence.exponent, evidence.dimension
-    rejected = [t.p <= SIGNIFICANT for t in evidence.tests]
+    rejected = [t.rejects(SIGNIFICANT) for t in evidence.tests]
     ruled = bool(rejected) and all(rejected)
     grows = exponent.status in ("ok", "uncertain") and exponent.low > 0.0
     levels = dimension.status in ("ok", "uncertain")
     because = (*(t.says for t in evidence.tests), _said("largest exponent", exponent), _said("dimension", dimension))
     if ruled and grows and (levels or dimension.status == "below_noise"):
         return Verdict("chaotic", _chaotic_words(evidence), because)
-    if not any(rejected) or (not grows and not levels):
+    if not any(rejected) or (not grows and not levels and not _silent(exponent, dimension)):
         return Verdict("stochastic", _stochastic_words(evidence), because)
     return Verdict("undecided", _undecided_words(ruled, grows, levels), because)
+
+
+def _silent(exponent: Estimate, dimension: Estimate) -> bool:
+    """Return whether both numbers are refused for want of data, which says nothing of the motion."""
+    return {exponent.status, dimension.status} <= {"too_short", "too_few_neighbours", "failed"}
 
 
 def _said(what: str, found: Estimate) -> str:
