@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, cast
 
-from lostmotion.contracts import Array, Interface, Model, Param
+from lostmotion.contracts import Array, Drive, Flow, Interface, Model, Param
 from lostmotion.quantities import DAMPING, FORCE, INERTIA, LENGTH, STIFFNESS
 
 
@@ -63,3 +64,10 @@ class RobotJoint(Model):
         seen[0] = y[0]
         seen[1] = y[1]
         seen[2] = dydt[1]
+
+    @classmethod
+    def exact(cls, values: Mapping[str, float], drive: Drive, start: Array | None) -> Flow | None:
+        """Return the flow under a base motion (amplitude, omega, phase), exact where the link has no weight."""
+        from lostmotion_plugins.models.exact import exact_joint
+
+        return cast("Flow | None", exact_joint(values, drive, start))
