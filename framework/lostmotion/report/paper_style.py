@@ -1,0 +1,76 @@
+"""What the figures of the paper share: panels, points, colours of exponents, and files in print quality."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colors import LinearSegmentedColormap, TwoSlopeNorm
+from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
+from PIL import Image
+
+from lostmotion.contracts import Array
+from lostmotion.report import style
+
+Data = Mapping[str, Any]
+DPI = 300
+COLOURS = ("#1a1a1a", "#0072b2", "#009e73", "#d55e00", "#cc79a7", "#8c6d00")
+"""Okabe and Ito, the lightest left out."""
+MARKS = ("o", "s", "^", "D", "v", "P")
+CALM_TO_CHAOS = LinearSegmentedColormap.from_list(
+    "calm to chaos", ["#3b6ea5", "#a9c4de", "#f7f7f4", "#f2b48a", "#b2380e"]
+)
+
+
+def files(figure: Figure, folder: Path, name: str) -> list[str]:
+    """Return the names of the PNG (300 dpi) and the PDF into which a figure was saved."""
+    pixels = io.BytesIO()
+    figure.savefig(pixels, format="png", dpi=DPI, metadata={"Software": None})
+    Image.open(pixels).convert("RGB").quantize(255, dither=Image.Dither.NONE).save(
+        folder / f"{name}.png", format="png", optimize=True, dpi=(DPI, DPI)
+    )
+    figure.savefig(folder / f"{name}.pdf", format="pdf", dpi=DPI, metadata={"CreationDate": None, "Creator": None})
+    return [f"{name}.png", f"{name}.pdf"]
+
+
+def panels(rows: int, columns: int, height: float, **options: Any) -> tuple[Figure, list[Axes]]:
+    """Return a figure `height` inches high with its panels, row by row."""
+    figure = style.blank(height)
+    made = figure.subplots(rows, columns, squeeze=False, **options)
+    return figure, [axes for row in made for axes in row]
+
+
+def letter(axes: list[Axes], titles: tuple[str, ...] | list[str]) -> None:
+    """Give each panel its letter and title."""
+    for k, (panel, title) in enumerate(zip(axes, titles, strict=True)):
+        panel.set_title(f"({chr(97 + k)}) {title}")
+
+
+def orbit(axes: Axes, x: Array, y: Array, *, width: float = 0.35, color: str = style.AFTER) -> None:
+    """Draw a trajectory: as pixels in a PDF, since it has some ten thousand points."""
+    axes.plot(x, y, color=color, lw=width, alpha=0.85, rasterized=True)
+    style.few_ticks(axes)
+
+
+def dots(axes: Axes, x: Array, y: Array, *, size: float = 1.2, color: str = style.AFTER, **options: Any) -> None:
+    """Draw points: as pixels in a PDF."""
+    axes.plot(x, y, ls="", marker="o", ms=size, mew=0, color=color, rasterized=True, **options)
+    style.few_ticks(axes)
+
+
+def shades(values: Array) -> TwoSlopeNorm:
+    """Return colours for exponents with white at zero; what lies far below zero is cut off."""
+    high = float(np.nanmax(values)) if np.isfinite(values).any() else 1.0
+    low = float(np.nanmin(values)) if np.isfinite(values).any() else -1.0
+    high = max(high, 1e-6)
+    return TwoSlopeNorm(0.0, vmin=min(max(low, -2.0 * high), -1e-6), vmax=high)
+
+
+def whole_ticks(axes: Axes) -> None:
+    """Mark whole numbers on the lower axis."""
+    axes.xaxis.set_major_locator(MaxNLocator(integer=True))

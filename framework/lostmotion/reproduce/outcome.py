@@ -1,0 +1,44 @@
+"""What one figure or table comes to: the arrays it is drawn from, key figures, and whether the paper's claim holds."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, Literal
+
+Verdict = Literal["reproduced", "reproduced in part", "not reproduced", "beyond the paper"]
+
+
+@dataclass(frozen=True)
+class Rows:
+    """A table: its column heads, with units, and rows of text or numbers."""
+
+    heads: tuple[str, ...]
+    rows: tuple[tuple[str | float, ...], ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Outcome:
+    """The outcome of one figure or table.
+
+    `data` is what its drawing takes, `numbers` are the key figures by name, `says` is one sentence: what was found,
+    against what the paper says.
+    """
+
+    verdict: Verdict
+    says: str
+    numbers: Mapping[str, float] = field(default_factory=dict)
+    data: Mapping[str, Any] = field(default_factory=dict)
+    table: Rows | None = None
+
+
+def judged(*claims: bool) -> Verdict:
+    """Return the verdict on a figure of which these claims hold or not."""
+    if all(claims):
+        return "reproduced"
+    return "reproduced in part" if any(claims) else "not reproduced"
+
+
+def listed(items: list[str]) -> str:
+    """Return the items as words: a, b and c."""
+    return items[0] if len(items) == 1 else ", ".join(items[:-1]) + " and " + items[-1] if items else "none"
