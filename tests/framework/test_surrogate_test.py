@@ -103,9 +103,9 @@ def test_two_sided_never_exceeds_one():
 
 def test_sentence_says_what_was_found():
     found = ranked(statistic_of(-1.0), sided="low")
-    assert found.says.startswith("Of 99 numbered surrogates none has a ")
+    assert found.says.startswith("None of 99 surrogates (numbered) has a ")
     assert "as low as the recording's (p = 0.01)" in found.says
-    assert found.says.endswith("that it is nothing is rejected at 5 %.")
+    assert found.says.endswith(": it is not nothing.")
     one, more = ranked(statistic_of(0.0), sided="low"), ranked(statistic_of(6.0), sided="low")
     assert "1 has" in one.says
     assert "7 have" in more.says

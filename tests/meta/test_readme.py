@@ -39,17 +39,17 @@ def lostmotion(*args):
 
 
 def table():
-    """Return the table of our models and terms as the README should have it."""
-    ours = [e for e in lostmotion("plugins") if e["owner"] == "lostmotion" and e["kind"] in ("model", "term")]
+    """Return the table of our plugins as the README should have it."""
+    ours = [e for e in lostmotion("plugins") if e["owner"] == "lostmotion"]
     rows = [(e["kind"], *said(e["name"])) for e in ours]
     lines = [f"| {kind} | `{name}` | {words} |" for kind, name, words in rows]
     return "\n".join(["| kind | name | what it is |", "|---|---|---|", *lines])
 
 
 def said(name):
-    """Return the name and the law of a plugin: the formula of a term, the first sentence about a model."""
+    """Return the name and the law of a plugin: the formula of a term, the first sentence about any other, uncited."""
     (sheet,) = lostmotion("plugins", "show", name)
-    words = sheet.get("formula") or re.split(r"\. [A-Z]", sheet["about"])[0].removesuffix(".")
+    words = sheet.get("formula") or re.split(r"\. [A-Z`]|: [A-Z][a-z]+, ", sheet["about"])[0].removesuffix(".")
     return name, words.replace("|", "\\|").replace("*", "\\*")
 
 
@@ -84,7 +84,7 @@ def test_no_address_of_an_index_and_no_path_of_a_machine(name):
 
 
 def test_term_of_the_readme_keeps_every_rule(tmp_path):
-    (code,) = blocks("python")
+    (code,) = (block for block in blocks("python") if "(Term)" in block)
     (tmp_path / "my_terms.py").write_text(code, encoding="utf-8")
     command = ("-m", "lostmotion", "--plugin", "my_terms.py", "plugins", "check", "cogging")
     done = subprocess.run([sys.executable, *command], cwd=tmp_path, capture_output=True, text=True, check=False)
@@ -104,6 +104,10 @@ def test_recording_and_case_of_the_readme_belong_together(tmp_path):
     assert load_case(path).model == "lin_backlash"
     (track,) = prepare(path, Registry.discover()).tracks
     assert track.samples == 3200
+    (steps,) = (block for block in blocks("python") if "surrogate_test" in block)
+    done = subprocess.run([sys.executable, "-c", steps], cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    assert len(done.stdout.split()) == 6
 
 
 def test_commands_of_the_readme_exist():

@@ -28,8 +28,15 @@ RATES = ("1/s", "bit/s", "1/period", "bit/period")
     type=click.Path(file_okay=False, path_type=Path),
     help="Where the results go.",
 )
-@click.option("--column", help="Which column of the recording, or which recording of the case.")
+@click.option(
+    "--column",
+    "columns",
+    multiple=True,
+    metavar="NAME",
+    help="Which column of the recording, or which recording of the case. Several, or NAME[*], are joined in order.",
+)
 @click.option("--rate", type=float, metavar="HZ", help="The sampling rate, where there is no column 'time'.")
+@click.option("--every", default=1, show_default=True, type=click.IntRange(1), help="Keep one sample of so many.")
 @click.option("--period", type=float, metavar="S", help="The period of the drive, where it was not recorded.")
 @click.option("--embedder", type=PluginName("embedder"), default="ami_cao", show_default=True)
 @click.option(
@@ -74,7 +81,7 @@ def _numbers(content: dict[str, object]) -> list[str]:
 
 def _said(entry: dict[str, object]) -> str:
     value = entry["value"]
-    if value is None:
+    if value is None or value != value:
         return f"no number: {entry['says']}"
     unit = "" if entry["unit"] == "1" else f" {entry['unit']}"
     return f"{value:.3g}{unit}  95 % [{entry['low']:.3g}, {entry['high']:.3g}]  {entry['says']}".rstrip()

@@ -139,12 +139,16 @@ def _sentence(test: SurrogateTest) -> str:
     if side == "two":
         side = "low" if test.p_low <= test.p_high else "high"
     worse = round((test.p_low if side == "low" else test.p_high) * (1 + n)) - 1 - test.refused
-    count = "none has" if worse == 0 else f"{worse} {'has' if worse == 1 else 'have'}"
+    count = "None" if worse == 0 else str(worse)
     tails = ", two-sided" if test.sided == "two" else ""
-    level = f"p = {test.p:.2g}{tails}"
-    says = f"Of {n} {test.method} surrogates {count} a {test.statistic} as {side} as the recording's ({level})"
-    verdict = "is not rejected" if not test.rejects() else "is rejected"
+    verb = "has" if worse < 2 else "have"
+    told = " ".join(test.statistic.split("_"))
+    says = (
+        f"{count} of {n} surrogates ({test.method}) {verb} a {told} as {side} as the recording's "
+        f"(p = {test.p:.2g}{tails})"
+    )
+    verdict = "it is not" if test.rejects() else "it may be"
     lost = ""
     if test.refused:
         lost = f" For {test.refused} surrogates it was refused: they count against a rejection."
-    return f"{says}: that it is {test.null} {verdict} at 5 %.{lost}"
+    return f"{says}: {verdict} {test.null}.{lost}"

@@ -44,8 +44,9 @@ FEW, APART = 8, 0.7
 class Request:
     """What is asked for: which channel, which methods, how many surrogates, the unit of exponents, seed and cores."""
 
-    column: str | None = None
+    columns: tuple[str, ...] = ()
     rate: float | None = None
+    every: int = 1
     period: float | None = None
     embedder: str = "ami_cao"
     denoiser: str | None = None
@@ -91,7 +92,7 @@ def run_analysis(
     """Return the content of `analysis.json` after writing it, the arrays and the report into the folder `out`."""
     say("reading")
     _require_known(registry, request)
-    source = source_of(path, Wanted(request.column, request.rate))
+    source = source_of(path, Wanted(request.columns, request.rate, request.every))
     folder = folder_for(out)
     analysis = analyse(source, registry, request, say)
     say("report")

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field, fields
 from pathlib import Path
 
 from lostmotion.errors import CaseError, DataError
@@ -15,8 +14,7 @@ from lostmotion.study.layout import layout_of
 from lostmotion.study.map import Map
 from lostmotion.study.refine import MOST, cleared, finished_layout, refined
 from lostmotion.study.rig import DRIVE, Rig
-from lostmotion.study.store import ENDINGS, holds, load, remove, save_netcdf, save_zarr
-from lostmotion.study.store import as_dataset
+from lostmotion.study.store import ENDINGS, as_dataset, holds, load, remove, save_netcdf, save_zarr
 from lostmotion.study.sweep import Crew, Say, sweep
 from lostmotion.workflow.drives import Options, number, pairs
 from lostmotion.workflow.simulate import assembly_of
@@ -58,10 +56,10 @@ def study_of(request: Request, registry: Registry) -> Study:
     settings = {"periods": request.periods, "transient": request.transient}
     further = {}
     for name in request.quantities:
-        kind = registry.load("quantifier", SHORT.get(name, name))
-        known = settings if kind.reads == "flow" else {}
         if name != "lyapunov_max":
-            further[name] = registry.make("quantifier", SHORT.get(name, name), **known)
+            full = SHORT.get(name, name)
+            known = {entry.name for entry in fields(registry.load("quantifier", full))}
+            further[name] = registry.make("quantifier", full, **{k: v for k, v in settings.items() if k in known})
     embedder = registry.make("embedder", EMBEDDER) if any(q.reads == "series" for q in further.values()) else None
     exponent = registry.make("quantifier", "lyapunov_max", **settings)
     study = Study(
@@ -98,7 +96,7 @@ def _try_ends(study: Study) -> None:
 class How:
     """How a map is made: who computes, how often squares are halved, and whether what is there is thrown away."""
 
-    crew: Crew = Crew()
+    crew: Crew = field(default_factory=Crew)
     levels: int = 0
     fresh: bool = False
 
@@ -142,5 +140,3 @@ def _refine(study: Study, out: Path, how: How, say: Say) -> None:
     else:
         save_zarr(out, layout, columns)
     cleared(parts)
-
-

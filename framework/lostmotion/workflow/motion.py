@@ -23,7 +23,7 @@ TONES_FLOOR = 0.02
 SIGNIFICANT, CYCLES = 0.05, "pseudo_periodic"
 MOST_LEFT = 0.5
 """Share of the variance that may not repeat in a motion that is called periodic but for fluctuations."""
-FEWEST_PERIODS = 20
+FEWEST_PERIODS, ENOUGH_PERIODS = 20, 100
 
 
 @dataclass(frozen=True)
@@ -138,19 +138,34 @@ def _quasiperiodic(evidence: Evidence) -> Verdict | None:
 
 
 def _jittering(evidence: Evidence) -> Verdict | None:
-    """Return the verdict if shuffled cycles look just like the recording and most of the motion repeats itself."""
+    """Return the verdict if most of the motion repeats itself, and what does not shows no sign of being ruled."""
+    period = evidence.beat.period
+    if period is None:
+        return None
+    left = float(np.nanmin(returns(evidence.raw, period)))
     cycles = [t for t in evidence.tests if t.method == CYCLES]
-    if evidence.beat.period is None or not cycles or any(t.rejects(SIGNIFICANT) for t in cycles):
+    shuffled = bool(cycles) and not any(t.rejects(SIGNIFICANT) for t in cycles)
+    if left**2 > MOST_LEFT or not (shuffled or not (_grows(evidence.exponent) or _levels(evidence.dimension))):
         return None
-    left = float(np.nanmin(returns(evidence.raw, evidence.beat.period)))
-    if left**2 > MOST_LEFT:
-        return None
+    why = (
+        f"cycles in any other order look just like it (p = {cycles[0].p:.2g})"
+        if shuffled
+        else "neither a growth of small differences nor a dimension can be found in them"
+    )
     return Verdict(
         "periodic",
-        f"The motion repeats itself with a period of {evidence.beat.period:.4g} s but for random fluctuations of "
-        f"{100 * left:.2g} %: cycles in any other order look just like it (p = {cycles[0].p:.2g}).",
+        f"The motion repeats itself with a period of {period:.4g} s but for random fluctuations of {100 * left:.2g} %: "
+        f"{why}.",
         tuple(t.says for t in evidence.tests),
     )
+
+
+def _grows(exponent: Estimate) -> bool:
+    return exponent.status in ("ok", "uncertain") and exponent.low > 0.0
+
+
+def _levels(dimension: Estimate) -> bool:
+    return dimension.status in ("ok", "uncertain")
 
 
 def _ruled_or_random(evidence: Evidence) -> Verdict:
@@ -158,19 +173,22 @@ def _ruled_or_random(evidence: Evidence) -> Verdict:
     exponent, dimension = evidence.exponent, evidence.dimension
     rejected = [t.rejects(SIGNIFICANT) for t in evidence.tests]
     ruled = bool(rejected) and all(rejected)
-    grows = exponent.status in ("ok", "uncertain") and exponent.low > 0.0
-    levels = dimension.status in ("ok", "uncertain")
+    grows, levels = _grows(exponent), _levels(dimension)
     because = (*(t.says for t in evidence.tests), _said("largest exponent", exponent), _said("dimension", dimension))
     if ruled and grows and (levels or dimension.status == "below_noise"):
         return Verdict("chaotic", _chaotic_words(evidence), because)
-    if not any(rejected) or (not grows and not levels and not _silent(exponent, dimension)):
+    if not any(rejected) or (not grows and not levels and _long_enough(evidence)):
         return Verdict("stochastic", _stochastic_words(evidence), because)
     return Verdict("undecided", _undecided_words(ruled, grows, levels), because)
 
 
-def _silent(exponent: Estimate, dimension: Estimate) -> bool:
-    """Return whether both numbers are refused for want of data, which says nothing of the motion."""
-    return {exponent.status, dimension.status} <= {"too_short", "too_few_neighbours", "failed"}
+def _long_enough(evidence: Evidence) -> bool:
+    """Return whether refusals speak against chaos, and not only of a short recording."""
+    statuses = {evidence.exponent.status, evidence.dimension.status}
+    short = statuses & {"too_short", "too_few_neighbours", "failed"}
+    period = evidence.beat.period
+    periods = math.inf if period is None else evidence.raw.n * evidence.raw.dt / period
+    return not short and periods >= ENOUGH_PERIODS
 
 
 def _said(what: str, found: Estimate) -> str:
@@ -183,10 +201,11 @@ def _said(what: str, found: Estimate) -> str:
 def _chaotic_words(evidence: Evidence) -> str:
     exponent, dimension = evidence.exponent, evidence.dimension
     p = max(t.p for t in evidence.tests)
-    level = f", its correlation dimension levels off at {dimension.value:.2f}" if math.isfinite(dimension.value) else ""
+    level = f", the correlation dimension levels off at {dimension.value:.2f}" if math.isfinite(dimension.value) else ""
     return (
-        f"Neighbouring states part at {exponent.value:.3g} {exponent.unit} [{exponent.low:.3g}, {exponent.high:.3g}]"
-        f"{level}, and noise with the same spectrum and values does not look like it (p = {p:.2g})."
+        f"All signs agree: neighbouring states part at {exponent.value:.3g} {exponent.unit} [{exponent.low:.3g}, "
+        f"{exponent.high:.3g}]{level}, and noise with the same spectrum and values does not look like it "
+        f"(p = {p:.2g})."
     )
 
 

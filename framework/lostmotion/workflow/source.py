@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -21,10 +21,21 @@ TIMES = ("time", "t", "Time", "time_s")
 
 @dataclass(frozen=True)
 class Wanted:
-    """Which channel is meant: a column or the name of a recording, and the sampling rate (Hz) where no time stands."""
+    """Which channel is meant: columns or the name of a recording; the rate (Hz) where there is no time; one in `every`.
 
-    column: str | None = None
+    Several columns are pieces of one motion, and joined in their order; one sample in `every` is kept.
+    """
+
+    columns: tuple[str, ...] = ()
     rate: float | None = None
+    every: int = 1
+
+    @property
+    def column(self) -> str | None:
+        """The one column or recording that was named, if one was."""
+        if len(self.columns) > 1:
+            raise CaseError(f"a case gives one recording at a time, and {len(self.columns)} were named: name one")
+        return self.columns[0] if self.columns else None
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,7 +54,18 @@ class Source:
 
 def source_of(path: Path, wanted: Wanted) -> Source:
     """Return the channel to look at: the response of a case file (.toml), or the column of a bare recording."""
-    return _of_case(path, wanted) if path.suffix.lower() == ".toml" else _of_file(path, wanted)
+    source = _of_case(path, wanted) if path.suffix.lower() == ".toml" else _of_file(path, wanted)
+    if wanted.every == 1:
+        return source
+    note = f"One sample of {wanted.every} is kept, as asked: what is faster than that folds back."
+    drive = None if source.excitation is None else source.excitation[:: wanted.every]
+    return replace(
+        source,
+        x=source.x[:: wanted.every],
+        dt=source.dt * wanted.every,
+        excitation=drive,
+        notes=(*source.notes, note),
+    )
 
 
 def _of_case(path: Path, wanted: Wanted) -> Source:
@@ -90,33 +112,48 @@ def _whole_stretch(x: Array, notes: list[str]) -> slice:
 def _of_file(path: Path, wanted: Wanted) -> Source:
     columns = read_columns(path)
     clock = next((name for name in TIMES if name in columns), None)
-    name = _column(columns, wanted.column, clock, path.name)
-    x = columns[name]
-    dt, told = _clocked(columns, clock, wanted, len(x), path.name)
+    names = _named(columns, wanted.columns, clock, path.name)
+    dt, told = _clocked(columns, clock, wanted, len(columns[names[0]]), path.name)
     notes = list(told)
+    pieces = [columns[name][_whole_stretch(columns[name], notes)] for name in names]
+    if len(pieces) > 1:
+        notes.append(
+            f"{len(pieces)} pieces are joined, {', '.join(map(str, sorted({len(p) for p in pieces})))} samples long: "
+            "they are taken for one motion whose drive keeps its phase, and what spans a joint is wrong."
+        )
     return Source(
         title=path.stem,
-        x=x[_whole_stretch(x, notes)],
+        x=np.concatenate(pieces),
         dt=dt,
         unit="",
-        label=name,
+        label=names[0] if len(names) == 1 else names[0].partition("[")[0],
         excitation=None,
         inputs={path.name: digest(path)},
         notes=tuple(notes),
     )
 
 
-def _column(columns: dict[str, Array], asked: str | None, clock: str | None, source: str) -> str:
+def _named(columns: dict[str, Array], asked: tuple[str, ...], clock: str | None, source: str) -> tuple[str, ...]:
+    """Return the columns that are meant; `name[*]` stands for name[0], name[1], ..."""
+    if asked:
+        return tuple(found for name in asked for found in _matching(columns, name, source))
     others = [name for name in columns if name != clock]
-    if asked is not None:
-        if asked not in columns:
-            raise DataError(f"{source} has no column {asked!r}{nearest(asked, columns)}: it has {', '.join(columns)}")
-        return asked
     if len(others) != 1:
-        raise DataError(
-            f"{source} has {len(others)} columns besides time ({', '.join(others) or 'none'}): name one with --column"
-        )
-    return others[0]
+        raise DataError(f"{source} has {len(others)} columns besides time ({_listed(others)}): name one with --column")
+    return (others[0],)
+
+
+def _matching(columns: dict[str, Array], name: str, source: str) -> list[str]:
+    stem = name.removesuffix("[*]")
+    found = [c for c in columns if c == name or (stem != name and c.startswith(f"{stem}["))]
+    if not found:
+        raise DataError(f"{source} has no column {name!r}{nearest(name, columns)}: it has {_listed(list(columns))}")
+    return found
+
+
+def _listed(names: list[str], most: int = 12) -> str:
+    more = f" and {len(names) - most} more" if len(names) > most else ""
+    return (", ".join(names[:most]) or "none") + more
 
 
 def _clocked(
