@@ -1,0 +1,165 @@
+"""A machine whose knobs can be turned: parameters, dimensionless numbers, the drive, and where it starts."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+
+from lostmotion.contracts import Array, Assembly, Flow, Group
+from lostmotion.errors import CaseError, nearest
+from lostmotion.flow import Harmonic, flow_of
+from lostmotion.system import System
+
+DRIVE = {"amplitude": "amplitude of the drive", "omega": "angular frequency of the drive", "phase": "its phase"}
+OMEGA = 0.2
+"""The drive of a normalised machine, over its natural frequency, as in Table 1 of the paper."""
+
+
+@dataclass(frozen=True)
+class Knob:
+    """Something of a machine that can be set: `kind` is "group", "parameter", "drive" or "start"."""
+
+    name: str
+    kind: str
+    key: str
+    unit: str
+    meaning: str
+
+
+@dataclass(frozen=True)
+class Rig:
+    """A model with its terms, the knobs that are `fixed`, and the names of those that are `swept`.
+
+    It is normalised where no parameter of the model is set: all that set a scale are then one, so that a time is in
+    units of 1 / omega_0 (t_bar), and the dimensionless numbers of the model say the rest.
+    """
+
+    assembly: Assembly
+    swept: tuple[str, ...]
+    fixed: Mapping[str, float] = field(default_factory=dict)
+
+    def __reduce__(self) -> tuple[type[Rig], tuple[object, ...]]:
+        """Return what a worker needs to make this rig again: nothing that was compiled or looked up."""
+        return Rig, (self.assembly, self.swept, dict(self.fixed))
+
+    @cached_property
+    def system(self) -> System:
+        """The model with its terms as something that runs."""
+        return System.of(self.assembly)
+
+    @cached_property
+    def groups(self) -> Mapping[str, Group]:
+        """The dimensionless numbers of the model by name."""
+        return {group.name: group for group in self.assembly.model.groups}
+
+    @cached_property
+    def normalised(self) -> bool:
+        """Whether the parameters of the model stand at one, and time is t_bar."""
+        told = [self.knob(name) for name in (*self.fixed, *self.swept)]
+        own = any(knob.kind == "parameter" and "." not in knob.key for knob in told)
+        return bool(self.groups) and not own
+
+    @property
+    def time_unit(self) -> str:
+        """The unit of a time."""
+        return "t_bar" if self.normalised else "s"
+
+    def knob(self, name: str) -> Knob:
+        """Return the knob called `name`, or raise `CaseError` naming the nearest."""
+        head, _, tail = name.partition(".")
+        if name in self.groups:
+            group = self.groups[name]
+            return Knob(name, "group", group.target, "1", f"{group.meaning}, {group.formula}")
+        if head == "drive" and tail in DRIVE:
+            return Knob(name, "drive", name, self._drive_unit(tail), DRIVE[tail])
+        if head == "start" and tail in self.assembly.model.states:
+            return Knob(name, "start", name, "", f"{tail} at the start")
+        return self._parameter(name)
+
+    def _parameter(self, name: str) -> Knob:
+        for slot in self.system.slots:
+            if name == slot.key or (slot.term is None and name in slot.param.aliases):
+                return Knob(name, "parameter", slot.key, slot.unit, slot.param.meaning)
+        states = [f"start.{state}" for state in self.assembly.model.states]
+        known = [*self.groups, *(s.key for s in self.system.slots), *(f"drive.{key}" for key in DRIVE), *states]
+        raise CaseError(f"{self.assembly.label} has no {name!r}{nearest(name, known)}: it has {', '.join(known)}")
+
+    def unit(self, name: str) -> str:
+        """Return the unit of a knob as it is swept."""
+        return "1" if self.normalised else self.knob(name).unit or "1"
+
+    def _drive_unit(self, key: str) -> str:
+        if key != "amplitude":
+            return "rad/s" if key == "omega" else "rad"
+        turns = self.assembly.model.motion == "rotation"
+        if "force" in self.assembly.model.inputs:
+            return "N m" if turns else "N"
+        return "rad" if turns else "m"
+
+    def checked(self) -> Rig:
+        """Return this rig, or raise `CaseError` when a knob is unknown, is set twice over, or is wanting."""
+        found: dict[str, str] = {}
+        for name in (*self.fixed, *self.swept):
+            knob = self.knob(name)
+            if knob.key in found:
+                raise CaseError(f"{found[knob.key]} and {name} both set {knob.key}: keep one")
+            found[knob.key] = name
+        if self.normalised:
+            lacking = [g.name for g in self.groups.values() if g.target not in found and self._wanted(g.target)]
+        else:
+            lacking = [f"drive.{key}" for key in ("amplitude", "omega") if f"drive.{key}" not in found]
+        if lacking:
+            raise CaseError(
+                f"{lacking[0]} is not given: add --set {lacking[0]}=..., or sweep it with --x, --y or --axis"
+            )
+        return self
+
+    def _wanted(self, target: str) -> bool:
+        """Return whether the target of a dimensionless number has no value that goes without saying."""
+        if target.startswith("drive."):
+            return target == "drive.amplitude"
+        return self.system.slot(target).param.scale == "log"
+
+    @cached_property
+    def _plan(self) -> Mapping[str, Knob]:
+        return {name: self.knob(name) for name in (*self.fixed, *self.swept)}
+
+    @cached_property
+    def _usual(self) -> dict[str, float]:
+        """What parameters and drive are before anything is set."""
+        if not self.normalised:
+            return {}
+        ones = {q.name: 1.0 for q in self.assembly.model.params if q.scale == "log"}
+        return {**ones, "drive.omega": OMEGA}
+
+    def flow(self, point: Mapping[str, float]) -> tuple[Flow, dict[int, float]]:
+        """Return the flow with the swept knobs at `point`, and the states (index: value) whose start is told."""
+        numbers, values, begin = {**self.fixed, **point}, dict(self._usual), {}
+        for name, number in numbers.items():
+            knob = self._plan[name]
+            if knob.kind == "start":
+                begin[self.assembly.model.states.index(name.partition(".")[2])] = number
+            elif knob.kind != "group":
+                values[knob.key] = number
+        for group in self.assembly.model.groups:
+            if group.name in numbers:
+                values[group.target] = group.law(values, numbers[group.name])
+        beat = Harmonic(*(values.pop(f"drive.{key}", 0.0) for key in DRIVE))
+        return flow_of(self.system, values, drive=beat), begin
+
+
+def reach(flow: Flow, periods: int = 40, looks: int = 8) -> Array:
+    """Return the largest size (n,) of each state on the way from the start of the flow, one where it does not move."""
+    sample = getattr(flow, "sample", None)
+    seen = sample(flow.start, periods=periods, looks=looks) if sample else _strobed(flow, periods)
+    seen = seen[np.isfinite(seen).all(axis=1) & (np.abs(seen) < 1e6 * (1.0 + np.abs(seen[:1]))).all(axis=1)]
+    size = np.abs(seen).max(axis=0, initial=0.0)
+    wide: Array = np.where(size > 0.0, size, float(size.max(initial=0.0)) or 1.0)
+    return wide
+
+
+def _strobed(flow: Flow, periods: int) -> Array:
+    return flow.march(flow.start, periods=periods, tangents=0).states

@@ -1,0 +1,228 @@
+"""A map on the disk as it grows: a zarr store whose chunks are whole or absent, and which one process writes at a time.
+
+`status` is written last of a chunk, so a chunk is done when its file of `status` is there. The one door to zarr.
+"""
+
+from __future__ import annotations
+
+import fcntl
+import json
+import os
+import shutil
+import warnings
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+import zarr
+from numpy.typing import NDArray
+
+from lostmotion.errors import DataError
+from lostmotion.storage import whole
+from lostmotion.study.cells import Columns
+from lostmotion.study.layout import SCHEMA, Layout
+
+ENDINGS = (".zarr", ".nc")
+"""The endings of a map, which tell its format."""
+_LAST = "status"
+
+
+@contextmanager
+def opened(path: Path, layout: Layout, *, fresh: bool = False) -> Iterator[Store]:
+    """Yield the store of a map at `path`, made if it is not there, and held by this process alone.
+
+    Raises `DataError` when something else is there, or a map with other settings, unless a `fresh` one is wanted.
+    """
+    _clear(path, fresh)
+    if not path.exists():
+        _make(path, layout)
+    with _held(path):
+        _require_same(path, _require_ours(path), layout)
+        for rest in path.rglob("*.partial"):
+            rest.unlink()
+        yield Store(path, layout)
+
+
+class Store:
+    """The growing map: which chunks are pending, and where a finished one goes."""
+
+    def __init__(self, path: Path, layout: Layout) -> None:
+        self.path, self.layout = path, layout
+        self._group = zarr.open_group(path, mode="r+", zarr_format=3)
+
+    @property
+    def pending(self) -> list[tuple[slice, ...]]:
+        """The chunks that are not there yet, in order."""
+        steps = self.layout.block
+        return [
+            chunk
+            for chunk in self.layout.chunks
+            if not self._file(tuple(piece.start // step for piece, step in zip(chunk, steps, strict=True))).exists()
+        ]
+
+    def _file(self, number: tuple[int, ...]) -> Path:
+        return self.path.joinpath(_LAST, "c", *map(str, number), "0")
+
+    def write(self, chunk: tuple[slice, ...], columns: Columns) -> None:
+        """Write the columns (cells, starts) of a chunk, whatever tells that it is done last."""
+        shape = tuple(piece.stop - piece.start for piece in chunk)
+        for name in self.layout.variables:
+            values = columns[name]
+            self._group[name][chunk] = values.reshape(*shape, *values.shape[1:])  # type: ignore[index]
+
+
+def holds(path: Path, layout: Layout, *, fresh: bool) -> bool:
+    """Return whether the finished map is at `path` already; raise `DataError` when something else is.
+
+    A `fresh` one is never there: what is in its place is removed if it is ours.
+    """
+    if not path.exists():
+        return False
+    attrs = _require_ours(path) if path.is_dir() else load(path).attrs
+    if fresh:
+        shutil.rmtree(path) if path.is_dir() else path.unlink()
+        return False
+    _require_same(path, attrs, layout)
+    return True
+
+
+def load(path: Path) -> xr.Dataset:
+    """Return the map at `path` (.zarr or .nc), in memory; chunks that are not computed hold NaN and flags say so."""
+    if not path.exists():
+        raise DataError(f"{path} is not there: give the path of a map")
+    try:
+        if path.suffix == ".nc":
+            with xr.open_dataset(path, engine="h5netcdf") as stored:
+                found = stored.load()
+        else:
+            found = xr.open_zarr(path, consolidated=False, chunks=None, mask_and_scale=False).load()
+    except (OSError, ValueError, KeyError) as err:
+        raise DataError(f"{path} cannot be read as a map ({err}): give a .zarr or .nc written by `map`") from err
+    if found.attrs.get("schema") != SCHEMA:
+        raise DataError(f"{path} is no map of ours (its schema is {found.attrs.get('schema')!r}): give another file")
+    return found
+
+
+def save_netcdf(path: Path, dataset: xr.Dataset) -> None:
+    """Write a map to one netCDF file that appears whole or not at all."""
+    told = dataset.copy()
+    for variable in told.variables.values():
+        variable.encoding = {"_FillValue": None}
+        if "flag_values" in variable.attrs:
+            variable.attrs["flag_values"] = np.array(variable.attrs["flag_values"], dtype=variable.dtype)
+    with whole(path) as spare:
+        told.to_netcdf(spare, engine="h5netcdf")
+
+
+def save_zarr(path: Path, layout: Layout, columns: Mapping[str, NDArray[Any]]) -> None:
+    """Write a finished map to a zarr store that appears whole or not at all; what was there gives way."""
+    spare = _spare(path)
+    shutil.rmtree(spare, ignore_errors=True)
+    _fill_store(spare, layout, columns)
+    shutil.rmtree(path, ignore_errors=True)
+    spare.rename(path)
+
+
+def as_dataset(layout: Layout, columns: Mapping[str, NDArray[Any]]) -> xr.Dataset:
+    """Return a finished map as a dataset."""
+    table = {name: (spec.dims, columns[name], spec.attrs) for name, spec in layout.variables.items()}
+    return xr.Dataset(table, layout.coords, layout.attrs)
+
+
+def remove(path: Path) -> None:
+    """Remove a store of ours, if it is there."""
+    if path.exists():
+        _require_ours(path)
+        shutil.rmtree(path)
+
+
+def _make(path: Path, layout: Layout) -> None:
+    """Make the store beside its place, and put it there when it is whole."""
+    spare = _spare(path)
+    shutil.rmtree(spare, ignore_errors=True)
+    try:
+        _fill_store(spare, layout, {})
+        spare.rename(path)
+    except OSError as err:
+        raise DataError(f"{path} cannot be written ({err.strerror or err}): choose another place") from err
+
+
+def _fill_store(path: Path, layout: Layout, columns: Mapping[str, NDArray[Any]]) -> None:
+    group = zarr.create_group(path, zarr_format=3, attributes=layout.attrs)
+    sizes = dict(zip(layout.dims, zip(layout.shape, layout.block, strict=True), strict=True))
+    sizes["start"] = (layout.study.starts, layout.study.starts)
+    for name, (dims, values, attrs) in layout.coords.items():
+        array = group.create_array(
+            name, shape=values.shape, dtype=values.dtype, attributes=attrs, dimension_names=dims, chunks=values.shape
+        )
+        array[...] = values
+    for name, spec in layout.variables.items():
+        array = group.create_array(
+            name, shape=tuple(sizes[d][0] for d in spec.dims), chunks=tuple(sizes[d][1] for d in spec.dims),
+            dtype=spec.kind, fill_value=spec.fill, attributes=spec.attrs, dimension_names=spec.dims,
+            config={"write_empty_chunks": True},
+        )  # fmt: skip
+        if columns:
+            array[...] = columns[name]
+    with warnings.catch_warnings():
+        # Said of any consolidated store of version 3: xarray writes and wants them all the same.
+        warnings.filterwarnings("ignore", message="Consolidated metadata")
+        zarr.consolidate_metadata(path)
+
+
+def _spare(path: Path) -> Path:
+    return path.with_name(f".{path.name}.making")
+
+
+def _clear(path: Path, fresh: bool) -> None:
+    if not path.parent.is_dir():
+        raise DataError(f"{path.parent} is no folder: make it first, or choose another place")
+    if path.exists():
+        _require_ours(path)
+        if fresh:
+            shutil.rmtree(path)
+
+
+def _require_ours(path: Path) -> dict[str, Any]:
+    """Return the attributes of the store at `path`; never touch what is none of ours."""
+    try:
+        attrs: dict[str, Any] = json.loads((path / "zarr.json").read_text(encoding="utf-8"))["attributes"]
+    except (OSError, ValueError, KeyError):
+        attrs = {}
+    if attrs.get("schema") != SCHEMA:
+        raise DataError(f"{path} is there and is no map of ours: choose another place")
+    return attrs
+
+
+def _require_same(path: Path, attrs: Mapping[str, Any], layout: Layout) -> None:
+    old, new = (json.loads(a["provenance"]) for a in (attrs, layout.attrs))
+    if old == new:
+        return
+    parts = [(key, old.get(key), new[key]) for key in ("seed", "versions", "settings") if old.get(key) != new[key]]
+    said = "; ".join(f"{key} {_differences(was, now)}" for key, was, now in parts)
+    raise DataError(
+        f"{path} holds a map made otherwise ({said}): give the same settings to continue it, another --out, or --fresh"
+    )
+
+
+def _differences(was: Any, now: Any) -> str:
+    if not (isinstance(was, dict) and isinstance(now, dict)):
+        return f"{was}, now {now}"
+    keys = [key for key in sorted({*was, *now}) if was.get(key) != now.get(key)]
+    return ", ".join(f"{key} {was.get(key)}, now {now.get(key)}" for key in keys)
+
+
+@contextmanager
+def _held(path: Path) -> Iterator[None]:
+    """Hold the store for this process; the hold ends with the process, however that ends."""
+    handle = os.open(path, os.O_RDONLY)
+    try:
+        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        yield
+    except BlockingIOError as err:
+        raise DataError(f"{path} is being written by another run: wait for it, or stop it") from err
+    finally:
+        os.close(handle)
