@@ -17,13 +17,16 @@ from lostmotion.stages.surrogates import SurrogateTest
 from lostmotion.workflow.source import Source
 
 Motion = Literal["periodic", "quasiperiodic", "chaotic", "stochastic", "undecided"]
-SLACK, FLOOR = 1.4, 0.01
+SLACK, FLOOR, LOUDEST = 1.4, 0.01, 0.2
 """What repeats to within so many times its noise, and a hundredth of its size, is taken to repeat."""
 TONES_FLOOR = 0.02
 SIGNIFICANT, CYCLES = 0.05, "pseudo_periodic"
 MOST_LEFT = 0.5
 """Share of the variance that may not repeat in a motion that is called periodic but for fluctuations."""
 FEWEST_PERIODS, ENOUGH_PERIODS = 20, 100
+FEWEST_VALUES, FEWEST_SAMPLES = 16, 1000
+UNEVEN = 2.0
+"""Ratio of the standard deviations of two halves from which on a recording is not taken to be steady."""
 
 
 @dataclass(frozen=True)
@@ -53,9 +56,9 @@ class Evidence:
 
     @property
     def noise(self) -> float:
-        """The upper end of the noise level, as a share of the standard deviation."""
+        """The upper end of the noise level, as a share of the standard deviation, no more than can pass for noise."""
         high = self.denoised.before.high
-        return high if math.isfinite(high) else 0.0
+        return min(high, LOUDEST) if math.isfinite(high) else 0.0
 
 
 @dataclass(frozen=True)
@@ -89,7 +92,10 @@ def _fits(period: float, x: Array, dt: float) -> bool:
 
 def judged(evidence: Evidence) -> Verdict:
     """Return the verdict on a motion; the first that holds of periodic, quasiperiodic, chaotic and stochastic."""
-    return _periodic(evidence) or _quasiperiodic(evidence) or _jittering(evidence) or _ruled_or_random(evidence)
+    for rule in (_periodic, _quasiperiodic, _coarse, _jittering):
+        if found := rule(evidence):
+            return found
+    return _ruled_or_random(evidence)
 
 
 def returns(series: Series, period: float) -> Array:
@@ -137,6 +143,18 @@ def _quasiperiodic(evidence: Evidence) -> Verdict | None:
     )
 
 
+def _coarse(evidence: Evidence) -> Verdict | None:
+    """Return that nothing can be told if the sensor shows too few values for near states to be told apart."""
+    values = len(np.unique(evidence.raw.x))
+    if values >= FEWEST_VALUES:
+        return None
+    says = (
+        f"The recording holds {values} different values only, and near states cannot be told apart: "
+        f"{FEWEST_VALUES} are wanted, so use a finer sensor or a larger motion."
+    )
+    return Verdict("undecided", says, ())
+
+
 def _jittering(evidence: Evidence) -> Verdict | None:
     """Return the verdict if most of the motion repeats itself, and what does not shows no sign of being ruled."""
     period = evidence.beat.period
@@ -174,16 +192,35 @@ def _ruled_or_random(evidence: Evidence) -> Verdict:
     rejected = [t.rejects(SIGNIFICANT) for t in evidence.tests]
     ruled = bool(rejected) and all(rejected)
     grows, levels = _grows(exponent), _levels(dimension)
-    because = (*(t.says for t in evidence.tests), _said("largest exponent", exponent), _said("dimension", dimension))
+    because = (*(t.says for t in evidence.tests), _said("Largest exponent", exponent), _said("Dimension", dimension))
     if ruled and grows and (levels or dimension.status == "below_noise"):
         return Verdict("chaotic", _chaotic_words(evidence), because)
-    if not any(rejected) or (not grows and not levels and _long_enough(evidence)):
+    if lack := _lack(evidence, any(rejected)):
+        return Verdict("undecided", lack, because)
+    if not levels and not (grows and any(rejected)):
         return Verdict("stochastic", _stochastic_words(evidence), because)
     return Verdict("undecided", _undecided_words(ruled, grows, levels), because)
 
 
+def _lack(evidence: Evidence, rejected: bool) -> str:
+    """Return what the recording lacks for refusals to speak against chaos, and not only of the recording."""
+    if evidence.raw.n < FEWEST_SAMPLES:
+        return f"A recording of {evidence.raw.n} samples is too short to tell: {FEWEST_SAMPLES} are wanted at least."
+    if not rejected or _grows(evidence.exponent) or _levels(evidence.dimension):
+        return ""
+    if not _long_enough(evidence):
+        return (
+            "It is not linear noise, but the recording is too short for an exponent or a dimension: "
+            f"{ENOUGH_PERIODS} periods are wanted at least."
+        )
+    first, second = np.array_split(evidence.raw.x, 2)
+    if max(np.std(first), np.std(second)) > UNEVEN * min(np.std(first), np.std(second)):
+        return "It is not linear noise, but its size changes along the recording: look at a stretch where it is steady."
+    return ""
+
+
 def _long_enough(evidence: Evidence) -> bool:
-    """Return whether refusals speak against chaos, and not only of a short recording."""
+    """Return whether there were enough points and periods for an exponent and a dimension."""
     statuses = {evidence.exponent.status, evidence.dimension.status}
     short = statuses & {"too_short", "too_few_neighbours", "failed"}
     period = evidence.beat.period
