@@ -9,6 +9,7 @@ import numpy as np
 
 LOG, FAR, NEAR, COUNT = 0, 1, 2, 3
 """What `follow` sums: the logarithm of the distance, the distance, the share of pairs in the noise, the references."""
+MANTISSA, ONE, ROOT = 0x000FFFFFFFFFFFFF, 0x3FF0000000000000, math.sqrt(2.0)
 
 
 @numba.njit(cache=True, nogil=True)
@@ -83,35 +84,121 @@ def visits(near, apart, limit, found):  # type: ignore[no-untyped-def]
                     break
 
 
-@numba.njit(cache=True, nogil=True)
-def follow(points, wanted, groups, law, sums):  # type: ignore[no-untyped-def]
-    """Add up over references: `sums` (g, times, 4) of ln distance, distance, share within the noise, and number.
+@numba.njit(cache=True, nogil=True, error_model="numpy")
+def logarithms(values, bits):  # type: ignore[no-untyped-def]
+    """Replace values (t,) > 0 by their natural logarithms, to 1e-15; `bits` (t,) is room for integers.
 
-    `groups` (q, g, m) are neighbours, -1 for none. `law` is (flow, whether distances are averaged before the
-    logarithm, squared distance of a repeat, that of the noise). A reference counts once in a group, however many
-    neighbours it has there.
+    A series in (m - 1)/(m + 1) of the mantissa m, which the compiler spreads over vector lanes, as it does not libm.
     """
-    flow, before, least, noise = law
+    raw, mantissa = values.view(np.int64), bits.view(np.float64)
+    for t in range(len(values)):
+        bits[t] = (raw[t] & MANTISSA) | ONE
+    for t in range(len(values)):
+        power = float((raw[t] >> 52) - 1023)
+        m = mantissa[t]
+        large = m > ROOT
+        m = 0.5 * m if large else m
+        power = power + 1.0 if large else power
+        s = (m - 1.0) / (m + 1.0)
+        z = s * s
+        tail = z * (1.0 / 13.0 + z * (1.0 / 15.0 + z * (1.0 / 17.0 + z * (1.0 / 19.0 + z / 21.0))))
+        series = 1.0 + z * (1.0 / 3.0 + z * (0.2 + z * (1.0 / 7.0 + z * (1.0 / 9.0 + z * (1.0 / 11.0 + tail)))))
+        values[t] = power * 0.6931471805599453 + 2.0 * s * series
+
+
+@numba.njit(cache=True, nogil=True, error_model="numpy")
+def _squares(points, i, j, total):  # type: ignore[no-untyped-def]
+    """Fill `total` (t,) with the squared distances of the paths (dim, n) from i and from j on."""
+    total[:] = 0.0
+    for q in range(len(points)):
+        here, there = points[q, i : i + len(total)], points[q, j : j + len(total)]
+        for t in range(len(total)):
+            total[t] += (here[t] - there[t]) ** 2
+
+
+@numba.njit(cache=True, nogil=True, error_model="numpy")
+def _across(points, motion, i, j, total, room):  # type: ignore[no-untyped-def]
+    """Take out of the squares `total` (t,) what lies along the mean direction of `motion` (dim, n)."""
+    along, speed = room
+    along[:] = 0.0
+    speed[:] = 0.0
+    for q in range(len(points)):
+        here, there = points[q, i : i + len(total)], points[q, j : j + len(total)]
+        one, other = motion[q, i : i + len(total)], motion[q, j : j + len(total)]
+        for t in range(len(total)):
+            f = one[t] + other[t]
+            along[t] += (here[t] - there[t]) * f
+            speed[t] += f * f
+    for t in range(len(total)):
+        part = along[t] * along[t] / speed[t] if speed[t] > 0.0 else 0.0
+        total[t] = max(total[t] - part, 0.0)
+
+
+@numba.njit(cache=True, nogil=True, error_model="numpy")
+def _count(total, law, sums, bits):  # type: ignore[no-untyped-def]
+    """Add squared distances (t,) of one pair to sums (4, t); those of repeats, and of paths that touch, do not count.
+
+    One loop for each row, of two arrays only: more of them, which might overlap, would not be spread over lanes.
+    """
+    least, noise = law
+    near, many, far, log = sums[NEAR], sums[COUNT], sums[FAR], sums[LOG]
+    for t in range(len(total)):
+        near[t] += 1.0 if least < total[t] < noise else 0.0
+    for t in range(len(total)):
+        many[t] += 1.0 if total[t] > least else 0.0
+    for t in range(len(total)):
+        far[t] += math.sqrt(total[t] if total[t] > least else 0.0)
+    for t in range(len(total)):
+        total[t] = total[t] if total[t] > least else 1.0
+    logarithms(total, bits)
+    for t in range(len(total)):
+        log[t] += 0.5 * total[t]
+
+
+@numba.njit(cache=True, nogil=True, error_model="numpy")
+def _weigh(one, sums, before, total, bits):  # type: ignore[no-untyped-def]
+    """Add the means over one reference's neighbours, from their sums `one` (4, t), to the `sums` (4, t) of all."""
+    many = one[COUNT]
+    for k in range(COUNT):
+        row, into = one[k], sums[k]
+        if k == LOG and before:
+            for t in range(len(total)):
+                total[t] = one[FAR, t] / many[t] if many[t] > 0.0 else 1.0
+            logarithms(total, bits)
+            for t in range(len(total)):
+                into[t] += total[t]
+        else:
+            for t in range(len(total)):
+                into[t] += row[t] / max(many[t], 1.0)
+    for t in range(len(total)):
+        sums[COUNT, t] += min(many[t], 1.0)
+
+
+@numba.njit(cache=True, nogil=True, error_model="numpy")
+def follow(points, motion, wanted, groups, law, sums):  # type: ignore[no-untyped-def]
+    """Add up over references: `sums` (g, 4, times) of ln distance, distance, share within the noise, and number.
+
+    `points` (dim, n) are paths, `motion` (dim, n) their velocities, or (0, n) to take distances whole. `groups`
+    (q, g, m) are neighbours, -1 for none. `law` is (whether a group holds those before it too, whether distances are
+    averaged before the logarithm, squared distance of a repeat, that of the noise). A reference counts once in a
+    group, however many neighbours it has there.
+    """
+    grows, before, least, noise = law
+    steps = sums.shape[2]
+    total, bits, room = np.empty(steps), np.empty(steps, np.int64), (np.empty(steps), np.empty(steps))
+    one = np.zeros((4, steps))
     for a in range(len(wanted)):
-        i = wanted[a]
+        one[:] = 0.0
         for g in range(groups.shape[1]):
-            for t in range(sums.shape[1]):
-                log, far, near, many = 0.0, 0.0, 0.0, 0
-                for j in groups[a, g]:
-                    if j < 0:
-                        continue
-                    d = square(points, i + t, j + t, flow)
-                    if d <= least:
-                        continue
-                    log += 0.5 * math.log(d)
-                    far += math.sqrt(d)
-                    near += d < noise
-                    many += 1
-                if many > 0:
-                    sums[g, t, 0] += math.log(far / many) if before else log / many
-                    sums[g, t, 1] += far / many
-                    sums[g, t, 2] += near / many
-                    sums[g, t, 3] += 1.0
+            if not grows:
+                one[:] = 0.0
+            for j in groups[a, g]:
+                if j >= 0:
+                    _squares(points, wanted[a], j, total)
+                    if len(motion):
+                        _across(points, motion, wanted[a], j, total, room)
+                    _count(total, (least, noise), one, bits)
+            _weigh(one, sums[g], before, total, bits)
 
 
 @numba.njit(cache=True, nogil=True)

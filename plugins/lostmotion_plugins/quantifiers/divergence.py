@@ -21,6 +21,8 @@ from lostmotion.signals import delay_vectors
 from lostmotion_plugins.quantifiers._kernels_divergence import COUNT, FAR, follow, same_phase, visits
 
 Indices = NDArray[np.int64]
+FRAMES = 2000
+"""Delay windows that the principal components are taken from."""
 BLOCKS = 20
 """Pieces of the record that are left out in turn."""
 PLAIN = 3
@@ -38,13 +40,16 @@ HORIZON = 0.55
 
 @dataclass(frozen=True, eq=False)
 class States:
-    """Points (n, dim) to seek neighbours in and `plane` (n, <= 3) to measure distances in, and how they are sampled.
+    """Points (n, dim) to seek neighbours in, and how they are sampled.
 
-    `turn` is the drive period in samples, 0 for none; `flow` whether the motion is continuous between samples.
+    `plane` (<= 3, n) holds their paths, to measure distances in, and `motion` (<= 3, n) the velocities across which
+    they are measured, (0, n) for a map. `turn` is the drive period in samples, 0 for none; `flow` whether the motion
+    is continuous between samples.
     """
 
     points: Array
     plane: Array
+    motion: Array
     x: Array
     dt: float
     window: int
@@ -52,15 +57,23 @@ class States:
     turn: float
     flow: bool
 
-    @property
+    @cached_property
     def smooth(self) -> int:
-        """The samples over which curves are averaged: one drive period."""
-        return round(self.turn) if self.turn else 1
+        """The samples over which curves are averaged: one period of the drive, or else of the motion.
+
+        Neighbours part and close up again within each turn, which a short fit takes for growth.
+        """
+        if self.turn or not self.flow:
+            return round(self.turn) or 1
+        first = self.plane[0]
+        pace = float(np.diff(first).std() / max(first.std(), 1e-300))
+        most = min(self.theiler, len(first) // 20)
+        return max(1, min(most, round(2.0 * np.pi / pace))) if pace > 0.0 else 1
 
     @property
     def size(self) -> float:
         """The root mean square distance of points at any two times."""
-        return float(np.sqrt(2.0 * self.plane.var(axis=0).sum()))
+        return float(np.sqrt(2.0 * self.plane.var(axis=1).sum()))
 
     @property
     def tie(self) -> float:
@@ -80,17 +93,21 @@ class States:
 
 @dataclass(frozen=True, eq=False)
 class Pairs:
-    """References (q,) and their neighbours (q, g, m) in groups; `repeats` is the share of references with a tie."""
+    """References (q,) and their neighbours (q, g, m) in groups; `repeats` is the share of references with a tie.
+
+    With `grows` each group holds those before it too.
+    """
 
     wanted: Indices
     groups: Indices
     limit: int
     repeats: float
+    grows: bool = False
 
 
 @dataclass(frozen=True, eq=False)
 class Spread:
-    """Sums (blocks, g, times, 4) of what `follow` adds up, the distance of strangers, and the noise in one sample."""
+    """Sums (blocks, g, 4, times) of what `follow` adds up, the distance of strangers, and the noise in one sample."""
 
     sums: Array
     strangers: float
@@ -103,9 +120,11 @@ def states(series: Series) -> States:
     flow = e.lag > 1 and e.dim > 1
     points = components(series.x, e.window, e.dim) if flow else delay_vectors(series.x, e.lag, e.dim)
     turn = series.period / series.dt if series.period else 0.0
-    plane = np.ascontiguousarray(points[:, :PLAIN])
-    theiler = max(e.theiler, e.window)
-    return States(points, plane, series.x, series.dt, e.window, theiler, turn if turn >= SMOOTH else 0.0, flow)
+    plane = np.ascontiguousarray(points[:, :PLAIN].T)
+    motion = np.zeros((len(plane) if flow else 0, len(points)))
+    motion[:, 1:-1] = plane[: len(motion), 2:] - plane[: len(motion), :-2]
+    theiler, turn = max(e.theiler, e.window), turn if turn >= SMOOTH else 0.0
+    return States(points, plane, motion, series.x, series.dt, e.window, theiler, turn, flow)
 
 
 def components(x: Array, window: int, dim: int) -> Array:
@@ -114,14 +133,10 @@ def components(x: Array, window: int, dim: int) -> Array:
     Without BLAS, which on a busy machine takes longer to wake its threads than the work takes.
     """
     frames = sliding_window_view(x, window)
-    some = frames[:: max(1, len(frames) // 5000)]
+    some = frames[:: max(1, len(frames) // FRAMES)]
     some = some - some.mean(axis=0)
-    own = np.linalg.eigh(np.einsum("ij,ik->jk", some, some))[1][:, ::-1][:, :dim]
-    points = np.zeros((len(frames), dim))
-    for k in range(dim):
-        for lag in range(window):
-            points[:, k] += own[lag, k] / np.sqrt(window) * x[lag : lag + len(frames)]
-    return points
+    own = np.linalg.eigh(np.einsum("ij,ik->jk", some, some))[1][:, ::-1][:, :dim] / np.sqrt(window)
+    return np.stack([np.correlate(x, own[:, k], "valid") for k in range(dim)], axis=1)
 
 
 def strangers(made: States) -> float:
@@ -136,9 +151,9 @@ def strangers(made: States) -> float:
     else:
         j %= n
     good = (j >= 1) & (j < n - 1)
-    sums = np.zeros((1, 1, 4))
-    follow(made.plane, i[good], j[good][:, None, None], (made.flow, False, 0.0, 0.0), sums)
-    return float(sums[0, 0, FAR] / max(sums[0, 0, COUNT], 1.0))
+    sums = np.zeros((1, 4, 1))
+    follow(made.plane, made.motion, i[good], j[good][:, None, None], (False, False, 0.0, 0.0), sums)
+    return float(sums[0, FAR, 0] / max(sums[0, COUNT, 0], 1.0))
 
 
 def neighbours(made: States, wanted: Indices, limit: int, k: int) -> tuple[Indices, float]:
@@ -175,11 +190,10 @@ def horizon(made: States, away: float) -> int:
     good = near[:, 0] >= 0
     if not good.any():
         return most
-    i, j = wanted[good], near[good, 0]
-    times = np.unique(np.linspace(0, most, 200).astype(int))
-    far = [float(np.sqrt(((made.plane[i + t] - made.plane[j + t]) ** 2).sum(axis=1)).mean()) for t in times]
-    over = np.nonzero(np.array(far) > HORIZON * away)[0]
-    return int(min(most, times[over[0]] + made.smooth + made.window if len(over) else most))
+    sums = np.zeros((1, 4, most))
+    follow(made.plane, made.motion[:0], wanted[good], near[good, :1, None], (False, False, -1.0, 0.0), sums)
+    over = np.nonzero(sums[0, FAR] > HORIZON * away * sums[0, COUNT])[0]
+    return int(min(most, over[0] + made.smooth + made.window if len(over) else most))
 
 
 def sought(made: States, steps: int, references: int, k: int) -> Pairs:
@@ -210,14 +224,14 @@ def followed(made: States, pairs: Pairs, steps: int, *, before: bool = False) ->
     """Return what neighbours do for `steps` samples, in blocks of the record."""
     away = strangers(made)
     noise = noise_between(made, pairs)
-    sums = np.zeros((BLOCKS, pairs.groups.shape[1], steps + 1, 4))
-    law = (made.flow, before, made.tie**2, 2.0 * noise * noise / (made.window if made.flow else 1))
+    sums = np.zeros((BLOCKS, pairs.groups.shape[1], 4, steps + 1))
+    law = (pairs.grows, before, made.tie**2, 2.0 * noise * noise / (made.window if made.flow else 1))
     ends = np.linspace(0, len(pairs.wanted), BLOCKS + 1).astype(int)
 
     def work(begin: int, end: int) -> None:
         for b in range(begin, end):
             part = slice(ends[b], ends[b + 1])
-            follow(made.plane, pairs.wanted[part], pairs.groups[part], law, sums[b])
+            follow(made.plane, made.motion, pairs.wanted[part], pairs.groups[part], law, sums[b])
 
     spread(work, BLOCKS)
     return Spread(sums, away, noise)

@@ -28,7 +28,7 @@ def classical(series: Series, begin: float, end: float) -> Estimate:
     points = delay_vectors(series.x, e.lag, e.dim)
     limit = len(points) - steps
     if last > steps or limit < LEAST_PAIRS:
-        return refused("too_short", f"{series.n} samples do not hold pairs followed for {last} samples")
+        return refused("too_short", f"{series.n} samples do not hold pairs followed for {last} samples.")
     index, _ = nearest(points[:limit], theiler=e.theiler, norm="euclidean")
     return _fitted(points, index, (round(begin / dt), last, steps), dt)
 
@@ -39,25 +39,26 @@ LEAST_PAIRS = 5 * BLOCKS
 def _fitted(points: Array, index: Indices, span: tuple[int, int, int], dt: float) -> Estimate:
     first, last, steps = span
     wanted = np.nonzero(index >= 0)[0]
-    sums = np.zeros((BLOCKS, 1, steps, 4))
+    paths = np.ascontiguousarray(points.T)
+    sums = np.zeros((BLOCKS, 4, steps))
     ends = np.linspace(0, len(wanted), BLOCKS + 1).astype(int)
     pairs = index[wanted][:, None, None]
 
     def work(a: int, b: int) -> None:
         for k in range(a, b):
             part = slice(ends[k], ends[k + 1])
-            follow(points, wanted[part], pairs[part], (False, False, 0.0, 0.0), sums[k])
+            follow(paths, paths[:0], wanted[part], pairs[part], (False, False, 0.0, 0.0), sums[k : k + 1])
 
     spread(work, BLOCKS)
     total = sums.sum(axis=0)
     times = np.arange(steps) * dt
     with np.errstate(invalid="ignore", divide="ignore"):
-        curve = total[0, :, LOG] / total[0, :, COUNT]
-        left = (total[0, :, LOG] - sums[:, 0, :, LOG]) / (total[0, :, COUNT] - sums[:, 0, :, COUNT])
+        curve = total[LOG] / total[COUNT]
+        left = (total[LOG] - sums[:, LOG]) / (total[COUNT] - sums[:, COUNT])
     kept = {"time": times, "divergence": curve, "slope": np.gradient(curve, dt)}
     part = slice(first, last + 1)
     if not np.isfinite(left[:, part]).all():
-        return refused("below_noise", "all neighbours are exact repeats: the motion is periodic", (kept, {}))
+        return refused("regular", "All neighbours are exact repeats: the motion is periodic.", (kept, {}))
     slope, intercept = np.polyfit(times[part], curve[part], 1)
     others = np.polyfit(times[part], left[:, part].T, 1)[0]
     error = float(np.sqrt((BLOCKS - 1) / BLOCKS * ((others - others.mean()) ** 2).sum()))
@@ -67,6 +68,6 @@ def _fitted(points: Array, index: Indices, span: tuple[int, int, int], dt: float
         "intercept": float(intercept),
         "pairs": float(len(wanted)),
     }
-    says = "the classical recipe: its interval is that of the record only, and knows nothing of the bias of the method"
+    says = "The classical recipe: its interval is that of the record only, and knows nothing of the bias of the method."
     value, wide = float(slope), 2.09 * error
     return Estimate(value, value - wide, value + wide, "uncertain", UNIT, kept, says, details)

@@ -9,13 +9,14 @@ to the tenth, share lambda and c, so that the fit looks to d = 0.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from scipy.stats import t as student
 
 from lostmotion.contracts import Array
 from lostmotion_plugins.quantifiers._kernels_divergence import COUNT, FAR, LOG, NEAR
-from lostmotion_plugins.quantifiers.divergence import BLOCKS, Spread, States
+from lostmotion_plugins.quantifiers.divergence import BLOCKS, Indices, Spread, States
 
 WITHIN = 0.393
 """The share of a Gaussian in the plane that lies within one standard deviation: 1 - exp(-1/2)."""
@@ -23,22 +24,27 @@ BELIEVED = 0.7
 """How much of the loss to noise is put back: all of it is too much by half as tests with 1 and 2 % noise have it."""
 DOUBT = 0.25
 """Standard deviation of the above."""
-STARTS, ENDS = (0.7, 1.0), (0.2, 0.3)
-"""The value: mean over fits that begin after this many e-folds, and end at this share of the distance of strangers."""
-OTHER_STARTS, OTHER_ENDS = (0.7, 1.0, 1.4), (0.2, 0.3, 0.4)
-LATE = (0.45, 0.6)
-"""Ends to try where the usual one leaves nothing to fit."""
+STARTS = (0.7, 1.0)
+"""The value: mean over fits that begin after the nearest pairs have grown by this many e-folds."""
+OTHER_STARTS = (0.7, 1.0, 1.4)
+ENDS = ((0.12, 0.18), (0.2, 0.3), (0.45,), (0.6,))
+"""They end at this share of the distance of strangers: early if enough is left to fit, as growth depends on size."""
+ENOUGH = (1.0, 0.35, 0.35, 0.35)
+"""The e-folds that are enough."""
+LATER = (1.0, 1.5, 2.0)
+"""How much later the fits may end that say what the choice matters."""
 FLOOR = 0.03
 """Share of the value that is always doubtful: what the method was off by on systems with known exponents."""
 POINTS = 16
+ALIKE = 1e-10
+"""Two regressors whose correlation is as near to one as this are one."""
 FEW = 4
-PARTED = 0.35
-"""Samples, and e-folds, that a region must hold."""
+"""Samples that a region must hold."""
 
 
 @dataclass(frozen=True, eq=False)
 class Curves:
-    """Curves (g, times): mean logarithm of distance, mean distance, share within the noise; averaged over a period."""
+    """Curves (..., g, times): mean ln of distance, mean distance, share within the noise; averaged over a period."""
 
     log: Array
     far: Array
@@ -46,6 +52,21 @@ class Curves:
     raw: Array
     dt: float
     strangers: float
+
+    @cached_property
+    def crowded(self) -> Array:
+        """The share within the noise, summed up from the beginning on (s)."""
+        return _integral(self.near, self.dt)
+
+    @cached_property
+    def parted(self) -> Array:
+        """The mean distance as a share of that of strangers, summed up from the beginning on (s)."""
+        return _integral(self.far, self.dt) / self.strangers
+
+    @property
+    def whole(self) -> Curves:
+        """The first of a stack of curves (several, g, times)."""
+        return Curves(self.log[0], self.far[0], self.near[0], self.raw[0], self.dt, self.strangers)
 
 
 @dataclass(frozen=True)
@@ -65,7 +86,6 @@ class Growth:
     windows: float
     noise: float
     domain: Domain
-    intercept: float
     lost: float
 
     def interval(self, embedding: float) -> tuple[float, float]:
@@ -85,15 +105,15 @@ def smoothed(curve: Array, width: int) -> Array:
 
 
 def curves(sums: Array, made: States, away: float) -> Curves:
-    """Return the curves behind sums (g, times, 4)."""
+    """Return the curves behind sums (..., g, 4, times)."""
     with np.errstate(invalid="ignore", divide="ignore"):
-        mean = sums[..., :COUNT] / sums[..., COUNT:]
-    width = min(made.smooth, mean.shape[1] - 1)
-    log, far, near = (smoothed(mean[..., k], width) for k in (LOG, FAR, NEAR))
-    return Curves(log, far, np.minimum(near / WITHIN, 1.0), mean[..., LOG], made.dt, away)
+        mean = sums[..., :COUNT, :] / sums[..., COUNT:, :]
+    width = min(made.smooth, mean.shape[-1] - 1)
+    log, far, near = (smoothed(mean[..., k, :], width) for k in (LOG, FAR, NEAR))
+    return Curves(log, far, np.minimum(near / WITHIN, 1.0), mean[..., LOG, :], made.dt, away)
 
 
-def domain(c: Curves, made: States, efolds: float, end: float) -> Domain | None:
+def domain(c: Curves, made: States, efolds: float, end: float, enough: float) -> Domain | None:
     """Return where to fit: nearest pairs have grown by `efolds`, left the delay window, and are not too far."""
     base = float(np.nanmin(c.raw[0, : made.smooth]))
     grown = np.nonzero(c.log[0] >= base + efolds)[0]
@@ -107,58 +127,119 @@ def domain(c: Curves, made: States, efolds: float, end: float) -> Domain | None:
         over = np.nonzero(~(far[begin:] <= end * c.strangers))[0]
         ends.append(begin + int(over[0]) if len(over) else len(far))
     parted = float(c.log[0, ends[0] - 1] - c.log[0, begin])
-    return Domain(begin, tuple(ends)) if ends[0] - begin >= FEW and parted >= PARTED else None
+    return Domain(begin, tuple(ends)) if ends[0] - begin >= FEW and parted >= enough else None
 
 
-def line(c: Curves, where: Domain, believed: float) -> tuple[float, float]:
-    """Return lambda (1/s) and the intercept of the first group, by least squares over all groups at once."""
-    rows, values = [], []
+def line(c: Curves, where: Domain, believed: float) -> tuple[Array, Array]:
+    """Return lambda (1/s) and c (1/s) of each curve, by least squares over all groups at once: the normal equations.
+
+    The intercepts of the groups are taken out as means.
+    """
+    uu = uv = vv = uy = vy = np.zeros(c.log.shape[:-2])
     for g, end in enumerate(where.ends):
         if end - where.begin < FEW:
             continue
-        at = np.unique(np.linspace(where.begin, end - 1, min(POINTS, end - where.begin)).astype(int))
-        row = np.zeros((len(at), len(where.ends) + 2))
-        row[:, g] = 1.0
-        row[:, -2] = at * c.dt - believed * _integral(c.near[g], c.dt)[at]
-        row[:, -1] = _integral(c.far[g], c.dt)[at] / c.strangers
-        rows.append(row)
-        values.append(c.log[g, at])
-    found = np.linalg.lstsq(np.concatenate(rows), np.concatenate(values), rcond=None)[0]
-    return float(found[-2]), float(found[0])
+        at = _points(where.begin, end)
+        u = _centred(at * c.dt - believed * c.crowded[..., g, at])
+        v, y = _centred(c.parted[..., g, at]), _centred(c.log[..., g, at])
+        uu, uv, vv = uu + (u * u).sum(axis=-1), uv + (u * v).sum(axis=-1), vv + (v * v).sum(axis=-1)
+        uy, vy = uy + (u * y).sum(axis=-1), vy + (v * y).sum(axis=-1)
+    free = uu * vv - uv * uv
+    good = free > ALIKE * uu * vv
+    safe = np.where(good, free, 1.0)
+    return np.where(good, (uy * vv - vy * uv) / safe, uy / uu), np.where(good, (vy * uu - uy * uv) / safe, 0.0)
+
+
+def _points(begin: int, end: int) -> Indices:
+    many = min(POINTS, end - begin)
+    return begin + np.arange(many) * (end - 1 - begin) // (many - 1)
+
+
+def _centred(rows: Array) -> Array:
+    moved: Array = rows - rows.mean(axis=-1, keepdims=True)
+    return moved
 
 
 def _integral(curve: Array, dt: float) -> Array:
-    return np.concatenate([[0.0], np.cumsum(0.5 * (curve[1:] + curve[:-1]) * dt)])
+    total = np.zeros(curve.shape)
+    np.cumsum(0.5 * dt * (curve[..., 1:] + curve[..., :-1]), axis=-1, out=total[..., 1:])
+    return total
 
 
-def _domains(c: Curves, made: States) -> tuple[Domain, ...]:
-    """Return where the value is read: the usual windows, or where they are empty the first later one that is not."""
-    usual: list[Domain] = []
-    for end in (*ENDS, *LATE):
-        found = [d for start in STARTS if (d := domain(c, made, start, end))]
-        usual += found
-        if usual and end >= ENDS[-1]:
-            break
-    return tuple(usual)
+def _domains(c: Curves, made: States) -> tuple[tuple[Domain, ...], tuple[Domain, ...]]:
+    """Return where the value is read, and where else it might be: the earliest ends that leave enough to fit."""
+    for ends, enough in zip(ENDS, ENOUGH, strict=True):
+        usual = [d for s in STARTS for e in ends if (d := domain(c, made, s, e, enough))]
+        if usual:
+            also = [d for s in OTHER_STARTS for k in LATER if (d := domain(c, made, s, k * ends[0], 0.7 * enough))]
+            return tuple(usual), tuple(also)
+    return (), ()
+
+
+def value(c: Curves, where: tuple[Domain, ...], believed: float = BELIEVED) -> Array:
+    """Return lambda (1/s) of each curve: the mean over the windows."""
+    found: Array = np.mean([line(c, d, believed)[0] for d in where], axis=0)
+    return found
+
+
+def rate(read: Spread, made: States) -> float:
+    """Return lambda (1/s) alone, NaN where there is nothing to read it from."""
+    c = curves(read.sums.sum(axis=0), made, read.strangers)
+    where, _ = _domains(c, made)
+    return float(value(c, where)) if where else float("nan")
 
 
 def growth(read: Spread, made: States) -> Growth | None:
     """Return the rate at which neighbours part, or None where there is nothing to read it from."""
-    total = read.sums.sum(axis=0)
-    c = curves(total, made, read.strangers)
-    where = _domains(c, made)
+    total = read.sums.sum(axis=0, keepdims=True)
+    stack = curves(np.concatenate([total, total - read.sums]), made, read.strangers)
+    c = stack.whole
+    where, others = _domains(c, made)
     if not where:
         return None
-
-    def value(part: Curves, believed: float = BELIEVED) -> float:
-        return float(np.mean([line(part, d, believed)[0] for d in where]))
-
-    left = np.array([value(curves(total - one, made, read.strangers)) for one in read.sums])
-    record = float(np.sqrt((BLOCKS - 1) / BLOCKS * ((left - left.mean()) ** 2).sum()))
-    others = [d for s in OTHER_STARTS for e in OTHER_ENDS if (d := domain(c, made, s, e))]
-    variants = tuple(line(c, d, BELIEVED)[0] for d in others)
-    spread = float(np.std(variants)) if len(variants) > 1 else 2.0 * FLOOR * abs(value(c))
-    loss = value(c, 1.0) - value(c, 0.0)
+    found, *left = value(stack, where)
+    record = float(np.sqrt((BLOCKS - 1) * np.var(left)))
+    variants = [float(line(c, d, BELIEVED)[0]) for d in others]
+    spread = float(np.std(variants)) if len(variants) > 1 else 2.0 * FLOOR * abs(found)
+    loss = float(value(c, where, 1.0) - value(c, where, 0.0))
     first = max(where, key=lambda d: d.ends[0] - d.begin)
     lost = float(c.near[0, first.begin : first.ends[0]].mean())
-    return Growth(value(c), record, spread, DOUBT * loss, first, line(c, first, BELIEVED)[1], lost)
+    return Growth(float(found), record, spread, DOUBT * loss, first, lost)
+
+
+def straightened(c: Curves, found: Growth) -> tuple[Array, float]:
+    """Return the curve (times,) of the nearest pairs, with what size and noise take off put back, and its intercept.
+
+    Within the region fitted it follows intercept + rate times the time since the curve began; beyond, the curve goes
+    on as measured.
+    """
+    begin, end = found.domain.begin, found.domain.ends[0]
+    at = np.arange(begin, end)
+    hidden = found.rate * BELIEVED * c.crowded[0]
+    size = _centred(c.parted[0, at])
+    excess = float((size * _centred(c.log[0, at] + hidden[at] - found.rate * c.dt * at)).sum() / (size * size).sum())
+    back = (hidden - excess * c.parted[0])[np.clip(np.arange(c.log.shape[1]), begin, end - 1)]
+    curve = c.log[0] + back - back[0]
+    return curve, float((curve[at] - found.rate * c.dt * at).mean())
+
+
+def drift(read: Spread, made: States) -> tuple[float, float]:
+    """Return the mean slope (1/s) of the curve of the nearest pairs beyond the delay window, and its standard error.
+
+    What a part of the curve does by itself counts as error.
+    """
+    total = read.sums.sum(axis=0, keepdims=True)
+    stack = curves(np.concatenate([total, total - read.sums]), made, read.strangers).log[:, 0]
+    rows = stack[:, min(made.window, stack.shape[1] // 2) :]
+    many = rows.shape[1] // 2
+    (mean, *left), halves = (
+        _slope(rows, made.dt),
+        [_slope(part[:1], made.dt)[0] for part in (rows[:, :many], rows[:, many:])],
+    )
+    return float(mean), float(np.sqrt((BLOCKS - 1) * np.var(left) + np.var(halves)))
+
+
+def _slope(rows: Array, dt: float) -> Array:
+    t = dt * (np.arange(rows.shape[1]) - 0.5 * (rows.shape[1] - 1))
+    found: Array = rows @ t / (t @ t)
+    return found

@@ -23,7 +23,7 @@ STRANGERS = 0.5
 """Share of the usual distance from which on the ends of pieces tell nothing."""
 JUMP, SUDDEN = 0.1, 0.3
 """A growth by more than JUMP e-folds, of which less than SUDDEN as much again follows, is that of noise."""
-SAYS = "for reference: replacing neighbours turns their direction, which biases the value in ways the interval omits"
+SAYS = "For reference: replacing neighbours turns their direction, which biases the value in ways the interval omits."
 
 
 @dataclass(frozen=True)
@@ -49,7 +49,7 @@ class Wolf(Quantifier[Series]):
         tie = 1e-9 * float(data.x.std())
         queries = np.arange(1, len(points) - steps, steps)
         if (repeats := _repeating(points, e.theiler, queries, tie)) > REPEATS:
-            return refused("below_noise", f"{repeats:.0%} of the points repeat exactly: the motion is periodic")
+            return refused("regular", f"{repeats:.0%} of the points repeat exactly: the motion is periodic.")
         found, _ = several(points, self.choice, theiler=e.theiler, norm="euclidean", least=tie, queries=queries)
         near = np.full((len(points), self.choice), -1)
         near[queries] = found
@@ -71,12 +71,12 @@ def _repeating(points: Array, theiler: int, queries: Indices, tie: float) -> flo
 def _noise(gained: Array, size: float) -> Estimate | None:
     """Return a refusal where pairs part at once, or are strangers at the end of their piece, as in noise."""
     if len(gained) < LEAST:
-        return refused("too_few_neighbours", f"{len(gained)} pairs could be followed, {LEAST} are wanted")
+        return refused("too_few_neighbours", f"{len(gained)} pairs could be followed, {LEAST} are wanted.")
     first, whole, far = gained.mean(axis=0)
     if far > STRANGERS * size:
-        return refused("no_scaling_region", "neighbours are strangers at the end of each piece, as in noise")
+        return refused("no_scaling_region", "Neighbours are strangers at the end of each piece, as in noise.")
     if first > JUMP and whole - first < SUDDEN * first:
-        return refused("below_noise", "neighbours part at once and then no more, as noise lets them")
+        return refused("below_noise", "Neighbours part at once and then no more, as noise lets them.")
     return None
 
 
