@@ -10,11 +10,16 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from lostmotion.report import paper_portraits, paper_style, style
+from lostmotion.report import paper_basins, paper_curves, paper_portraits, paper_style, paper_sweeps, style
 from lostmotion.report.pages import template
 from lostmotion.storage import whole
 
-DRAWINGS: dict[str, Callable[[paper_style.Data], Figure]] = {**paper_portraits.FIGURES}
+DRAWINGS: dict[str, Callable[[paper_style.Data], Figure]] = {
+    **paper_portraits.FIGURES,
+    **paper_sweeps.FIGURES,
+    **paper_basins.FIGURES,
+    **paper_curves.FIGURES,
+}
 
 
 @dataclass(frozen=True)

@@ -24,6 +24,7 @@ class Item(NamedTuple):
     label: str
     title: str
     module: str
+    function: str = ""
 
 
 ITEMS: dict[str, Item] = {
@@ -31,8 +32,29 @@ ITEMS: dict[str, Item] = {
     "fig3": Item("Fig. 3", "Phase plots of Cases 1 and 2", "portraits"),
     "fig4": Item("Fig. 4", "Phase plot of Case 3, and in delay coordinates", "portraits"),
     "fig5": Item("Fig. 5", "The normalised force of the backlash", "portraits"),
+    "fig6": Item("Fig. 6", "The largest exponent of Case 1 over 1/alpha", "sweeps"),
+    "fig7": Item("Fig. 7", "Bifurcation diagrams of Case 1 at seven dampings", "sweeps"),
     "fig8": Item("Fig. 8", "Phase plots of Case 1 at four values of 1/alpha", "portraits"),
     "fig9": Item("Fig. 9", "Poincaré maps of Case 1 at four values of 1/alpha", "portraits"),
+    "fig10": Item("Fig. 10", "The largest exponent over 1/alpha and damping", "sweeps"),
+    "fig11": Item("Fig. 11", "Case 3 and its mutual information under noise", "noisy"),
+    "fig12": Item("Fig. 12", "Poincaré maps of Case 3 under noise", "noisy"),
+    "fig13": Item("Fig. 13", "Cao's E1 of Case 3 under noise", "noisy"),
+    "fig14": Item("Fig. 14", "Slopes of the correlation sum of Case 3, against surrogates", "noisy"),
+    "fig15": Item("Fig. 15", "Poincaré maps behind noise reduction", "noisy"),
+    "fig16": Item("Fig. 16", "The same, enlarged", "noisy"),
+    "fig17": Item("Fig. 17", "Input and output of the joint at 2.68 degrees", "experiment"),
+    "fig18": Item("Fig. 18", "Mutual information of the output at 2.68 degrees", "experiment"),
+    "fig19": Item("Fig. 19", "Cao's numbers of the output at 2.68 degrees", "experiment"),
+    "fig20": Item("Fig. 20", "Delay plots of the output at eight levels", "experiment"),
+    "fig21": Item("Fig. 21", "Correlation dimensions of the output, against surrogates", "experiment"),
+    "table2": Item("Table 2", "Largest exponents of the output at eight levels", "experiment"),
+    "fig22": Item("Fig. 22", "Noise reduction of the output", "experiment"),
+    "fig23": Item("Fig. 23", "Cao's number before and after noise reduction", "experiment"),
+    "bifurcation": Item("More", "A bifurcation diagram with the exponents beneath", "sweeps"),
+    "basins": Item("More", "Basins of attraction of Cases 2 and 3", "basins"),
+    "section": Item("More", "Poincaré sections coloured by density", "basins"),
+    "map": Item("More", "A map of the largest exponent over 1/alpha and damping", "sweeps", "plane_map"),
 }
 """Everything that can be asked for, in the order of the page."""
 
@@ -47,8 +69,9 @@ def chosen(names: Sequence[str]) -> list[str]:
 
 def outcome_of(name: str, lab: Lab) -> Outcome:
     """Return the outcome of one figure or table."""
-    module = import_module(f"lostmotion.reproduce.{ITEMS[name].module}")
-    return cast("Outcome", getattr(module, name)(lab))
+    item = ITEMS[name]
+    module = import_module(f"lostmotion.reproduce.{item.module}")
+    return cast("Outcome", getattr(module, item.function or name)(lab))
 
 
 def reproduce(names: Sequence[str], out: Path, lab: Lab, say: Say = lambda _step: None) -> dict[str, Any]:
