@@ -91,8 +91,8 @@ def run_analysis(
 ) -> dict[str, Any]:
     """Return the content of `analysis.json` after writing it, the arrays and the report into the folder `out`."""
     say("reading")
+    source = source_of(path, Wanted(request.columns, request.rate, request.every), registry)
     _require_known(registry, request)
-    source = source_of(path, Wanted(request.columns, request.rate, request.every))
     folder = folder_for(out)
     analysis = analyse(source, registry, request, say)
     say("report")

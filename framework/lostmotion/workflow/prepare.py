@@ -37,11 +37,17 @@ class Prepared:
         return tuple(f"{r.name}: {n}" if several else n for r in self.recordings for n in r.notes)
 
 
-def prepare(path: Path, registry: Registry) -> Prepared:
-    """Return the case at `path`, ready for the stages; whatever cannot be meant is refused here."""
+def case_of(path: Path, registry: Registry) -> Case:
+    """Return the case at `path`; the plugin files it names join the registry."""
     case = load_case(path)
     for plugin in case.plugins:
         registry.add_file(case.folder / plugin)
+    return case
+
+
+def prepare(path: Path, registry: Registry) -> Prepared:
+    """Return the case at `path`, ready for the stages; whatever cannot be meant is refused here."""
+    case = case_of(path, registry)
     model: Model = registry.make("model", case.model)
     recordings = tuple(load_recording(spec, case.folder) for spec in case.recordings)
     tracks = tuple(track_of(r, model, held=r.hold == "step") for r in recordings)

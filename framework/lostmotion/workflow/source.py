@@ -8,11 +8,13 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from lostmotion.case import load_case
+from lostmotion.case import Case
 from lostmotion.errors import CaseError, DataError, nearest
 from lostmotion.provenance import digest
 from lostmotion.recording import load_recording, read_columns
 from lostmotion.recording.timing import check_time
+from lostmotion.registry import Registry
+from lostmotion.workflow.prepare import case_of
 
 Array = NDArray[np.float64]
 TIMES = ("time", "t", "Time", "time_s")
@@ -52,9 +54,9 @@ class Source:
     notes: tuple[str, ...] = ()
 
 
-def source_of(path: Path, wanted: Wanted) -> Source:
+def source_of(path: Path, wanted: Wanted, registry: Registry) -> Source:
     """Return the channel to look at: the response of a case file (.toml), or the column of a bare recording."""
-    source = _of_case(path, wanted) if path.suffix.lower() == ".toml" else _of_file(path, wanted)
+    source = _of_case(case_of(path, registry), wanted) if path.suffix.lower() == ".toml" else _of_file(path, wanted)
     if wanted.every == 1:
         return source
     note = f"One sample of {wanted.every} is kept, as asked: what is faster than that folds back."
@@ -68,17 +70,15 @@ def source_of(path: Path, wanted: Wanted) -> Source:
     )
 
 
-def _of_case(path: Path, wanted: Wanted) -> Source:
-    case = load_case(path)
+def _of_case(case: Case, wanted: Wanted) -> Source:
     names = [spec.label for spec in case.recordings]
-    if wanted.column is not None and wanted.column not in names:
-        raise CaseError(
-            f"{path.name} has no recording {wanted.column!r}{nearest(wanted.column, names)}: it has {', '.join(names)}"
-        )
-    chosen = case.recordings[names.index(wanted.column) if wanted.column else 0]
+    asked = wanted.column
+    if asked is not None and asked not in names:
+        raise CaseError(f"{case.title!r} has no recording {asked!r}{nearest(asked, names)}: it has {', '.join(names)}")
+    chosen = case.recordings[names.index(asked) if asked else 0]
     recording = load_recording(chosen, case.folder)
     notes = list(recording.notes)
-    if len(names) > 1 and wanted.column is None:
+    if len(names) > 1 and asked is None:
         notes.append(f"The first of {len(names)} recordings is analysed: name another one with --column.")
     response = recording.data["response"]
     keep = _whole_stretch(np.asarray(response), notes)
