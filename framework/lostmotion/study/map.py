@@ -18,9 +18,9 @@ from lostmotion.errors import DataError, nearest
 from lostmotion.study.axes import warped
 from lostmotion.study.store import load
 
-ROUGH = 0.5
+ROUGH = 0.25
 """Spread of a cell, over how far it lies off the straight line through its neighbours."""
-RING = 0.06
+RING = 0.05
 """Weight, together, of the cells around those next to the point: a narrow window may lie between cells."""
 
 
@@ -77,9 +77,8 @@ class Map:
         """
         corners = self._corners({**(point or {}), **more})
         stderr = {"lyapunov_max": "lyapunov_stderr"}.get(quantity, f"{quantity}_stderr")
-        values, errors = self._numbers(quantity), self._numbers(stderr)
-        rough = _rough(np.nanmean(values, axis=-1))
-        means, spreads, weights = _mixture(corners, (values, errors, rough))
+        fields = (self._numbers(quantity), self._numbers(stderr), self._rough(quantity))
+        means, spreads, weights = _mixture(corners, fields)
         if not len(means):
             raise DataError(f"the map holds no {quantity} around this point: compute it first, or ask elsewhere")
         value = float(weights @ means)
@@ -91,11 +90,28 @@ class Map:
         unit = str(self.dataset[quantity].attrs.get("units", "1"))
         return Reading(value, min(low, value), max(high, value), sd, chaotic, settled, unit)
 
+    @cached_property
+    def _read(self) -> dict[str, Array]:
+        """What has been read out so far."""
+        return {}
+
     def _numbers(self, name: str) -> Array:
+        """Return a variable (..., starts) as numbers."""
         if name not in self.dataset:
             known = [str(v) for v in self.dataset.data_vars]
             raise DataError(f"the map has no {name!r}{nearest(name, known)}: it has {', '.join(known)}")
-        return np.asarray(self.dataset[name].to_numpy(), dtype=float)
+        if name not in self._read:
+            self._read[name] = np.asarray(self.dataset[name].to_numpy(), dtype=float)
+        return self._read[name]
+
+    def _rough(self, name: str) -> Array:
+        """Return how far each cell (...) of a variable lies off the straight line through its neighbours."""
+        if f"rough {name}" not in self._read:
+            values = self._numbers(name)
+            good = np.isfinite(values)
+            mean = np.where(good, values, 0.0).sum(axis=-1) / np.where(good.any(axis=-1), good.sum(axis=-1), np.nan)
+            self._read[f"rough {name}"] = _rough(mean)
+        return self._read[f"rough {name}"]
 
     def _corners(self, point: Mapping[str, float]) -> list[tuple[tuple[int, ...], float]]:
         """Return the cells around a point with the weights of linear interpolation."""

@@ -17,7 +17,7 @@ from lostmotion.study.layout import Layout, attrs_of, listed
 from lostmotion.study.store import load
 from lostmotion.study.sweep import Cells, Crew, Say, sweep
 
-DIFFERENT = 0.3
+DIFFERENT = 0.1
 """How far the shares of chaos at the corners of a square must lie apart for it to be halved."""
 MOST = 8
 """Halvings at most."""

@@ -74,12 +74,16 @@ def _cluster(study: Study, pieces: list[Cells], address: str) -> Iterator[tuple[
     except ImportError as err:
         raise DataError("--dask needs the package distributed: pip install 'lostmotion[cluster]'") from err
     try:
-        client = Client(address, timeout="10s", set_as_default=False)  # type: ignore[no-untyped-call]
+        client = Client(address, timeout="5s", set_as_default=False)  # type: ignore[no-untyped-call]
     except (OSError, ValueError) as err:
         raise DataError(f"no cluster answers at {address} ({err}): start one, or leave --dask out") from err
     with client:
+        finished = as_completed(loop=client.loop, with_results=False)  # type: ignore[no-untyped-call]
         futures = [client.submit(computed, study, cells, pure=False, retries=3) for cells in pieces]
         numbers = {future.key: number for number, future in enumerate(futures)}
-        for future in as_completed(futures):  # type: ignore[no-untyped-call]
+        for future in futures:
+            finished.add(future)
+        del futures
+        for future in finished:
             yield numbers[future.key], future.result()
             future.release()
