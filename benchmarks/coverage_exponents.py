@@ -1,10 +1,12 @@
 """How often the stated 95 % interval of an exponent covers the true one, over independent records.
 
-    python benchmarks/coverage_exponents.py --records 50 --method lyapunov_rosenstein
+    python benchmarks/coverage_exponents.py --records 50 --seed 2000 --method lyapunov_kantz
 
 Truths: Lorenz 0.9059 1/s (tangent flow over 1e5 time units; Sprott, Chaos and Time-Series Analysis (2003), gives
-0.9056), Lin's oscillator, Case 1 of Tjahjowidodo, Al-Bender, Van Brussel (2007), 7.27 +- 0.03 1/s (tangent map over
-20 000 periods). The records are made here with DOP853 and with leapfrog steps of 1/5000 period, not by our kernels.
+0.9056), Lin's oscillator, Case 1 of Tjahjowidodo, Al-Bender, Van Brussel (2007), 7.235 +- 0.004 1/s (exact flow over
+200 000 periods; over 20 000 it came to 7.27 +- 0.03). What is covered is counted for both. The fit windows were
+chosen on records of seeds 0 and 1000: quote others. The records are made here with DOP853 and with leapfrog steps of
+1/5000 period, not by our kernels.
 """
 
 from __future__ import annotations
@@ -25,6 +27,8 @@ from lostmotion_plugins.quantifiers.rosenstein import Rosenstein
 
 Array = NDArray[np.float64]
 PERIOD = 2.0 * math.pi / 40.0
+BOTH = {0.9059: 0.9056, 7.235: 7.27}
+"""The other value that is quoted for a truth."""
 METHODS: dict[str, Quantifier[Series]] = {"lyapunov_rosenstein": Rosenstein(), "lyapunov_kantz": Kantz()}
 
 
@@ -76,9 +80,9 @@ class Study:
 
 STUDIES = {
     "lorenz": Study(0.9059, Embedding(8, 4, 100)),
-    "lin50": Study(7.27, Embedding(3, 5, 50), 50.0),
-    "lin200": Study(7.27, Embedding(14, 5, 200), 200.0),
-    "lin50.37": Study(7.27, Embedding(3, 5, 50), 50.37),
+    "lin50": Study(7.235, Embedding(3, 5, 50), 50.0),
+    "lin200": Study(7.235, Embedding(14, 5, 200), 200.0),
+    "lin50.37": Study(7.235, Embedding(3, 5, 50), 50.37),
 }
 
 
@@ -93,13 +97,13 @@ def table(study: Study, data: Array, method: Quantifier[Series], noise: float) -
         got.append(method.estimate(series, rng=rng))
     taken = (time.perf_counter() - begin) / len(data)
     known = [e for e in got if math.isfinite(e.value)]
-    covered = sum(e.low <= study.truth <= e.high for e in known)
+    covered, other = (sum(e.low <= t <= e.high for e in known) for t in (study.truth, BOTH[study.truth]))
     values = np.array([e.value for e in known]) / study.truth
     wide = np.array([(e.high - e.low) / 2 for e in known]) / study.truth
     near = float(np.mean(np.abs(values - 1.0) <= 0.1)) if known else 0.0
     ok = sum(e.ok for e in got)
     return (
-        f"{covered:3d}/{len(known):<3d} covered  mean {values.mean():.3f}  sd {values.std():.3f}  "
+        f"{covered:3d} ({other:3d})/{len(known):<3d} covered  mean {values.mean():.3f}  sd {values.std():.3f}  "
         f"half-width {np.median(wide):.3f}  within 10 % {near:.2f}  ok {ok}/{len(got)}  {taken:.2f} s each"
     )
 
@@ -111,7 +115,7 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--noise", type=float, nargs="*", default=[0.0], help="sd of the noise / sd of the signal")
     parser.add_argument("--system", nargs="*", choices=sorted(STUDIES), default=list(STUDIES))
-    parser.add_argument("--method", choices=sorted(METHODS), default="lyapunov_rosenstein")
+    parser.add_argument("--method", choices=sorted(METHODS), default="lyapunov_kantz")
     wanted = parser.parse_args()
     for name in wanted.system:
         study = STUDIES[name]

@@ -32,8 +32,12 @@ ENDS = ((0.12, 0.18), (0.2, 0.3), (0.45,), (0.6,))
 ENOUGH = (1.0, 0.35, 0.35, 0.35)
 """The e-folds that are enough."""
 LATER = (1.0, 1.5, 2.0)
-"""How much later the fits may end that say what the choice matters."""
-FLOOR = 0.03
+"""How much later the fits may end that say what the choice matters,"""
+LAST = 0.45
+"""but no later than this,"""
+SPARSE = 0.7
+"""and the share of the e-folds wanted that is enough for them."""
+FLOOR = 0.035
 """Share of the value that is always doubtful: what the method was off by on systems with known exponents."""
 POINTS = 16
 ALIKE = 1e-10
@@ -171,7 +175,8 @@ def _domains(c: Curves, made: States) -> tuple[tuple[Domain, ...], tuple[Domain,
     for ends, enough in zip(ENDS, ENOUGH, strict=True):
         usual = [d for s in STARTS for e in ends if (d := domain(c, made, s, e, enough))]
         if usual:
-            also = [d for s in OTHER_STARTS for k in LATER if (d := domain(c, made, s, k * ends[0], 0.7 * enough))]
+            late = {min(k * ends[0], max(ends[-1], LAST)) for k in LATER}
+            also = [d for s in OTHER_STARTS for e in sorted(late) if (d := domain(c, made, s, e, SPARSE * enough))]
             return tuple(usual), tuple(also)
     return (), ()
 
