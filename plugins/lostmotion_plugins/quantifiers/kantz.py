@@ -28,7 +28,7 @@ class Kantz(Quantifier[Series]):
     """
 
     average: Literal["logarithm", "distance"] = "logarithm"
-    references: int = 2500
+    references: int = 1800
     name: ClassVar[str] = "lyapunov_kantz"
     paper: ClassVar[str] = "Kantz, Phys. Lett. A 185 (1994) 77-87"
     unit: ClassVar[str] = "1/s"

@@ -27,7 +27,7 @@ class Rosenstein(Quantifier[Series]):
     """
 
     recipe: Literal["refined", "classical"] = "refined"
-    references: int = 2500
+    references: int = 1800
     begin: float = 0.0
     end: float = 0.0
     name: ClassVar[str] = "lyapunov_rosenstein"
