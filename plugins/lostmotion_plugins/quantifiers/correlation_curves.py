@@ -8,7 +8,7 @@ import numpy as np
 
 from lostmotion.contracts import Array, Series
 from lostmotion.results import Estimate
-from lostmotion_plugins.quantifiers.correlation import EIGHTHS, Effort, Sums, correlation_sums
+from lostmotion_plugins.quantifiers.correlation import EIGHTHS, Effort, Sums, correlation_sums, jackknife
 from lostmotion_plugins.quantifiers.correlation_plateau import ENOUGH, KEPT, Plateau
 from lostmotion_plugins.quantifiers.correlation_ready import ready
 
@@ -31,11 +31,11 @@ def refusal(series: Series, dims: int, *, unit: str = "1") -> Estimate | None:
     if series.n < LEAST or free < LEAST // 2 or dims < KEPT:
         says = (
             f"{series.n} samples with delay {series.embedding.lag} and Theiler window {series.embedding.theiler} are "
-            f"too few for a correlation sum, and {LEAST} beside these are wanted: record longer"
+            f"too few for a correlation sum, and {LEAST} beside these are wanted: record longer."
         )
         return Estimate.refused("too_short", says, unit=unit)
     if not np.ptp(series.x) > 0.0:
-        return Estimate.refused("failed", "the series is constant: there is no motion to measure", unit=unit)
+        return Estimate.refused("failed", "The series is constant: there is no motion to measure.", unit=unit)
     return None
 
 
@@ -72,7 +72,7 @@ def curve_of(sums: Sums, found: Plateau | None) -> dict[str, Array]:
     by_dim = np.full((3, sums.dims), np.nan)
     if found is not None:
         count = len(found.value)
-        error = 1.96 * np.sqrt(found.draws.var(axis=0) + found.scatter**2)
+        error = 1.96 * np.sqrt(jackknife(found.left) ** 2 + found.scatter**2)
         by_dim[:, :count] = found.value, found.value - error, found.value + error
     return curve | dict(zip(("dimension_by_dim", "low_by_dim", "high_by_dim"), by_dim, strict=True))
 
@@ -91,10 +91,10 @@ def quick_slope(data: Series) -> Estimate:
     ends = math.log(max(SHARES[0], ENOUGH / float(sums.pairs.sum()))), math.log(SHARES[1])
     rising = np.diff(sums.total[dim - 1], prepend=0.0) > 0.0
     if rising.sum() < 2:
-        says = "all pairs lie equally far apart: the recording repeats itself, or has one step only"
+        says = "All pairs lie equally far apart: the recording repeats itself, or has one step only."
         return Estimate.refused("no_scaling_region", says)
     low, high = np.interp(ends, log_c[rising], np.log(sums.radii[rising]))
     slope = min(float(dim), float((ends[1] - ends[0]) / max(high - low, 1e-3)))
-    says = "a slope at fixed shares of pairs, to compare series with: no dimension, and without an interval"
+    says = "A slope at fixed shares of pairs, to compare series with: no dimension, and without an interval."
     details = {"dim": float(dim), "r_low": math.exp(low), "r_high": math.exp(high), "pairs": float(sums.pairs.sum())}
     return Estimate(slope, -math.inf, math.inf, "uncertain", "1", {}, says, details)

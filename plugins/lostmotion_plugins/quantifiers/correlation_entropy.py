@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from lostmotion.contracts import Array, Quantifier, Series
 from lostmotion.results import Estimate
-from lostmotion_plugins.quantifiers.correlation import Effort, Sums, correlation_sums
+from lostmotion_plugins.quantifiers.correlation import Effort, Sums, correlation_sums, jackknife
 from lostmotion_plugins.quantifiers.correlation_curves import curve_of, refusal
 from lostmotion_plugins.quantifiers.correlation_ready import Ready, ready
 from lostmotion_plugins.quantifiers.noise import noise_level
@@ -19,6 +19,8 @@ from lostmotion_plugins.quantifiers.noise import noise_level
 Codes = NDArray[np.int64]
 FIRST, PAIRS_FIRST = 8, 20_000_000
 """Dimensions and pairs of a first look, which says how long orbits stay together."""
+NEAR = 6_000_000
+"""Close pairs that are counted in full."""
 EFOLDS = 4.5
 """The correlation sum shall fall by about this (natural logarithm) over the delay window."""
 SHRINKS = 0.6
@@ -39,8 +41,7 @@ class CorrelationEntropy(Quantifier[Series]):
     """
 
     dims: int = 14
-    draws: int = 100
-    pairs: int = 200_000_000
+    pairs: int = 60_000_000
     name: ClassVar[str] = "correlation_entropy"
     paper: ClassVar[str] = "Grassberger, Procaccia, Phys. Rev. A 28 (1983) 2591-2593"
     unit: ClassVar[str] = "1/s"
@@ -51,16 +52,16 @@ class CorrelationEntropy(Quantifier[Series]):
         it = ready(data, rng)
         lag = self._stretched(it, data.embedding.theiler)
         marks = (self.dims - 6, self.dims - 3, self.dims)
-        effort = Effort(pairs=self.pairs, only=(2, *marks))
+        effort = Effort(pairs=self.pairs, near=NEAR, only=(2, *marks))
         sums = correlation_sums(it.x, lag, self.dims, theiler=data.embedding.theiler, effort=effort)
-        noise = noise_level(data.x, data.embedding, rng=rng, thorough=False).value
+        noise = noise_level(data.x, data.embedding).value
         floor = max(3.0 * it.step, ABOVE_NOISE * noise * float(np.std(it.x)))
         curve = curve_of(sums, None)
         radii = _radii(sums, floor)
         details = {"lag": float(lag), "noise": noise, "pairs": float(sums.pairs.sum()), **it.details}
         if len(radii) < 4:
             return _declined(noise, curve, details)
-        return _read(sums, radii, lag * it.dt, self.draws, rng=rng, curve=curve, details=details, says=it.says)
+        return _read(sums, radii, lag * it.dt, curve=curve, details=details)
 
     def _stretched(self, it: Ready, theiler: int) -> int:
         """Return the delay (samples) at which the delay vectors are as long as orbits stay together."""
@@ -68,7 +69,8 @@ class CorrelationEntropy(Quantifier[Series]):
         lag = min(it.lag, longest)
         for dims, shrinks in ((FIRST, SHRINKS), (self.dims, 1.0)):
             dims = min(dims, 1 + len(it.x) // (4 * lag))
-            sums = correlation_sums(it.x, lag, dims, theiler=theiler, effort=Effort(pairs=PAIRS_FIRST, near=0))
+            effort = Effort(PAIRS_FIRST, near=0, only=(dims - 2, dims))
+            sums = correlation_sums(it.x, lag, dims, theiler=theiler, effort=effort)
             at = int(np.argmax(sums.total[-1] >= 10 * ENOUGH))
             if sums.total[-1, at] < ENOUGH or dims < 3:
                 break
@@ -91,40 +93,30 @@ def _falls(total: Array, codes: Codes) -> tuple[Array, Array]:
     return (middle - high) / 3.0, (low - middle) / 3.0
 
 
-def _read(
-    sums: Sums,
-    codes: Codes,
-    delay: float,
-    draws: int,
-    *,
-    rng: np.random.Generator,
-    curve: dict[str, Array],
-    details: dict[str, float],
-    says: str,
-) -> Estimate:
+def _read(sums: Sums, codes: Codes, delay: float, *, curve: dict[str, Array], details: dict[str, float]) -> Estimate:
     """Return the entropy, its error from blocks, radii, and what the last three dimensions still changed."""
     last, before = _falls(sums.total, codes)
-    drawn, _ = _falls(sums.resampled(draws, rng), codes)
+    left, _ = _falls(sums.without_one(), codes)
     octaves = np.log(sums.radii[codes[-1]] / sums.radii[codes[0]])
     if (last[0] - last[-1]) / octaves > RISING:
-        text = "the entropy rises without end at smaller radii, as that of noise does: there is no rate to read"
+        text = "The entropy rises without end at smaller radii, as that of noise does: there is no rate to read."
         return Estimate.refused("rising", text, unit="1/s", curve=curve, details=details)
     value = float(last.mean()) / delay
     change = abs(float(before.mean()) / delay - value)
-    error = math.hypot(float(drawn.mean(axis=-1).std()) / delay, float(last.std()) / delay, 0.5 * change)
+    error = math.hypot(float(jackknife(left.mean(axis=-1))) / delay, float(last.std()) / delay, 0.5 * change)
     ends = {"r_low": float(sums.radii[codes[0]]), "r_high": float(sums.radii[codes[-1]]), "change": change}
-    return Estimate(value, value - 1.96 * error, value + 1.96 * error, "ok", "1/s", curve, says, {**details, **ends})
+    return Estimate(value, value - 1.96 * error, value + 1.96 * error, "ok", "1/s", curve, "", {**details, **ends})
 
 
 def _declined(noise: float, curve: dict[str, Array], details: dict[str, float]) -> Estimate:
     if noise > 0.5:
-        says = "nearly all of it is noise, whose entropy rises without end at smaller radii: there is no rate to read"
+        says = "Nearly all of it is noise, whose entropy rises without end at smaller radii: there is no rate to read."
         return Estimate.refused("rising", says, unit="1/s", curve=curve, details=details)
     if noise > 0.0:
         says = (
-            f"the noise is {100.0 * noise:.2g} % of the motion, and above {ABOVE_NOISE:g} standard deviations of it "
-            "too few orbits stay together: reduce the noise first"
+            f"The noise is {100.0 * noise:.2g} % of the motion, and above {ABOVE_NOISE:g} standard deviations of it "
+            "too few orbits stay together: reduce the noise first."
         )
         return Estimate.refused("below_noise", says, unit="1/s", curve=curve, details=details)
-    says = "too few pairs of orbits stay together for as long as it takes: record longer"
+    says = "Too few pairs of orbits stay together for as long as it takes: record longer."
     return Estimate.refused("too_few_neighbours", says, unit="1/s", curve=curve, details=details)

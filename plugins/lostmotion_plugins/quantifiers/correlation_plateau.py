@@ -1,6 +1,6 @@
 """Where the logarithm of a correlation sum is straight: slopes of all windows, weighed against one another.
 
-No window is chosen by eye. Each window of radii and each dimension has a slope with its bootstrap error, a bend (upper
+No window is chosen by eye. Each window of radii and each dimension has a slope with its jackknife error, a bend (upper
 minus lower half), and a rise from the dimension before. Long, straight windows that agree count most, and what
 they disagree about is the systematic error.
 """
@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lostmotion.contracts import Array
-from lostmotion_plugins.quantifiers.correlation import EIGHTHS, Sums
+from lostmotion_plugins.quantifiers.correlation import EIGHTHS, Sums, jackknife
 
 Windows = NDArray[np.int64]
 EVERY = 2
@@ -35,14 +35,15 @@ KEPT = 3
 
 @dataclass(frozen=True, eq=False)
 class Plateau:
-    """Slope of the straight piece by dimension (dims,), its statistical and systematic error, and where it lies.
+    """Slope of the straight piece by dimension (dims,), what is found without each block, and where it lies.
 
+    `left` (blocks, dims) are the slopes with a block left out, `scatter` (dims,) what the windows disagree about.
     `weight` (dims, windows) are those of `windows` (windows, 2), `first` is the smallest of the three dimensions that
     agree best, `rise` what a further dimension adds there, `bend` the change of slope across the windows.
     """
 
     value: Array
-    draws: Array
+    left: Array
     scatter: Array
     weight: Array
     windows: Windows
@@ -62,8 +63,8 @@ class Plateau:
 
     @property
     def error(self) -> float:
-        """The standard error: of the bootstrap, of the choice of window, and of the choice of dimension."""
-        chance = float(self.draws[:, self.dims].mean(axis=1).std())
+        """The standard error: of the jackknife, of the choice of window, and of the choice of dimension."""
+        chance = float(jackknife(self.left[:, self.dims].mean(axis=1)))
         window = float(self.scatter[self.dims].mean())
         return math.sqrt(chance**2 + window**2 + float(self.value[self.dims].var()))
 
@@ -113,9 +114,7 @@ def _windows(radii: Array, smallest: float, largest: float) -> Windows:
     return np.array(pairs, dtype=np.int64).reshape(-1, 2)
 
 
-def plateau(
-    sums: Sums, *, smallest: float, largest: float = LARGEST, draws: int, rng: np.random.Generator
-) -> Plateau | None:
+def plateau(sums: Sums, *, smallest: float, largest: float = LARGEST) -> Plateau | None:
     """Return the straight piece of the sums at radii from `smallest` to a share `largest` of the range.
 
     None where there are too few pairs for one.
@@ -127,13 +126,13 @@ def plateau(
         return None
     log_radius = np.log(radii)
     found = slopes(total, log_radius, windows)
-    drawn = slopes(quarters(sums, sums.resampled(draws, rng))[1], log_radius, windows)
+    left = slopes(quarters(sums, sums.without_one())[1], log_radius, windows)
     middle = windows.sum(axis=1) // 2
     bend = slopes(total, log_radius, np.stack([middle, windows[:, 1]], axis=1))
     bend -= slopes(total, log_radius, np.stack([windows[:, 0], middle], axis=1))
     rise = np.diff(found, axis=0, prepend=0.0)
     octaves = (log_radius[windows[:, 1]] - log_radius[windows[:, 0]]) / math.log(2.0)
-    doubt = drawn.var(axis=0) + (0.5 * bend) ** 2 + rise**2 + SOFT**2
+    doubt = jackknife(left) ** 2 + (0.5 * bend) ** 2 + rise**2 + SOFT**2
     lone = 10.0 * total[:, :1]
     usable = (total[:, windows[:, 0]] >= np.maximum(ENOUGH, lone)) & (found > REPEATS)
     weight = np.where(usable, octaves**2 / doubt, 0.0)
@@ -141,13 +140,13 @@ def plateau(
     dims = int(np.argmin(sized > 0.0)) if (sized == 0.0).any() else len(sized)
     if dims < KEPT:
         return None
-    found, drawn, weight, bend = found[:dims], drawn[:, :dims], weight[:dims], bend[:dims]
+    found, left, weight, bend = found[:dims], left[:, :dims], weight[:dims], bend[:dims]
     weight = weight / sized[:dims, None]
     value = (weight * found).sum(axis=-1)
     scatter = np.sqrt((weight * (found - value[:, None]) ** 2).sum(axis=-1))
     return Plateau(
         value,
-        (weight * drawn).sum(axis=-1),
+        (weight * left).sum(axis=-1),
         scatter,
         weight,
         windows,

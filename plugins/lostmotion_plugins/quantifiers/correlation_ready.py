@@ -52,10 +52,10 @@ def _said(locked: Locked, before: float, after: float) -> str:
     """Return the sentence about a recording that keeps step with its drive."""
     if before < FEWEST:
         return (
-            f"the recording has {locked}, too few to interpolate: it is a Poincare section, and the dimension of the "
-            "flow is one more than what is said here"
+            f"The recording has {locked}, too few to interpolate: it is a Poincare section, and the dimension of the "
+            "flow is one more than what is said here."
         )
     return (
-        f"the recording has {locked}, so that at small radii it shows the dimension of a Poincare section, one less "
-        f"than that of the flow: it was resampled at {after:.4g} samples a period"
+        f"The recording has {locked}, so that at small radii it shows the dimension of a Poincare section, one less "
+        f"than that of the flow: it was resampled at {after:.4g} samples a period."
     )

@@ -21,7 +21,7 @@ from lostmotion_plugins.quantifiers.correlation_curves import (
 from lostmotion_plugins.quantifiers.correlation_entropy import CorrelationEntropy
 from lostmotion_plugins.quantifiers.correlation_plateau import KEPT, Plateau, plateau, rise_at
 from lostmotion_plugins.quantifiers.correlation_ready import Ready, ready
-from lostmotion_plugins.quantifiers.noise import noise_level
+from lostmotion_plugins.quantifiers.noise import EXCESS, RADIUS, noise_level
 
 __all__ = ["CorrelationDimension", "CorrelationEntropy"]
 OTHER_DELAYS = (0.7, 1.4)
@@ -36,8 +36,11 @@ RISING = 0.12
 """What a dimension may add where the value should have settled."""
 ABOVE_NOISE = 4.0
 """Standard deviations of the noise below which no radius is looked at, once noise is seen."""
-NEAR = 8_000_000
-"""Close pairs for another delay."""
+SPARE = float(EXCESS[0] * RADIUS[0] ** 2)
+"""What noise adds for one coordinate too many, at a radius of one standard deviation; it falls with the square of the
+radius. So much is counted as an error: noise shows up as a slope that is too large long before it shows as a bend."""
+NEAR, NEAR_AGAIN = 6_000_000, 2_000_000
+"""Close pairs that are counted in full for the delay that is given, and for another one."""
 
 
 @dataclass(frozen=True)
@@ -51,8 +54,7 @@ class CorrelationDimension(Quantifier[Series]):
     dims: int = 0
     takens: bool = False
     fast: bool = False
-    draws: int = 100
-    pairs: int = 200_000_000
+    pairs: int = 60_000_000
     name: ClassVar[str] = "correlation_dimension"
     paper: ClassVar[str] = (
         "Grassberger, Procaccia, Physica D 9 (1983) 189-208; Theiler, Phys. Rev. A 34 (1986) 2427-2432; "
@@ -67,13 +69,13 @@ class CorrelationDimension(Quantifier[Series]):
         if self.fast:
             return quick_slope(data)
         it = ready(data, rng)
-        sums = correlation_sums(it.x, it.lag, dims, theiler=data.embedding.theiler, effort=Effort(pairs=self.pairs))
-        found = plateau(sums, smallest=3.0 * it.step, draws=self.draws, rng=rng)
+        sums = correlation_sums(it.x, it.lag, dims, theiler=data.embedding.theiler, effort=Effort(self.pairs, NEAR))
+        found = plateau(sums, smallest=3.0 * it.step)
         noise = 0.0
         if found is None or _doubtful(found):
-            noise = noise_level(data.x, data.embedding, rng=rng, thorough=False).value
+            noise = noise_level(data.x, data.embedding).value
             floor = max(3.0 * it.step, ABOVE_NOISE * noise * float(np.std(it.x)))
-            rest = plateau(sums, smallest=floor, largest=WIDER, draws=self.draws, rng=rng)
+            rest = plateau(sums, smallest=floor, largest=WIDER)
             found = found if rest is None and noise == 0.0 else rest
         curve = curve_of(sums, found)
         details = {"pairs": float(sums.pairs.sum()), "ties": sums.ties(1), "noise": noise, **it.details}
@@ -86,8 +88,9 @@ class CorrelationDimension(Quantifier[Series]):
     ) -> Estimate:
         """Return the value with its interval: the delay is varied too, and what that changes is counted."""
         apart = [found.change(sums, self._again(it, sums, found, share)) for share in OTHER_DELAYS]
-        error = math.hypot(found.error, float(np.std([0.0, *apart])))
         low, high = found.ends
+        blur = SPARE * (details["noise"] * float(np.std(it.x))) ** 2 / (low * high)
+        error = math.hypot(found.error, float(np.std([0.0, *apart])), blur)
         total = sums.total[found.dims]
         takens = float(np.mean([takens_theiler(t, sums.radii, low, high) for t in total]))
         value = takens if self.takens and math.isfinite(takens) else found.mean
@@ -98,7 +101,7 @@ class CorrelationDimension(Quantifier[Series]):
     def _again(self, it: Ready, sums: Sums, found: Plateau, share: float) -> Sums:
         lag = round(it.lag * share)
         lag = max(1, lag + (lag == it.lag) * (1 if share > 1.0 else -1))
-        effort = Effort(pairs=self.pairs // 4, near=NEAR, only=(2, *range(found.first, found.first + KEPT)))
+        effort = Effort(pairs=self.pairs // 4, near=NEAR_AGAIN, only=(2, *range(found.first, found.first + KEPT)))
         return correlation_sums(it.x, lag, sums.dims, theiler=sums.theiler, effort=effort)
 
 
@@ -121,22 +124,22 @@ def _declined(
 ) -> Estimate:
     """Return the refusal that the slopes, the noise (in the unit of the series) and the ties call for."""
     if rise_at(sums, WIDER) > RISING_FAR or (found is not None and found.rise > RISING):
-        says = "the slope rises with every dimension of the embedding, as that of noise does: there is no dimension"
+        says = "The slope rises with every dimension of the embedding, as that of noise does: there is no dimension."
         return Estimate.refused("rising", says, curve=curve, details=details)
     if 8.0 * ABOVE_NOISE * noise > WIDER * sums.extent:
         says = (
-            f"the noise is {100.0 * details['noise']:.2g} % of the motion, and above {ABOVE_NOISE:g} standard "
-            "deviations of it no straight piece of the correlation sum is left: reduce the noise first"
+            f"The noise is {100.0 * details['noise']:.2g} % of the motion, and above {ABOVE_NOISE:g} standard "
+            "deviations of it no straight piece of the correlation sum is left: reduce the noise first."
         )
         return Estimate.refused("below_noise", says, curve=curve, details=details)
     if details["ties"] > 1e-3:
         says = (
             f"{100.0 * details['ties']:.2g} % of the pairs agree to the last digit, as in a motion that repeats itself "
-            "exactly or is recorded in coarse steps: no slope can be read between these"
+            "exactly or is recorded in coarse steps: no slope can be read between these."
         )
         return Estimate.refused("no_scaling_region", says, curve=curve, details=details)
     if found is None:
-        says = "too few pairs of points come close in three successive dimensions: record longer"
+        says = "Too few pairs of points come close in three successive dimensions: record longer."
         return Estimate.refused("too_few_neighbours", says, curve=curve, details=details)
-    says = "the slope changes with the radius everywhere: there is no straight piece to read a dimension from"
+    says = "The slope changes with the radius everywhere: there is no straight piece to read a dimension from."
     return Estimate.refused("no_scaling_region", says, curve=curve, details=details)

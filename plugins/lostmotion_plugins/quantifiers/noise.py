@@ -7,13 +7,14 @@ noise adds up to one dimension for each. How much it adds at a radius depends on
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import ClassVar
 
 import numpy as np
 
 from lostmotion.contracts import Array, Quantifier, Series
 from lostmotion.results import Embedding, Estimate
-from lostmotion_plugins.quantifiers.correlation import EIGHTHS, Effort, correlation_sums
+from lostmotion_plugins.quantifiers.correlation import EIGHTHS, Effort, correlation_sums, jackknife
 
 LOW, MIDDLE, HIGH = 4, 6, 8
 """The dimensions that are compared: 4 with 8, and 4 with 6 where pairs are few."""
@@ -31,50 +32,53 @@ SPAN = EIGHTHS // 2
 ENOUGH = 80
 """Pairs within a radius, in the larger dimension, from which on its slope is believed."""
 LEAST = 500
-DRAWS = 100
-SURE = 0.05
+SURE = 0.1
 """Standard error (of the logarithm) above which a first look is not enough."""
-FEW, MANY = 40_000_000, 200_000_000
-"""Pairs to look at first, and where they show no noise."""
+PAIRS, NEAR = 20_000_000, 8_000_000
+"""Pairs that are looked at, and where they show no noise, close pairs that are counted in full."""
 
 
-def noise_level(
-    x: Array, embedding: Embedding, *, rng: np.random.Generator | None = None, thorough: bool = True
-) -> Estimate:
+def noise_level(x: Array, embedding: Embedding) -> Estimate:
     """Return the standard deviation of white noise in `x` (n,), as a share of that of `x`.
 
     Only the Theiler window of `embedding` is used. Where no noise is seen the value is 0, and `high` is the most that
-    could hide; `thorough` then looks at more pairs, so that this is less.
+    could hide. The last two series are remembered by their samples: dimension, entropy and the host ask for the same.
     """
-    rng = np.random.default_rng(0) if rng is None else rng
     need = max(LEAST, 3 * embedding.theiler)
     if len(x) < need:
         return Estimate.refused(
-            "too_short", f"{len(x)} samples are too few to see noise in, and {need} are wanted: record longer"
+            "too_short", f"{len(x)} samples are too few to see noise in, and {need} are wanted: record longer."
         )
     if not np.ptp(x) > 0.0:
-        return Estimate.refused("failed", "the series is constant: there is no noise in it, and no motion")
+        return Estimate.refused("failed", "The series is constant: there is no noise in it, and no motion.")
+    return _measured(np.ascontiguousarray(x, dtype=np.float64).tobytes(), embedding.theiler)
+
+
+@lru_cache(maxsize=2)
+def _measured(samples: bytes, theiler: int) -> Estimate:
+    """Return the noise level of float64 samples, steps of the sensor made even by a dither that is always the same."""
+    x = np.frombuffer(samples)
     step = quantisation(x)
-    dithered = x + step * (rng.random(len(x)) - 0.5) if step > 0.0 else x
-    found = _looked(dithered, embedding.theiler, step, rng, FEW)
+    dithered = x + step * (np.random.default_rng(0).random(len(x)) - 0.5) if step > 0.0 else x
+    found = _looked(dithered, theiler, step, 0)
     sure = found.value > 0.0 and found.details["spread"] < SURE
-    return found if sure or not thorough else _looked(dithered, embedding.theiler, step, rng, MANY)
+    return found if sure else _looked(dithered, theiler, step, NEAR)
 
 
-def _looked(x: Array, theiler: int, step: float, rng: np.random.Generator, pairs: int) -> Estimate:
-    """Return the noise level from about so many pairs; `step` is that of the sensor, made even by a dither."""
-    sums = correlation_sums(x, 1, HIGH, theiler=theiler, effort=Effort(pairs=pairs, near=0, only=(LOW, MIDDLE, HIGH)))
+def _looked(x: Array, theiler: int, step: float, near: int) -> Estimate:
+    """Return the noise level, with so many close pairs counted in full; `step` is that of the sensor."""
+    effort = Effort(pairs=PAIRS, near=near, only=(2, LOW, MIDDLE, HIGH) if near else (LOW, MIDDLE, HIGH))
+    sums = correlation_sums(x, 1, HIGH, theiler=theiler, effort=effort)
     sd = float(np.std(x))
     radii, floor = sums.radii / sd, step / sd
     value, most = _read(sums.total, radii, floor)
     curve = {"radius": _middle(radii), "excess": _excess(sums.total, HIGH)}
     details = {"pairs": float(sums.pairs.sum()), "quantisation": floor, "spread": 0.0}
     if not value > 0.0:
-        says = f"no noise is seen: it is at most {100 * most:.2g} % of the motion"
+        says = f"No noise is seen: it is at most {100 * most:.2g} % of the motion."
         return Estimate(0.0, 0.0, most, "ok", "1", curve, says, details)
-    drawn = [_read(total, radii, floor)[0] for total in sums.resampled(DRAWS, rng)]
-    seen = np.log([v for v in drawn if v > 0.0] or [value])
-    spread = 0.5 * float(np.diff(np.quantile(seen, [0.159, 0.841]))[0])
+    left = [_read(total, radii, floor)[0] for total in sums.without_one()]
+    spread = float(jackknife(np.log([v if v > 0.0 else value for v in left])))
     details["spread"] = spread
     wide = float(np.exp(np.hypot(1.96 * spread, SYSTEMATIC)))
     value = float(np.sqrt(max(value**2 - floor**2 / 12.0, (0.2 * value) ** 2)))
@@ -143,4 +147,4 @@ class NoiseLevel(Quantifier[Series]):
     unit: ClassVar[str] = "1"
 
     def estimate(self, data: Series, *, rng: np.random.Generator) -> Estimate:
-        return noise_level(data.x, data.embedding, rng=rng)
+        return noise_level(data.x, data.embedding)
