@@ -18,6 +18,14 @@ FALSE_ALARM = 1e-3
 CHANCE_MEMORY = 0.3
 """Correlation of successive amplitudes that 16 independent ones may show by chance."""
 CANDIDATES = 8
+WORTH_A_LOOK = 10.0
+"""A peak is fitted where agreement is at most so many times likelier by chance than that of a line."""
+SKIRT, AROUND = 2.5, (6.0, 24.0)
+"""What is left beside a line (bins), and where it is compared with the background (bins)."""
+STANDS_OUT = 3.0
+"""By this the rest beside a line may exceed the background: a line under noise does so in one record of 400."""
+WANDERS = 3e-4
+"""Share of the power of a line (rad^2 of its phase) that may stand out beside it: the wow of a drive is no hump."""
 FEWEST_CYCLES = 3.0
 STEPS = 12
 CHUNK = 4096
@@ -65,16 +73,18 @@ def fundamental(x: Array, dt: float) -> Line | None:
     """Return the strongest line in the spectrum of `x` (n,), or None where no component keeps its phase.
 
     A peak is a line if its complex amplitudes in 16 successive pieces agree better than those of noise would at the
-    best of all frequencies in one series of a thousand. The line of a subharmonic or harmonic may be the strongest.
-    A resonance so narrow that the series holds fewer than ten of its coherence times passes for a line now and then.
+    best of all frequencies in one series of a thousand, and if it is no wider than the taper: with a sinusoid taken
+    off, nothing may stand out beside it, as it does where the phase wanders. The line of a subharmonic or harmonic may
+    be the strongest. A motion whose phase wanders by less than a tenth of a radian in all of the series, as that of
+    Roessler's equations may in a hundred cycles, cannot be told from a line.
     """
     centred = x - x.mean()
-    power = float(centred @ centred)
-    if len(x) < 4 * SEGMENTS or power <= 0.0:
+    if len(x) < 4 * SEGMENTS or not centred.any():
         return None
     for guess in _peaks(centred, dt):
-        frequency = _sharpened(centred, dt, guess, harmonics=1)
-        line = _judged(centred, dt, frequency)
+        if _chance(_aligned(_amplitudes(centred, guess * dt)), len(x)) > WORTH_A_LOOK * FALSE_ALARM:
+            continue
+        line = _judged(centred, dt, _sharpened(centred, dt, guess, harmonics=1))
         if line is not None:
             return line
     return None
@@ -94,11 +104,17 @@ def refined_period(u: Array, dt: float) -> float | None:
         frequency = 1.0 / (line.period * divisions)
         if frequency * len(u) * dt < FEWEST_CYCLES:
             return None
+        if _unexplained(centred, frequency * dt) > 2.0 * UNEXPLAINED:
+            continue
         frequency = _sharpened(centred, dt, frequency, harmonics=_count(frequency, dt, 3 * divisions))
-        rest, _ = without_harmonics(centred, dt, 1.0 / frequency, harmonics=12)
-        if np.std(rest) <= UNEXPLAINED * np.std(centred):
+        if _unexplained(centred, frequency * dt) <= UNEXPLAINED:
             return 1.0 / frequency
     return None
+
+
+def _unexplained(x: Array, turns: float) -> float:
+    """Return the share of the standard deviation of `x` (n,) that twelve harmonics leave over."""
+    return float(np.std(x - _fitted(x, turns, _count(turns, 1.0, 12))) / np.std(x))
 
 
 def without_harmonics(
@@ -148,26 +164,55 @@ def _offset(three: Array) -> float:
 def _judged(x: Array, dt: float, frequency: float) -> Line | None:
     """Return the line at a frequency (Hz), or None where the phases of the pieces do not agree."""
     pieces = _amplitudes(x, frequency * dt)
-    squares = float(np.sum(np.abs(pieces) ** 2))
-    if squares == 0.0:
-        return None
-    coherence = float(np.abs(pieces.sum()) ** 2 / (SEGMENTS * squares))
-    # The agreement of independent Gaussian amplitudes has the distribution Beta(1, number - 1).
-    chance = min(1.0, 0.5 * len(x) * max(0.0, 1.0 - coherence) ** (_independent(pieces) - 1.0))
+    chance = _chance(pieces, len(x))
     if chance > FALSE_ALARM:
         return None
     part = _fitted(x, frequency * dt, 1)
-    share = float(part @ part) / float(x @ x)
-    return Line(1.0 / frequency, _phase_error(pieces, len(x) * dt) / frequency**2, share, coherence, chance)
+    if _wanders(x - part, frequency * dt, float(part @ part) / len(x)):
+        return None
+    share, spread = float(part @ part) / float(x @ x), _phase_error(pieces, len(x) * dt) / frequency**2
+    return Line(1.0 / frequency, spread, share, _coherence(pieces), chance)
+
+
+def _coherence(pieces: NDArray[np.complex128]) -> float:
+    """Return 1 where all complex amplitudes are the same, and about 1/16 where they have nothing in common."""
+    squares = float(np.sum(np.abs(pieces) ** 2))
+    return float(np.abs(pieces.sum()) ** 2 / (SEGMENTS * squares)) if squares > 0.0 else 0.0
+
+
+def _chance(pieces: NDArray[np.complex128], n: int) -> float:
+    """Return how likely it is that `n` samples of noise show such agreement at the best of all frequencies."""
+    # The agreement of independent Gaussian amplitudes has the distribution Beta(1, number - 1).
+    return float(min(1.0, 0.5 * n * max(0.0, 1.0 - _coherence(pieces)) ** (_independent(pieces) - 1.0)))
+
+
+def _aligned(pieces: NDArray[np.complex128]) -> NDArray[np.complex128]:
+    """Return the amplitudes at that frequency within a bin of the guess where they agree best."""
+    turns = np.linspace(-1.0, 1.0, 41)[:, None] * (np.arange(SEGMENTS) / SEGMENTS)
+    turned = pieces * np.exp(-2j * np.pi * turns)
+    return np.asarray(turned[int(np.argmax(np.abs(turned.sum(axis=1))))])
+
+
+def _wanders(rest: Array, turns: float, power: float) -> bool:
+    """Return whether more than the background is left beside a line of that power which was taken off."""
+    frequency, density = spectrum(rest, 1.0)
+    bins = np.arange(1, len(density))
+    away = np.abs(bins - turns * len(rest))
+    near, around = density[bins[away <= SKIRT]], density[bins[(away > AROUND[0]) & (away <= AROUND[1])]]
+    # The median of exponentially distributed densities is ln 2 of their mean; another line does not move it.
+    background = float(np.median(around)) / math.log(2.0) if len(around) else math.inf
+    over = float(np.sum(near - background) * frequency[1])
+    return over > WANDERS * power and float(np.mean(near)) > STANDS_OUT * background
 
 
 def _amplitudes(x: Array, turns: float) -> NDArray[np.complex128]:
     """Return the complex amplitude of the component with `turns` cycles per sample in each of 16 pieces of `x`."""
     length = len(x) // SEGMENTS
     pieces = x[: length * SEGMENTS].reshape(SEGMENTS, length)
-    wave = np.exp(-2j * np.pi * turns * np.arange(length * SEGMENTS)).reshape(SEGMENTS, length)
     taper = signal.windows.hann(length, sym=False) if turns * length > 3.0 else np.ones(length)
-    return np.asarray((pieces * wave) @ taper / taper.sum())
+    wave = np.exp(-2j * np.pi * turns * np.arange(length)) * taper / taper.sum()
+    begins = np.exp(-2j * np.pi * np.modf(turns * length * np.arange(SEGMENTS))[0])
+    return np.asarray(begins * (pieces @ wave.real + 1j * (pieces @ wave.imag)))
 
 
 def _independent(pieces: NDArray[np.complex128]) -> float:
