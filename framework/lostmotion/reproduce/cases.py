@@ -60,5 +60,8 @@ class Case:
 CASES = {
     1: Case(1.0, 0.0, 40000.0, 8.0, 0.005, 100.0, 40.0),
     2: Case(1.0, 1000.0, 31000.0, 8.0, 0.005, 240.0, 40.0),
-    3: Case(3.0, 0.0, 2250.0, 8.0, 0.02, 108.0, 2.0 * math.pi * 1.57),
+    3: Case(3.0, 0.0, 2250.0, 8.0, 0.02, 108.0, 0.3602 * math.sqrt(750.0)),
 }
+"""The frequency of Case 3 is 1.57 Hz to all digits that are given: omega/omega_0 is rounded, since the exponent changes
+with the fifth digit there (`PRINTED` is 1.57 Hz exactly)."""
+PRINTED = 2.0 * math.pi * 1.57

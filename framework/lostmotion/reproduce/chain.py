@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -46,6 +47,19 @@ class Slopes:
 def unfolded(lab: Lab, x: Array, dt: float, period: float) -> Series:
     """Return a recording with delay and dimension by mutual information and Cao's method."""
     return embed(x, lab.make("embedder", "ami_cao"), dt=dt, period=period)
+
+
+def first_minimum(curves: Mapping[str, Array], within: float) -> float:
+    """Return the first lag (s) whose mutual information is the least of all lags up to `within` s away from it.
+
+    Shallower minima are ripples of the bins. It is NaN where there is none.
+    """
+    lag, ami = curves["lag"], curves["ami"]
+    reach = max(round(within / float(lag[1] - lag[0])), 1)
+    for k in range(reach, len(ami) - reach):
+        if ami[k] <= ami[k - reach : k + reach + 1].min():
+            return float(lag[k])
+    return math.nan
 
 
 def slopes(lab: Lab, series: Series, draws: int, stream: str) -> Slopes:

@@ -9,7 +9,7 @@ import numpy as np
 
 from lostmotion.contracts import Series
 from lostmotion.rates import exponent_in
-from lostmotion.reproduce.chain import Slopes, cleaned, size, slopes, unfolded
+from lostmotion.reproduce.chain import Slopes, cleaned, first_minimum, size, slopes, unfolded
 from lostmotion.reproduce.joint import DAMPING, HALF, LEVELS, PAPER, RATIO, SUSPECT, Recording, motions, recording
 from lostmotion.reproduce.lab import Lab
 from lostmotion.reproduce.outcome import Outcome, Rows, judged
@@ -21,6 +21,8 @@ FIRST = 2.68
 """The level (degrees) of Figs. 17 to 19."""
 CLEANED = 3.41
 """The level of Fig. 22 in the text; its caption says 2.68."""
+RIPPLE = 0.05
+"""Share of the period within which minima of the mutual information are ripples."""
 CHAOTIC = 0.1
 """Exponents (bit/s) above which a motion counts as chaotic."""
 STAND_IN = "on a simulated joint: the recordings were never published"
@@ -47,7 +49,7 @@ def fig17(lab: Lab) -> Outcome:
 def fig18(lab: Lab) -> Outcome:
     """Return the mutual information at 2.68 degrees."""
     made = recording(lab, FIRST)
-    lag = made.series.embedding.lag * made.series.dt
+    lag = first_minimum(made.series.embedding.curves, RIPPLE * made.period)
     says = (
         f"The first minimum is at {lag:.3f} s, {lag / made.period:.2f} of a period (paper: 0.174 s, 0.27 of one); "
         f"{STAND_IN}."

@@ -9,7 +9,7 @@ import numpy as np
 
 from lostmotion.contracts import Array, Series
 from lostmotion.reproduce.cases import CASES
-from lostmotion.reproduce.chain import Slopes, cleaned, size, slopes, unfolded
+from lostmotion.reproduce.chain import Slopes, cleaned, first_minimum, size, slopes, unfolded
 from lostmotion.reproduce.lab import Lab, Sampled
 from lostmotion.reproduce.outcome import Outcome, judged
 from lostmotion.reproduce.portraits import shared
@@ -60,14 +60,13 @@ def long(lab: Lab) -> Noisy:
 def fig11(lab: Lab) -> Outcome:
     """Return the motion of Case 3 and its mutual information at four noise levels."""
     made = recorded(lab)
-    lags = [s.embedding.lag * s.dt for s in made.series]
     curves = [s.embedding.curves for s in made.series]
+    lags = [first_minimum(c, 0.05 * made.period) for c in curves]
     heights = [float(np.interp(lags[0], c["lag"], c["ami"])) for c in curves]
     says = (
         f"The first minimum lies at {lags[0]:.3f} s without noise and at {lags[1]:.3f}, {lags[2]:.3f} and "
         f"{lags[3]:.3f} s with 1, 5 and 10 % (paper: {PAPER_LAG} s for all); noise lowers the whole curve, as the "
-        "paper says. The motion is so nearly periodic that the curve has many small minima, and which is first "
-        "depends on bins and sampling."
+        "paper says. The minimum is broad: where it is lowest depends on bins and sampling."
     )
     shown = np.arange(len(made.true)) * made.dt < 12.0
     data = {"time": np.flatnonzero(shown) * made.dt, "x": made.true[shown], "names": NAMES,
@@ -170,8 +169,7 @@ def fig16(lab: Lab) -> Outcome:
     off = [_off(_map(lab, x, long(lab).dt), clean) / float(np.linalg.norm(high - low)) for x in reduced]
     says = (
         f"Enlarged, the distance of a cleaned point from the clean curve is {100 * off[1]:.1f} % of its length at 1 % "
-        f"of noise, {100 * off[2]:.1f} % at 5 % and {100 * off[3]:.1f} % at 10 % (medians): the fine folds survive 1 "
-        "% only."
+        f"of noise, {100 * off[2]:.1f} % at 5 % and {100 * off[3]:.1f} % at 10 % (medians)."
     )
     numbers = {f"off_{100 * level:g}": x for level, x in zip(LEVELS[1:], off[1:], strict=True)}
     return Outcome(judged(off[1] < 0.02, off[2] < 0.1), says, numbers, {**data, "off": off, "left": left})
