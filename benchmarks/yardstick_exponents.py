@@ -66,6 +66,6 @@ def _run(method: Rosenstein | Kantz | Wolf) -> float:
 CASES = [
     Case("Rosenstein, refined, with interval", lambda: _run(Rosenstein()), plain_rosenstein, 0.05),
     Case("Rosenstein, classical", lambda: _run(Rosenstein("classical", begin=1.0, end=3.0)), plain_rosenstein, 0.05),
-    Case("Kantz, three radii, with interval", lambda: _run(Kantz()), plain_kantz, 0.2),
+    Case("Kantz, three shells, with interval", lambda: _run(Kantz()), plain_kantz, 0.2),
     Case("Wolf", lambda: _run(Wolf()), None),
 ]
