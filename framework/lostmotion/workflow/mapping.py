@@ -14,7 +14,7 @@ from lostmotion.study.layout import layout_of
 from lostmotion.study.map import Map
 from lostmotion.study.refine import MOST, cleared, finished_layout, refined
 from lostmotion.study.rig import DRIVE, Rig
-from lostmotion.study.store import ENDINGS, as_dataset, holds, load, remove, save_netcdf, save_zarr
+from lostmotion.study.store import ENDINGS, as_dataset, holds, load, save_netcdf, save_zarr
 from lostmotion.study.sweep import Crew, Say, sweep
 from lostmotion.workflow.drives import Options, number, pairs
 from lostmotion.workflow.simulate import assembly_of
@@ -121,16 +121,18 @@ def _one_file(study: Study, out: Path, how: How, say: Say) -> None:
     """Write one netCDF at the end, from a store beside it that is removed."""
     layout, parts = layout_of(study), out.with_name(f".{out.name}.parts")
     if holds(out, layout, fresh=how.fresh):
+        cleared(parts)
         return
     sweep(parts, layout, how.crew, say, fresh=how.fresh)
     save_netcdf(out, load(parts))
-    remove(parts)
+    cleared(parts)
 
 
 def _refine(study: Study, out: Path, how: How, say: Say) -> None:
     """Write a map that is fine at the boundary of chaos, from stores of its levels that are removed."""
     layout, parts = finished_layout(study, how.levels), out.with_name(f".{out.name}.levels")
     if holds(out, layout, fresh=how.fresh):
+        cleared(parts)
         return
     if how.fresh:
         cleared(parts)

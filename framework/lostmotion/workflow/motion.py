@@ -92,7 +92,7 @@ def _fits(period: float, x: Array, dt: float) -> bool:
 
 def judged(evidence: Evidence) -> Verdict:
     """Return the verdict on a motion; the first that holds of periodic, quasiperiodic, chaotic and stochastic."""
-    for rule in (_periodic, _quasiperiodic, _coarse, _jittering):
+    for rule in (_periodic, _quasiperiodic, _coarse, _regular, _jittering):
         if found := rule(evidence):
             return found
     return _ruled_or_random(evidence)
@@ -153,6 +153,19 @@ def _coarse(evidence: Evidence) -> Verdict | None:
         f"{FEWEST_VALUES} are wanted, so use a finer sensor or a larger motion."
     )
     return Verdict("undecided", says, ())
+
+
+def _regular(evidence: Evidence) -> Verdict | None:
+    """Return the verdict if near states do not part, the motion is no noise, and it does not come back either."""
+    exponent = evidence.exponent
+    tested = bool(evidence.tests) and all(t.rejects(SIGNIFICANT) for t in evidence.tests)
+    if exponent.status != "regular" or not math.isfinite(exponent.value) or not tested:
+        return None
+    says = (
+        "Near states do not part, and yet no number of periods brings the motion back: "
+        f"the exponent is {exponent.value:.2g} {exponent.unit} [{exponent.low:.2g}, {exponent.high:.2g}]."
+    )
+    return Verdict("quasiperiodic", says, tuple(t.says for t in evidence.tests))
 
 
 def _jittering(evidence: Evidence) -> Verdict | None:
