@@ -82,8 +82,7 @@ def refinement(folder, reference, side):
         known = spread_out(True, step, share.shape)
         uniform.append((int(known.sum()), wrong(share, known)))
         print(f"  uniform {known.sum():6d} cells: {100 * uniform[-1][1]:5.2f} % wrong")
-    for levels in (2, 3, 4):
-        base = 17
+    for base, levels in ((9, 3), (17, 2), (9, 4), (17, 3)):
         many = (base - 1) * 2**levels + 1
         if many > side:
             continue
@@ -91,9 +90,19 @@ def refinement(folder, reference, side):
         computed = found.dataset["level"].to_numpy() >= 0
         step = (side - 1) // (many - 1)
         error = wrong(share, spread_out(computed, step, share.shape))
-        same = [cells for cells, other in uniform if other <= 1.02 * error]
-        ratio = f"{min(same) / computed.sum():.1f} times fewer than uniform" if same else "no uniform one is as good"
-        print(f"  {levels} halvings {computed.sum():6d} cells: {100 * error:5.2f} % wrong; {ratio} ({seconds:.0f} s)")
+        print(
+            f"  {base} x {base}, {levels} halvings {computed.sum():6d} cells: {100 * error:5.2f} % wrong; "
+            f"{ratio(uniform, error, int(computed.sum()))} ({seconds:.0f} s)"
+        )
+
+
+def ratio(uniform, error, cells):
+    """Say how many more cells a uniform map needs for the same error, read off its line of log error over log cells."""
+    many, wrong_share = np.log(np.array(uniform, dtype=float)).T
+    if np.log(error) < wrong_share.min():
+        return f"more than {np.exp(many[-1]) / cells:.1f} times fewer cells: the best uniform map is worse"
+    falling = np.maximum.accumulate(wrong_share[::-1])
+    return f"{np.exp(np.interp(np.log(error), falling, many[::-1])) / cells:.1f} times fewer cells than a uniform map"
 
 
 def honesty(reference, side):
@@ -116,7 +125,7 @@ def honesty(reference, side):
         print(f"  {name:<11} {len(told):5d} points: {inside:.1f} % inside, median width {width:.4f}")
 
 
-SHORT = {"periods": 200, "transient": 100, "starts": 2}
+SHORT = {"periods": 200, "transient": 150, "starts": 4}
 
 
 def main():

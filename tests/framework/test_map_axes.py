@@ -113,9 +113,9 @@ def test_knobs_that_contradict_or_are_wanting_are_refused(swept, fixed, says):
 
 def test_starts_reach_about_as_far_as_the_motion():
     flow, _ = rig().flow({"alpha": 0.5, "zeta": 0.02})
-    assert reach(flow)[0] == pytest.approx(2.0, rel=0.5)
+    assert reach(flow, 40)[0] == pytest.approx(2.0, rel=0.5)
     still, _ = rig().flow({"alpha": 0.0, "zeta": 0.02})
-    assert np.array_equal(reach(still), [1.0, 1.0])
+    assert np.array_equal(reach(still, 40), [1.0, 1.0])
 
 
 @pytest.mark.parametrize(

@@ -206,6 +206,7 @@ def test_netcdf_holds_the_same_and_leaves_nothing_beside_it(whole, tmp_path):
     first = made(tmp_path / "a.nc").dataset
     made(tmp_path / "b.nc")
     assert (tmp_path / "a.nc").read_bytes() == (tmp_path / "b.nc").read_bytes()
+    assert list(first.data_vars) == sorted(first.data_vars)
     assert sorted(p.name for p in tmp_path.iterdir()) == ["a.nc", "b.nc"]
     with xr.open_zarr(whole, mask_and_scale=False) as stored:
         for name in stored.variables:

@@ -26,7 +26,7 @@ _AXIS = "NAME=LOW:HIGH:N[:log|inverse]"
         "lostmotion map --model lin_backlash --set zeta=0.02 --set alpha=0.244 --starts 1 \\",
         "    --x start.position=-3:3:100 --y start.velocity=-1:1:100 --out basins.nc",
         "lostmotion map --model lin_backlash --set m=1 --set c=8 --set k0=4e4 --set x0=0.005 \\",
-        "    --term coulomb_friction:force=3 --drive harmonic:amplitude=100,omega=40 \\",
+        "    --term coulomb_friction --drive harmonic:omega=40 \\",
         "    --x coulomb_friction.force=0:10:20 --y drive.amplitude=50:300:20 --out friction.zarr",
     )
 )
@@ -66,19 +66,19 @@ def command(
     out: Path,
     **settings: object,
 ) -> None:
-    r"""Map the largest Lyapunov exponent of a machine over its parameters, cell by cell, from several starts.
+    """Map the largest Lyapunov exponent of a machine over its parameters, cell by cell, from several starts.
 
     \b
     An axis may be
-      alpha, zeta, ...         a dimensionless number of the model (`plugins show`)
+      alpha, zeta, ...             a dimensionless number of the model
       c, coulomb_friction.force    a parameter of the model or of a term
       drive.amplitude, drive.omega, drive.phase
-      start.position, ...      where the motion starts: a map of basins
+      start.position, ...          where the motion starts: a map of basins
 
     Where no parameter of the model is named it is normalised: all that sets a scale is one, omega is 0.2 unless told,
     and exponents are per t_bar. The same command continues a map that was interrupted, at any moment; the bytes do not
     depend on that, nor on the number of workers. Exit status 0 when the map is whole, 2 when it cannot be made.
-    """
+    """  # noqa: D301 - click wants the character itself
     from lostmotion.study.sweep import Crew
     from lostmotion.workflow.mapping import How, Request, make_map, study_of
 

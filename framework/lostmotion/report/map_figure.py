@@ -21,6 +21,7 @@ COLOURS = LinearSegmentedColormap.from_list(
     "exponent", ["#053061", "#2f79b5", "#a7cfe4", "#ffffff", "#fbc4a4", "#d55e00", "#5f1f00"]
 )
 EDGE = "#111111"
+HALF = 0.499
 
 
 def save(dataset: xr.Dataset, path: Path) -> Path:
@@ -87,8 +88,9 @@ def _norm(exponent: Array) -> TwoSlopeNorm:
 def _edge(axes: Axes, grid: tuple[Array, Array], share: Array) -> None:
     """Draw the line along which half of the starts end in chaos, if there is one."""
     filled = np.nan_to_num(share)
-    if filled.min() < 0.5 <= filled.max():
-        axes.contour(*grid, filled, levels=[0.5], colors=EDGE, linewidths=0.8)
+    # A little below one half, which is itself a share that cells have: a contour through whole cells is no line.
+    if filled.min() < HALF < filled.max():
+        axes.contour(*grid, filled, levels=[HALF], colors=EDGE, linewidths=0.8)
 
 
 def _scale(dataset: xr.Dataset, name: str) -> Array:

@@ -33,8 +33,8 @@ LONGEST = 32
 """Periods of the drive beyond which a periodic motion is not told from any other."""
 CLOSE = 1e-5
 """Distance, over the size of the motion, within which two looks at it show the same point."""
-WIDE = 2.0
-"""Starts are drawn evenly from a box so many times as large as the motion from rest reaches in some periods."""
+WIDE, BEGINNING = 2.0, 40
+"""Starts are drawn evenly from a box so many times as large as the motion from rest reaches in so many periods."""
 LOOKS = 32
 """Samples in a period for methods that read a series."""
 
@@ -130,7 +130,7 @@ def _fill(study: Study, cell: Array, columns: Columns, row: int) -> None:
     except LostMotionError:
         columns["status"][row] = CODES["failed"]
         return
-    box, chaotic = WIDE * reach(flow), 0
+    box, chaotic = WIDE * reach(flow, BEGINNING), 0
     for k in range(study.starts):
         rng = np.random.default_rng([study.seed, k, *(int(i) for i in cell)])
         start = rng.uniform(-box, box)

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from lostmotion.provenance import provenance
 from lostmotion.results import STATUSES
-from lostmotion.study.cells import CODES, LONGEST, Study
+from lostmotion.study.cells import BEGINNING, CODES, LONGEST, WIDE, Study
 
 SCHEMA = "lostmotion.map/1"
 WORK = 200_000
@@ -102,8 +102,11 @@ class Layout:
             if axis.name in self.dims:
                 attrs = {**_said(rig.unit(axis.name), rig.knob(axis.name).meaning), "spacing": axis.spacing}
                 table[axis.name] = ((axis.name,), values, attrs)
-        starts = np.arange(self.study.starts)
-        return {**table, "start": (("start",), starts, _said("1", "number of the initial condition"))}
+        told = {
+            **_said("1", "number of the initial condition"),
+            "comment": f"drawn evenly from a box {WIDE:g} times as large as {BEGINNING} periods from rest reach",
+        }
+        return {**table, "start": (("start",), np.arange(self.study.starts), told)}
 
 
 def layout_of(study: Study) -> Layout:

@@ -85,7 +85,8 @@ class Map:
         sd = math.sqrt(float(weights @ (spreads**2 + (means - value) ** 2)))
         low, high = (_quantile(q, means, spreads, weights) for q in (0.025, 0.975))
         flags = self._numbers("status" if quantity == "lyapunov_max" else f"{quantity}_status")
-        chaotic = sum(w * float(self.share[place]) for place, w in corners)
+        share = self._numbers("chaotic_fraction")
+        chaotic = sum(w * float(share[place]) for place, w in corners)
         settled = sum(w * float((flags[place] == 0).mean()) for place, w in corners)
         unit = str(self.dataset[quantity].attrs.get("units", "1"))
         return Reading(value, min(low, value), max(high, value), sd, chaotic, settled, unit)
@@ -162,17 +163,12 @@ def _mixture(
     """Return means, spreads and weights of what the cells around a point, and those around them, show."""
     values, errors, rough = fields
     ring = _ring([place for place, _ in corners], rough.shape)
-    weighted = [(place, (1.0 - RING) * w) for place, w in corners] + [(place, RING / len(ring)) for place in ring]
-    means, spreads, weights = [], [], []
-    for place, weight in weighted:
-        good = np.isfinite(values[place])
-        many = int(good.sum())
-        means += values[place][good].tolist()
-        spread = np.hypot(np.nan_to_num(errors[place][good]), ROUGH * np.nan_to_num(rough[place]))
-        spreads += spread.tolist()
-        weights += [weight / max(many, 1)] * many
-    total = np.array(weights)
-    return np.array(means), np.maximum(np.array(spreads), 1e-12), total / max(float(total.sum()), 1e-300)
+    at = tuple(np.array([*(place for place, _ in corners), *ring]).T)
+    shares = np.array([*((1.0 - RING) * w for _, w in corners), *[RING / len(ring)] * len(ring)])
+    good = np.isfinite(values[at])
+    spreads = np.hypot(np.nan_to_num(errors[at]), ROUGH * np.nan_to_num(rough[at])[:, None])
+    weights = np.broadcast_to((shares / np.maximum(good.sum(axis=1), 1))[:, None], good.shape)[good]
+    return values[at][good], np.maximum(spreads[good], 1e-12), weights / max(float(weights.sum()), 1e-300)
 
 
 def _ring(places: list[tuple[int, ...]], shape: tuple[int, ...]) -> list[tuple[int, ...]]:

@@ -17,7 +17,7 @@ from lostmotion.study.layout import Layout, attrs_of, listed
 from lostmotion.study.store import load
 from lostmotion.study.sweep import Cells, Crew, Say, sweep
 
-DIFFERENT = 0.1
+DIFFERENT = 0.3
 """How far the shares of chaos at the corners of a square must lie apart for it to be halved."""
 MOST = 8
 """Halvings at most."""
@@ -97,5 +97,5 @@ def _corner(values: Array, corner: tuple[int, ...], side: int) -> Array:
 
 
 def cleared(folder: Path) -> None:
-    """Remove the stores of the levels."""
+    """Remove stores that served to make a file."""
     shutil.rmtree(folder, ignore_errors=True)

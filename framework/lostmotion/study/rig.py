@@ -151,7 +151,7 @@ class Rig:
         return flow_of(self.system, values, drive=beat), begin
 
 
-def reach(flow: Flow, periods: int = 40, looks: int = 8) -> Array:
+def reach(flow: Flow, periods: int, looks: int = 8) -> Array:
     """Return the largest size (n,) of each state on the way from the start of the flow, one where it does not move."""
     sample = getattr(flow, "sample", None)
     seen = sample(flow.start, periods=periods, looks=looks) if sample else _strobed(flow, periods)

@@ -103,7 +103,9 @@ def load(path: Path) -> xr.Dataset:
         raise DataError(f"{path} cannot be read as a map ({err}): give a .zarr or .nc written by `map`") from err
     if found.attrs.get("schema") != SCHEMA:
         raise DataError(f"{path} is no map of ours (its schema is {found.attrs.get('schema')!r}): give another file")
-    return found
+    # A folder lists its files in no order, and the order of the variables is part of the bytes of a netCDF.
+    coords = {name: found[name].variable for name in sorted(map(str, found.coords))}
+    return xr.Dataset({name: found[name].variable for name in sorted(map(str, found.data_vars))}, coords, found.attrs)
 
 
 def save_netcdf(path: Path, dataset: xr.Dataset) -> None:
@@ -130,13 +132,6 @@ def as_dataset(layout: Layout, columns: Mapping[str, NDArray[Any]]) -> xr.Datase
     """Return a finished map as a dataset."""
     table = {name: (spec.dims, columns[name], spec.attrs) for name, spec in layout.variables.items()}
     return xr.Dataset(table, layout.coords, layout.attrs)
-
-
-def remove(path: Path) -> None:
-    """Remove a store of ours, if it is there."""
-    if path.exists():
-        _require_ours(path)
-        shutil.rmtree(path)
 
 
 def _make(path: Path, layout: Layout) -> None:

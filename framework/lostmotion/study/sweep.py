@@ -82,7 +82,7 @@ def _cluster(study: Study, pieces: list[Cells], address: str) -> Iterator[tuple[
         futures = [client.submit(computed, study, cells, pure=False, retries=3) for cells in pieces]
         numbers = {future.key: number for number, future in enumerate(futures)}
         for future in futures:
-            finished.add(future)
+            finished.add(future)  # type: ignore[no-untyped-call]
         del futures
         for future in finished:
             yield numbers[future.key], future.result()
