@@ -189,7 +189,8 @@ def table2(lab: Lab) -> Outcome:
         "parameters were searched for this: such a joint can behave so, which does not say that theirs had these "
         "parameters."
     )
-    return Outcome(judged(all(right), all(near)), says, numbers, table=Rows(heads, tuple(rows)))
+    kinds = all((numbers[f"share_{level:g}"] > 0.5) == (level in SUSPECT) for level in LEVELS)
+    return Outcome(judged(kinds, all(right), all(near)), says, numbers, table=Rows(heads, tuple(rows)))
 
 
 def _exponent(lab: Lab, made: Recording) -> Estimate:

@@ -22,9 +22,9 @@ RATIO, DAMPING, HALF = 0.2615, 0.1116, 0.7589
 
 Found with `python benchmarks/search_joint.py`: of 3840 joints on a grid of ratio and damping, with the exact flow from
 several starts at all eight levels, those that are chaotic at the four middle levels only, by enough for an encoder to
-see; of these, and of joints close to them, one of the nearest to Table 2 (its exponents are off by 0.31 bit/s, rms). The
-nearest of all (0.252, 0.1212, 0.7436: 0.14 bit/s) is not taken, since it is chaotic at 5.73 degrees too once its last
-digit changes. The link has no weight, and no friction but viscous damping.
+see; of these, and of joints close to them, one of the nearest to Table 2 (its exponents are off by 0.31 bit/s, rms).
+The nearest of all (0.252, 0.1212, 0.7436: 0.14 bit/s) is not taken, since it is chaotic at 5.73 degrees too once its
+last digit changes. The link has no weight, and no friction but viscous damping.
 """
 NOISE, STEP = 0.03, 360.0 / 65536.0
 """Standard deviation of the noise of the encoder, and its step (degrees)."""

@@ -86,12 +86,11 @@ def _line(lab: Lab) -> Sweep:
     return lab.once("line", lambda: swept(lab, CASES[1].damping, np.linspace(LOW, HIGH, cells), effort))
 
 
-def _overlap(sweep: Sweep) -> float:
-    """Return the share of cells that agree with the windows that are known."""
-    known = np.zeros(len(sweep.inverse), dtype=bool)
-    for low, high in KNOWN:
-        known |= (sweep.inverse >= low) & (sweep.inverse <= high)
-    return float(np.mean(known == (sweep.share >= SOME)))
+def _inside(sweep: Sweep) -> dict[str, float]:
+    """Return the share of motions in chaos within each of the windows that are known, and in the widest gap."""
+    spans = {f"window_{low:g}": (low, high) for low, high in KNOWN} | {"gap_2.5_to_4.2": (2.5, 4.2)}
+    where = {name: (sweep.inverse >= low) & (sweep.inverse <= high) for name, (low, high) in spans.items()}
+    return {name: float(sweep.chaotic[cells].mean()) for name, cells in where.items()}
 
 
 def fig6(lab: Lab) -> Outcome:
@@ -101,7 +100,6 @@ def fig6(lab: Lab) -> Outcome:
     mixed = float(np.mean((sweep.share > 0.0) & (sweep.share < 1.0)))
     at = np.abs(sweep.inverse - 2.0) < 0.06
     near_two = float(np.nanmean(sweep.exponents[at]))
-    agrees = _overlap(sweep)
     spans = listed([f"{a:.2f} to {b:.2f}" for a, b in found if b - a > 0.1])
     near_four = float(np.nanmax(sweep.exponents[np.abs(sweep.inverse - 4.1) < 0.06]))
     says = (
@@ -109,7 +107,7 @@ def fig6(lab: Lab) -> Outcome:
         f"{near_two:.3f} bit/time (paper: about 0.06). Near 4.1, which the paper calls chaotic, the highest is "
         f"{near_four:.3f}, and in {100 * mixed:.0f} % of the cells chaos depends on the start."
     )
-    numbers = {"near_2_bit_per_time": near_two, "windows": float(len(found)), "share_mixed": mixed, "agreement": agrees}
+    numbers = {"near_2_bit_per_time": near_two, "windows": float(len(found)), "share_mixed": mixed, **_inside(sweep)}
     numbers["highest_bit_per_time"] = float(np.nanmax(sweep.exponents))
     numbers["highest_near_4.1"] = near_four
     data = {"inverse": sweep.inverse, "exponents": sweep.exponents, "share": sweep.share, "known": KNOWN}
