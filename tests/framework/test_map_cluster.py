@@ -9,7 +9,7 @@ import pytest
 from lostmotion.errors import DataError
 from lostmotion.registry import default
 from lostmotion.study.store import load
-from lostmotion.study.sweep import Crew
+from lostmotion.study.sweep import Crew, _result
 from lostmotion.workflow.mapping import How, Request, make_map, study_of
 
 distributed = pytest.importorskip("distributed", reason="distributed is not installed: pip install lostmotion[cluster]")
@@ -42,6 +42,15 @@ def test_a_worker_killed_midway_changes_nothing(tmp_path):
     here, there = load(tmp_path / "here.zarr"), load(tmp_path / "there.zarr")
     assert here.identical(there)
     assert sorted(files(tmp_path / "here.zarr")) == sorted(files(tmp_path / "there.zarr"))
+
+
+def test_workers_that_lack_a_plugin_are_told():
+    class Lost:
+        def result(self):
+            raise ModuleNotFoundError("No module named 'my_terms'")
+
+    with pytest.raises(DataError, match=r"No module named 'my_terms'.*install lostmotion and its plugins"):
+        _result(Lost())
 
 
 def files(path):

@@ -7,6 +7,7 @@ from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -85,5 +86,19 @@ def _cluster(study: Study, pieces: list[Cells], address: str) -> Iterator[tuple[
             finished.add(future)  # type: ignore[no-untyped-call]
         del futures
         for future in finished:
-            yield numbers[future.key], future.result()
+            yield numbers[future.key], _result(future)
             future.release()
+
+
+def _result(future: Any) -> Columns:
+    """Return what a worker computed, or raise a sentence when the workers cannot do it at all."""
+    from distributed import KilledWorker
+
+    try:
+        columns: Columns = future.result()
+    except (ImportError, KilledWorker) as err:
+        raise DataError(
+            f"the workers of the cluster cannot compute this map ({' '.join(str(err).split())[:200]}): "
+            "install lostmotion and its plugins on each, or leave --dask out"
+        ) from err
+    return columns
