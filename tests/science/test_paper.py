@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from lostmotion.flow import flow_of
 from lostmotion.registry import default
 from lostmotion.reproduce import experiment, noisy, portraits, sweeps
 from lostmotion.reproduce.cases import CASES, PRINTED
@@ -108,3 +109,31 @@ def test_a_period_is_found_and_chaos_has_none(period):
     place = np.sin(2.0 * math.pi * np.arange(200) / period + 0.3)
     assert period_of(np.column_stack([place, 2.0 * place])) == period
     assert period_of(np.random.default_rng(0).standard_normal((200, 2))) == 0
+
+
+def test_the_joint_is_solved_exactly():
+    model, omega = default().make("model", "robot_joint"), 2.0 * math.pi * 1.54
+    values = {"m": 0.4, "c": 1.7, "k0": 550.0, "x0": 0.0132, "mgl": 0.0}
+    drive = (math.radians(1.34), omega)
+    exact, stepped = (flow_of(model, values, drive=drive, steps=steps) for steps in (0, 4000))
+    begin = np.array([0.01, -0.2])
+    near, far = (flow.sample(begin, periods=4, looks=8) for flow in (exact, stepped))
+    assert not hasattr(exact, "steps")
+    assert np.abs(near[:, 0] - far[:, 0]).max() < 1e-4 * values["x0"]
+
+
+def test_a_joint_with_weight_is_not_solved_exactly():
+    model = default().make("model", "robot_joint")
+    values = {"m": 0.4, "c": 1.7, "k0": 550.0, "x0": 0.0132, "mgl": 0.1}
+    assert hasattr(flow_of(model, values, drive=(0.02, 9.0)), "steps")
+
+
+@pytest.mark.slow
+def test_recordings_of_the_joint_show_the_exponents_of_the_model(lab):
+    found = experiment.table2(lab).numbers
+    for level in LEVELS:
+        read, model = found[f"recording_{level:g}"], found[f"model_{level:g}"]
+        if level in SUSPECT:
+            assert read == pytest.approx(model, abs=0.8)
+        else:
+            assert not read > 0.0

@@ -11,8 +11,8 @@ from lostmotion.report import style
 from lostmotion.report.paper_style import Data, dots, letter, orbit, panels
 
 
-def _phase(axes: Axes, states: Array) -> None:
-    orbit(axes, 1e3 * states[:, 0], states[:, 1])
+def _phase(axes: Axes, states: Array, title: str = "chaotic") -> None:
+    orbit(axes, 1e3 * states[:, 0], states[:, 1], width=0.35 if "chaotic" in title else 1.1)
     axes.set_xlabel("displacement x (mm)")
     axes.set_ylabel("velocity ẋ (m/s)")
 
@@ -20,8 +20,8 @@ def _phase(axes: Axes, states: Array) -> None:
 def fig3(data: Data) -> Figure:
     """Return the phase plots of Cases 1 and 2."""
     figure, axes = panels(1, 2, 4.2)
-    _phase(axes[0], data["case1"])
-    _phase(axes[1], data["case2"])
+    for panel, key, title in zip(axes, ("case1", "case2"), data["titles"], strict=True):
+        _phase(panel, data[key], title)
     letter(axes, data["titles"])
     return figure
 
@@ -54,8 +54,8 @@ def fig5(data: Data) -> Figure:
 def fig8(data: Data) -> Figure:
     """Return phase plots at four values of 1/alpha."""
     figure, axes = panels(2, 2, 7.4)
-    for panel, states in zip(axes, data["states"], strict=True):
-        _phase(panel, states)
+    for panel, states, title in zip(axes, data["states"], data["titles"], strict=True):
+        _phase(panel, states, title)
     letter(axes, [title.replace("alpha", "α") for title in data["titles"]])
     return figure
 
