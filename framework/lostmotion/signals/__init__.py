@@ -4,10 +4,11 @@ from lostmotion.signals.sampling import Locked, commensurate, resampled, unlocke
 from lostmotion.signals.sections import poincare, return_spread, stroboscopic
 from lostmotion.signals.series import checked, delay_vectors
 from lostmotion.signals.spectra import fundamental, refined_period, spectrum, without_harmonics
-from lostmotion.signals.tones import two_tones
+from lostmotion.signals.tones import base_line, two_tones
 
 __all__ = [
     "Locked",
+    "base_line",
     "checked",
     "commensurate",
     "delay_vectors",

@@ -84,7 +84,7 @@ def fundamental(x: Array, dt: float) -> Line | None:
     for guess in _peaks(centred, dt):
         if _chance(_aligned(_amplitudes(centred, guess * dt)), len(x)) > WORTH_A_LOOK * FALSE_ALARM:
             continue
-        line = _judged(centred, dt, _sharpened(centred, dt, guess, harmonics=1))
+        line = line_at(centred, dt, _sharpened(centred, dt, guess, harmonics=1))
         if line is not None:
             return line
     return None
@@ -161,7 +161,7 @@ def _offset(three: Array) -> float:
     return float(0.5 * (low - high) / bend) if bend < 0.0 else 0.0
 
 
-def _judged(x: Array, dt: float, frequency: float) -> Line | None:
+def line_at(x: Array, dt: float, frequency: float) -> Line | None:
     """Return the line at a frequency (Hz), or None where the phases of the pieces do not agree."""
     pieces = _amplitudes(x, frequency * dt)
     chance = _chance(pieces, len(x))

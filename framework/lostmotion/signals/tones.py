@@ -1,4 +1,4 @@
-"""Whether a motion is made of two frequencies and their combinations, as a quasiperiodic one is."""
+"""The base frequency of a motion, and whether two frequencies and their combinations make it up."""
 
 from __future__ import annotations
 
@@ -8,11 +8,29 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import minimize_scalar
 
+from lostmotion.signals.spectra import Line, fundamental, line_at
+
 Array = NDArray[np.float64]
 ORDER = 6
 """Combinations m f1 + n f2 up to this order are fitted."""
+FAINTEST = 1e-3
+"""Share of the variance below which a line is not taken for the base of a stronger one."""
 LONGEST = 6000
 """Samples that are looked at: lines are as sharp in a piece as they need to be, and the work grows with the square."""
+
+
+def base_line(x: Array, dt: float) -> Line | None:
+    """Return the line of which the strongest one in `x` (n,) is a harmonic, up to the sixth; None where there is none.
+
+    In a rattling machine a harmonic of the drive may be stronger than the drive.
+    """
+    strongest = fundamental(x, dt)
+    if strongest is None:
+        return None
+    centred = x - x.mean()
+    longer = [line_at(centred, dt, 1.0 / (k * strongest.period)) for k in range(2, 7)]
+    found = [line for line in longer if line is not None and line.share > FAINTEST]
+    return found[-1] if found else strongest
 
 
 class TwoTones(NamedTuple):

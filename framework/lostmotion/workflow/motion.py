@@ -10,8 +10,7 @@ import numpy as np
 
 from lostmotion.contracts import Array, Series
 from lostmotion.results import Estimate
-from lostmotion.signals import fundamental, refined_period, return_spread
-from lostmotion.signals.tones import two_tones
+from lostmotion.signals import base_line, refined_period, return_spread, two_tones
 from lostmotion.stages.denoise import Denoised
 from lostmotion.stages.surrogates import SurrogateTest
 from lostmotion.workflow.source import Source
@@ -79,7 +78,7 @@ def beat_of(x: Array, source: Source, given: float | None) -> Beat:
         if period is not None and _fits(period, x, source.dt):
             return Beat(period, "excitation")
         return Beat(None, "none", ("The excitation is not periodic: nothing is said about periods.",))
-    line = fundamental(x, source.dt)
+    line = base_line(x, source.dt)
     if line is None or not _fits(line.period, x, source.dt):
         return Beat(None, "none")
     note = f"The period of {line.period:.6g} s was read from the spectrum: give --period if the drive has another one."
