@@ -196,7 +196,7 @@ def _several(exponents: Array, calm: NDArray[np.bool_]) -> bool:
 
 def plane_map(lab: Lab) -> Outcome:
     """Return a map of the largest exponent over 1/alpha and zeta in more detail than Fig. 10."""
-    across, up = lab.pick((361, 141), (61, 25))
+    across, up = lab.pick((301, 111), (61, 25))
     effort = Effort(*lab.pick((1, 300, 300), (1, 100, 100)))
     found = plane(lab, np.linspace(LOW, HIGH, across), np.geomspace(0.01, 0.32, up), effort)
     top = 0.5 * float(found.dampings[found.chaotic.any(axis=(1, 2))].max(initial=0.0))
