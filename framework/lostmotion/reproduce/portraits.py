@@ -114,7 +114,8 @@ def fig5(lab: Lab) -> Outcome:
         force[k] = -out[1]
     wanted = np.sign(p) * np.maximum(np.abs(p) - 1.0, 0.0)
     off = float(np.abs(force - wanted).max())
-    says = f"The force of the model, read from its acceleration at rest, is that of eq. (3){'' if off == 0.0 else f' to {off:.1g}'}."
+    digits = "" if off == 0.0 else f" to {off:.1g}"
+    says = f"The force of the model, read from its acceleration at rest, is that of eq. (3){digits}."
     return Outcome(judged(off < 1e-12), says, {"largest_difference": off}, {"p": p, "force": force})
 
 
@@ -159,8 +160,8 @@ def fig9(lab: Lab) -> Outcome:
     verdict, _ = _four_told(found)
     says = (
         f"The map is fractal at 2.0 and {_points(counts[2.6])} at 2.6, as the paper has it; at 4.1, where the paper "
-        f"shows a fractal, it is {_points(counts[4.1])}; at 7.6 what looks like a fractal is the transient, of a hundred "
-        f"periods and more, and the motion shown ends on {_points(counts[7.6])}."
+        f"shows a fractal, it is {_points(counts[4.1])}; at 7.6 what looks like a fractal is the transient, of a "
+        f"hundred periods and more, and the motion shown ends on {_points(counts[7.6])}."
     )
     titles = [f"1/alpha = {x:g}: {kind(found[x])}" for x in PLACES]
     numbers = {f"points_{x:g}": float(counts[x]) for x in PLACES}
