@@ -16,7 +16,7 @@ from lostmotion.cli import main
 from lostmotion.registry.hooks import HOOKS
 
 ROOT = Path(__file__).parents[2]
-HEAVY = ("numpy", "numba", "scipy", "xarray", "matplotlib", "emcee", "arviz", "pint", "h5py", "jinja2", "tqdm")
+HEAVY = ("numpy", "numba", "scipy", "xarray", "matplotlib", "emcee", "arviz", "pint", "h5py", "jinja2", "tqdm", "zarr")
 LISTING_SECONDS = 0.3
 SLOWER_MACHINE = 3.0
 """How much slower than the machine of the promise a test machine may be, its other work included."""

@@ -63,7 +63,7 @@ def command(
     out: Path,
     **settings: object,
 ) -> None:
-    r"""Simulate MODEL, and write what went in and what its sensors show.
+    """Simulate MODEL, and write what went in and what its sensors show.
 
     \b
     Drives:
@@ -74,7 +74,7 @@ def command(
       noise      rms, bandwidth (Hz)
 
     A parameter of the model that may be zero, such as k1 or mgl, is zero when it is not set.
-    """
+    """  # noqa: D301
     from lostmotion.storage import require_ending
     from lostmotion.workflow.simulate import Plan, assembly_of, simulate
 
