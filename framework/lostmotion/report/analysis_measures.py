@@ -43,7 +43,10 @@ def divergence(evidence: Evidence) -> Figure | None:
 def divergence_caption(evidence: Evidence) -> str:
     """Return what the figure of the divergence shows."""
     members = (
-        "thin: with other delays and dimensions, shifted upright onto it." if evidence.has("lyapunov_members") else ""
+        "thin: neighbours of other distances, as measured and shifted upright onto it; inside the shaded piece the "
+        "growth that noise and the size of the distances hide is put back into the thick curve."
+        if evidence.has("lyapunov_members")
+        else ""
     )
     fit = "shaded: the piece from which the exponent was read." if _fitted(evidence) else _refusal(evidence, "lyapunov")
     slopes = "right, the local slope; an exponent shows as a level piece." if evidence.has("lyapunov_slope") else ""
@@ -63,7 +66,7 @@ def draw_divergence(axes: Axes, evidence: Evidence) -> None:
                 member + _shift(member, curve),
                 color="#b8b8b8",
                 linewidth=0.7,
-                label="variants" if k == 0 else None,
+                label="as measured" if k == 0 else None,
             )
     axes.plot(time, curve, color=style.AFTER, linewidth=1.8, label="mean divergence")
     if _fitted(evidence):
