@@ -112,7 +112,7 @@ def longest_lag(x: Array) -> int:
     return max(1, min(len(x) // 5, max(100, 2 * mean_period(x))))
 
 
-def by_autocorrelation(x: Array, lags: int = 0, *, level: float = 1.0 / np.e) -> Delay:
+def by_autocorrelation(x: Array, lags: int = 0, *, level: float = 1.0 / math.e) -> Delay:
     """Return the lag at which the autocorrelation first falls to the level: 1/e, or 0 for its first zero."""
     lags = lags or longest_lag(x)
     curve = autocorrelation(x, lags)
