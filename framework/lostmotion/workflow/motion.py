@@ -19,6 +19,7 @@ Motion = Literal["periodic", "quasiperiodic", "chaotic", "stochastic", "undecide
 SLACK, FLOOR, LOUDEST = 1.4, 0.01, 0.2
 """What repeats to within so many times its noise, and a hundredth of its size, is taken to repeat."""
 TONES_FLOOR = 0.02
+MOST_PERIODS, DRIFT, DRIFT_FLOOR = 16, 1.15, 0.002
 SIGNIFICANT, CYCLES = 0.05, "pseudo_periodic"
 MOST_LEFT = 0.5
 """Share of the variance that may not repeat in a motion that is called periodic but for fluctuations."""
@@ -97,9 +98,9 @@ def judged(evidence: Evidence) -> Verdict:
     return _ruled_or_random(evidence)
 
 
-def returns(series: Series, period: float) -> Array:
-    """Return by how much x(t + k period) misses x(t), k = 1 ... 16, as a share of the standard deviation."""
-    return np.asarray(return_spread(series.x, series.dt, period) / math.sqrt(2.0))
+def returns(series: Series, period: float, most: int = MOST_PERIODS) -> Array:
+    """Return by how much x(t + k period) misses x(t), k = 1 ... `most`, as a share of the standard deviation."""
+    return np.asarray(return_spread(series.x, series.dt, period, most=most) / math.sqrt(2.0))
 
 
 def _periodic(evidence: Evidence) -> Verdict | None:
@@ -108,9 +109,11 @@ def _periodic(evidence: Evidence) -> Verdict | None:
     if period is None:
         return None
     raw = evidence.raw
-    spread = returns(raw, period)
+    spread = returns(raw, period, 2 * MOST_PERIODS)
     limit = SLACK * evidence.noise + FLOOR
-    back = np.flatnonzero(spread <= limit)
+    once, twice = spread[:MOST_PERIODS], spread[1::2]
+    # Two frequencies nearly return after some periods, and miss by twice as much after twice as many.
+    back = np.flatnonzero((once <= limit) & ~(twice > DRIFT * once + DRIFT_FLOOR))
     if not len(back):
         return None
     times = int(back[0]) + 1
