@@ -60,7 +60,6 @@ def growth(longest: int) -> None:
             name: quantity(name)
             for name in ("lyapunov_rosenstein", "lyapunov_kantz", "correlation_dimension", "correlation_entropy")
         },
-        "noise_level": quantity("noise_level"),
         "iaaft, 39": lambda n: made.make("surrogate", "iaaft").draw(series(n), draws=39, rng=np.random.default_rng(0)),
         "simple_nonlinear, 2 %": lambda n: _cleaned(made.make("denoiser", "simple_nonlinear"), series(n)),
         "local_projective, 2 %": lambda n: _cleaned(made.make("denoiser", "local_projective"), series(n)),
