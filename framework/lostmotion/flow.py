@@ -19,7 +19,6 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -81,7 +80,7 @@ def flow_of(
     beat, period = _beat(drive)
     if not steps and (exact := _exact(system, values, beat or Harmonic(0.0, 2.0 * math.pi / period), start)):
         return exact
-    return cast("Flow", stepped(system, values, drive=drive, start=start, steps=steps))
+    return stepped(system, values, drive=drive, start=start, steps=steps)
 
 
 def _exact(system: System, values: Mapping[str, float], beat: Harmonic, start: Array | None) -> Flow | None:

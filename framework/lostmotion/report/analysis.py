@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
 from markupsafe import Markup
-from matplotlib.figure import Figure
 
 from lostmotion.report import analysis_embedding as embedding
 from lostmotion.report import analysis_measures as measures
@@ -18,16 +17,7 @@ from lostmotion.report import analysis_tables as tables
 from lostmotion.report import style
 from lostmotion.report.analysis_facts import read_analysis, whole
 from lostmotion.report.evidence import Evidence
-from lostmotion.report.pages import template
-
-
-class Section(NamedTuple):
-    """A part of the page: its heading, its figure if the arrays for it are there, and what that shows."""
-
-    name: str
-    title: str
-    draw: Callable[[Evidence], Figure | None]
-    caption: Callable[[Evidence], str]
+from lostmotion.report.pages import Section, template
 
 
 class Drawn(NamedTuple):

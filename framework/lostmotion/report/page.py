@@ -3,25 +3,15 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
 from markupsafe import Markup
-from matplotlib.figure import Figure
 
 from lostmotion.report import growth, missing, opening, portraits, posteriors, prediction, ranking, style, tables
 from lostmotion.report.evidence import Evidence, read_evidence
-from lostmotion.report.pages import template
-
-
-class Section(NamedTuple):
-    """One figure of the report: its name in the page, heading, drawing and caption."""
-
-    name: str
-    title: str
-    draw: Callable[[Evidence], Figure | None]
-    caption: Callable[[Evidence], str]
+from lostmotion.report.pages import Section, template
 
 
 class Drawn(NamedTuple):

@@ -77,7 +77,7 @@ class Analysis:
     tests: tuple[SurrogateTest, ...]
     surrogate_dims: Array | None
     verdict: Verdict
-    methods: dict[str, str]
+    exponent_method: str
     denoiser: str
 
     @property
@@ -98,7 +98,7 @@ def run_analysis(
     say("report")
     settings = {k: v for k, v in asdict(request).items() if k not in ("jobs", "seed")}
     content = {
-        **statement(analysis, request),
+        **statement(analysis),
         "provenance": provenance("analyse", settings, request.seed, source.inputs),
     }
     variables, coords = arrays_of(analysis)
@@ -113,11 +113,11 @@ def analyse(source: Source, registry: Registry, request: Request, say: Say = lam
     beat = beat_of(checked(source.x), source, request.period)
     embedder = registry.make("embedder", request.embedder)
     say("delay and dimension")
-    raw = embed(source.x, embedder, dt=source.dt, period=beat.driven)
+    raw = embed(source.x, embedder, dt=source.dt, period=beat.period)
     say("noise")
     denoised, denoiser = _cleaned(raw, registry, request)
     if denoised.series is not raw:
-        again = embed(denoised.series.x, embedder, dt=source.dt, period=beat.driven)
+        again = embed(denoised.series.x, embedder, dt=source.dt, period=beat.period)
         denoised = replace(denoised, series=again)
     # What noise reduction leaves is no longer white and makes growth look slow: exponents are read from the raw series.
     grown = _Measured(raw, registry, request, beat, say)
@@ -138,7 +138,7 @@ def analyse(source: Source, registry: Registry, request: Request, say: Say = lam
         tests=tests,
         surrogate_dims=_surrogate_dims(raw, registry, request, say),
         verdict=judged(Evidence(beat, raw, denoised, exponent, dimension, tests)),
-        methods={"lyapunov": EXPONENT.removeprefix("lyapunov_")},
+        exponent_method=EXPONENT.removeprefix("lyapunov_"),
         denoiser=denoiser,
     )
 

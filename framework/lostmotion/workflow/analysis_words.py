@@ -9,14 +9,12 @@ from lostmotion.results import Estimate
 from lostmotion.stages.surrogates import SurrogateTest
 
 if TYPE_CHECKING:
-    from lostmotion.workflow.analyse import Analysis, Request
+    from lostmotion.workflow.analyse import Analysis
 
 SHARE = "share of the signal's standard deviation"
-COARSE = 8
-"""Fewer samples than this on the way of one delay make every curve rough."""
 
 
-def statement(analysis: Analysis, request: Request) -> dict[str, Any]:
+def statement(analysis: Analysis) -> dict[str, Any]:
     """Return the content of `analysis.json`, provenance left out."""
     clean, denoised, embedding = analysis.clean, analysis.denoised, analysis.clean.embedding
     how = embedding.methods
@@ -35,7 +33,7 @@ def statement(analysis: Analysis, request: Request) -> dict[str, Any]:
             "before_interval": [denoised.before.low, denoised.before.high],
             "method": analysis.denoiser,
         },
-        "lyapunov": entry(analysis.exponent, analysis.methods["lyapunov"]),
+        "lyapunov": entry(analysis.exponent, analysis.exponent_method),
         "d2": entry(analysis.dimension, "grassberger_procaccia"),
         "k2": entry(analysis.entropy, "grassberger_procaccia"),
         "others": [{"name": name, **entry(found, name)} for name, found in analysis.others.items()],

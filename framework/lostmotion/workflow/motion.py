@@ -31,16 +31,11 @@ UNEVEN = 2.0
 
 @dataclass(frozen=True)
 class Beat:
-    """The period (s) of a motion, where it comes from, and whether it is one that a drive keeps."""
+    """The period (s) of a motion and where it comes from; a line that keeps its phase is taken for that of a drive."""
 
     period: float | None
     source: Literal["excitation", "given", "spectrum", "none"]
     notes: tuple[str, ...] = ()
-
-    @property
-    def driven(self) -> float | None:
-        """The period (s) of the drive; a line that keeps its phase in the spectrum is taken for one."""
-        return self.period
 
 
 @dataclass(frozen=True, eq=False)

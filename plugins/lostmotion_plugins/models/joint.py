@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import ClassVar, cast
+from typing import ClassVar
 
 from lostmotion.contracts import Array, Drive, Flow, Interface, Model, Param
 from lostmotion.quantities import DAMPING, FORCE, INERTIA, LENGTH, STIFFNESS
@@ -70,4 +70,4 @@ class RobotJoint(Model):
         """Return the flow under a base motion (amplitude, omega, phase), exact where the link has no weight."""
         from lostmotion_plugins.models.exact import exact_joint
 
-        return cast("Flow | None", exact_joint(values, drive, start))
+        return exact_joint(values, drive, start)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import ClassVar, cast
+from typing import ClassVar
 
 from lostmotion.contracts import Array, Drive, Flow, Group, Interface, Model, Param
 from lostmotion.quantities import DAMPING, INERTIA, LENGTH, STIFFNESS
@@ -69,7 +69,7 @@ class LinBacklash(Model):
         """Return the flow under (amplitude, omega, phase), solved in closed form from contact to contact."""
         from lostmotion_plugins.models.exact import exact_of
 
-        return cast("Flow | None", exact_of(values, drive, start))
+        return exact_of(values, drive, start)
 
     @staticmethod
     def normalised(
