@@ -9,8 +9,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from lostmotion.case import Case, Prior, dump_case, load_case
+from lostmotion.case import Case, Measured, Prior, Sensor, dump_case, load_case
 from lostmotion.errors import CaseError
+from lostmotion.registry import Registry
+from lostmotion.workflow.prepare import prepare
+from lostmotion.workflow.source import Wanted, source_of
 
 GOOD = """
 title = "Link 2, 1.54 Hz"
@@ -111,7 +114,19 @@ WRONG = [
     ("low = 0.8", "low = 80.0", ["below"]),
     ("low = 0.8", "low = 0.0", ["model.estimate.c", "log scale", "positive"]),
     ("low = 0.8", "lo = 0.8", ["'lo'", "did you mean 'low'"]),
-    ("low = 0.8, ", "", ["neither low and high nor mean and sd"]),
+    ("low = 0.8, ", "", ["neither low and high nor mean and sd nor median and sd_log nor half_sd"]),
+    ("low = 0.8", "each = 1, low = 0.8", ["model.estimate.c", "a number (1)", "'each'", "true or false"]),
+    ("mean = 1.0, sd = 0.1", "half_sd = -1.0", ["model.estimate.k1", "half_sd = -1", "positive"]),
+    ("mean = 1.0, sd = 0.1", "half_sd = 1.0, sd = 1.0", ["gives one of mean and sd"]),
+    ("mean = 1.0, sd = 0.1", "mean = 1.0, sd = 0.1, half_sd = 1.0", ["mean beside half_sd", "or the other"]),
+    ("mean = 1.0, sd = 0.1", "median = 0.0, sd_log = 1.0", ["median = 0", "positive"]),
+    ("mean = 1.0, sd = 0.1", "median = 1.0, sd_log = 1.0, high = 3.0", ["median beside low, high or scale"]),
+    ("mean = 1.0, sd = 0.1", "median = 1.0, sdlog = 1.0", ["'sdlog'", "did you mean 'sd_log'"]),
+    ("[truth]", '[sensor]\nnoise = "eech"\n[truth]', ["sensor", "did you mean 'each'", "each, shared"]),
+    ("[truth]", "[sensor]\nzero = 1\n[truth]", ["sensor", "unknown key 'zero'", "noise, offset"]),
+    ("[truth]", "[sensor]\noffset = 1.0\n[truth]", ["sensor", "'offset'", "a table"]),
+    ("[truth]", "[sensor]\noffset = { sd = 1.0 }\n[truth]", ["sensor.offset", "neither low and high"]),
+    ("[truth]", "[sensor]\noffset = { half_sd = 1.0, each = true }\n[truth]", ["sensor.offset", "'each'"]),
     ('scale = "log"', 'scale = "logg"', ["did you mean 'log'"]),
     ("sd = 0.1", "sd = 0", ["model.estimate.k1", "sd = 0", "positive"]),
     ("sd = 0.1", "sd = 0.1, low = 0", ["either one pair or the other"]),
@@ -123,6 +138,76 @@ WRONG = [
     ('title = "Link', "title = Link", ["not valid TOML", "line 2"]),
     ('title = "Link 2, 1.54 Hz"', "title = 3", ["the case", "'title'"]),
 ]
+
+
+LEVELS = """
+[[levels]]
+amplitude = 50.0
+unit = "kN"
+frequency = 10.0
+name = "low"
+motion = "periodic"
+
+[[levels]]
+amplitude = 90.0
+unit = "deg"
+omega = 3.5
+lyapunov = { value = 2.0, sd = 0.5, unit = "bit/s" }
+d2 = { value = 2.4, low = 2.2, high = 2.7 }
+
+[[levels]]
+amplitude = 90.0
+unit = "deg"
+omega = 4.5
+lyapunov = { value = -1.0, sd = 0.5 }
+
+[model]
+name = "lin_backlash"
+"""
+WRONG_LEVELS = [
+    ('unit = "kN"', "", ["levels[0]", "lacks 'unit'"]),
+    ("amplitude = 50.0", "amplitude = -50.0", ["levels[0]", "'amplitude'", "positive"]),
+    ('"kN"', '"kg"', ["levels[0]", "'kg'", "force", "base motion", "deg"]),
+    ("frequency = 10.0", "frequenzy = 10.0", ["levels[0]", "did you mean 'frequency'"]),
+    ("frequency = 10.0", "frequency = 10.0\nomega = 62.8", ["both frequency and omega"]),
+    ("omega = 3.5", "", ["levels[1]", "neither frequency nor omega", "Hz"]),
+    ('"periodic"', '"cyclic"', ["levels[0]", "motion = 'cyclic'", "periodic, chaotic"]),
+    ('motion = "periodic"', "", ["levels[0]", "none of motion, lyapunov and d2"]),
+    (', unit = "bit/s"', ', unit = "bits"', ["levels[1].lyapunov", "did you mean 'bit/s'"]),
+    (", sd = 0.5, unit", ", unit", ["levels[1].lyapunov", "no error", "sd, or low and high"]),
+    (", low = 2.2, high", ", high", ["levels[1].d2", "has high beside the value", "95 %"]),
+    ("low = 2.2,", "low = 2.2, sd = 1.0,", ["levels[1].d2", "has sd, low, high beside the value"]),
+    ("low = 2.2", "low = 2.5", ["levels[1].d2", "low = 2.5", "lies between them"]),
+    ("value = 2.4", "value = -2.4", ["levels[1].d2", "not negative"]),
+    ("value = 2.4", "valeu = 2.4", ["levels[1].d2", "did you mean 'value'"]),
+    ("sd = 0.5 }", "sd = 0 }", ["levels[2].lyapunov", "'sd'", "positive"]),
+    ("[[levels]]", "[[level]]", ["did you mean 'levels'"]),
+]
+
+
+@pytest.mark.parametrize(("old", "new", "words"), WRONG_LEVELS, ids=lambda v: str(v)[:30])
+def test_refusals_of_levels_are_sentences(tmp_path: Path, old: str, new: str, words: list[str]) -> None:
+    assert old in LEVELS
+    changed = LEVELS.replace(old, new, 1 if old != "[[levels]]" else -1)
+    with pytest.raises(CaseError) as caught:
+        case(tmp_path, changed)
+    message = str(caught.value)
+    assert [w for w in ["case.toml", *words] if w not in message] == [], message
+    assert "\n" not in message
+
+
+def test_levels_are_read_in_si_units(tmp_path: Path) -> None:
+    low, middle, high = case(tmp_path, LEVELS).levels
+    assert (low.name, low.amplitude, low.unit, low.motion) == ("low", pytest.approx(5e4), "N", "periodic")
+    assert low.omega == pytest.approx(62.8318531)
+    assert (low.lyapunov, low.d2, middle.motion) == (None, None, None)
+    assert (middle.name, high.name) == ("90 deg", "90 deg 2")
+    assert (middle.amplitude, middle.unit, middle.omega) == (pytest.approx(math.pi / 2), "rad", 3.5)
+    assert middle.lyapunov is not None
+    assert (middle.lyapunov.value, middle.lyapunov.sd) == pytest.approx((1.38629436, 0.34657359))
+    assert middle.d2 is not None
+    assert (middle.d2.value, middle.d2.sd) == pytest.approx((2.4, 0.5 / 3.919928))
+    assert high.lyapunov == Measured(-1.0, 0.5)
 
 
 @pytest.mark.parametrize(("old", "new", "words"), WRONG, ids=lambda v: str(v)[:30])
@@ -140,8 +225,14 @@ def test_refusals_are_sentences(tmp_path: Path, old: str, new: str, words: list[
 def test_recordings_must_be_there(tmp_path: Path, empty: str) -> None:
     with pytest.raises(CaseError, match=r"recordings"):
         case(tmp_path, empty + '\n[model]\nname = "a"')
-    with pytest.raises(CaseError, match=r"lacks 'recordings'"):
-        case(tmp_path, '[model]\nname = "a"')
+
+
+def test_a_case_may_be_without_recordings_until_they_are_needed(tmp_path: Path) -> None:
+    got = case(tmp_path, '[model]\nname = "lin_backlash"')
+    assert (got.recordings, got.levels, got.sensor) == ((), (), Sensor("each", None))
+    for needs in (lambda path: prepare(path, Registry()), lambda path: source_of(path, Wanted(), Registry())):
+        with pytest.raises(CaseError, match=r"has no \[\[recordings\]\]: add one"):
+            needs(tmp_path / "case.toml")
 
 
 def test_two_recordings_of_one_name(tmp_path: Path) -> None:
@@ -159,14 +250,37 @@ def test_what_is_no_file_of_text(tmp_path: Path) -> None:
         load_case(tmp_path / "b.toml")
 
 
-@pytest.mark.parametrize("prior", [Prior(0.8, 80.0, "log"), Prior(-1.0, 3.0), Prior(mean=2.0, sd=0.1)])
+PRIORS = [
+    Prior(0.8, 80.0, "log"),
+    Prior(-1.0, 3.0),
+    Prior(mean=2.0, sd=0.1),
+    Prior(median=2.0, sd_log=0.5, each=True),
+    Prior(half_sd=3.0),
+]
+
+
+@pytest.mark.parametrize("prior", PRIORS, ids=lambda p: p.kind)
 def test_a_prior_is_a_density(prior: Prior) -> None:
-    low, high = (0.0, 4.0) if prior.sd else (prior.low, prior.high)
-    grid = np.linspace(low, high, 200001)
+    grid = np.linspace(prior.quantile(1e-7), prior.quantile(1.0 - 1e-7), 20001)
     density = np.exp([prior.log_density(v) for v in grid])
     assert np.trapezoid(density, grid) == pytest.approx(1.0, rel=1e-5)
     assert prior.log_density(math.nan) == -math.inf
     assert prior.log_density(math.inf) == -math.inf
+    below = prior.support[0] - 1e-9
+    assert prior.kind == "normal" or prior.log_density(below) == -math.inf
+
+
+@pytest.mark.parametrize("prior", PRIORS, ids=lambda p: p.kind)
+def test_the_quantile_of_a_prior_inverts_its_distribution(prior: Prior) -> None:
+    for share in (0.01, 0.3, 0.5, 0.9):
+        grid = np.linspace(prior.quantile(1e-9), prior.quantile(share), 20001)
+        density = np.exp([prior.log_density(v) for v in grid])
+        assert np.trapezoid(density, grid) == pytest.approx(share, abs=1e-5)
+    assert (prior.quantile(0.0), prior.quantile(1.0)) == pytest.approx(prior.support)
+
+
+def test_the_kinds_of_priors() -> None:
+    assert [p.kind for p in PRIORS] == ["log-uniform", "uniform", "normal", "log-normal", "half-normal"]
 
 
 def test_a_prior_starts_in_its_middle() -> None:
@@ -175,6 +289,8 @@ def test_a_prior_starts_in_its_middle() -> None:
     normal = Prior(mean=2.0, sd=0.1)
     assert (normal.start(), normal.low, normal.high) == (2.0, -math.inf, math.inf)
     assert Prior(0.0, 1.0).log_density(1.5) == -math.inf
+    assert Prior(median=3.0, sd_log=2.0).start() == pytest.approx(3.0)
+    assert Prior(half_sd=2.0).start() == pytest.approx(2.0 * 0.67448975)
 
 
 def test_what_is_dumped_is_read_back(tmp_path: Path) -> None:
@@ -183,7 +299,14 @@ def test_what_is_dumped_is_read_back(tmp_path: Path) -> None:
         "recordings": [{"file": "r.csv", "time": None, "rate": 1e3, "excitation": channel,
                         "response": {"column": "x", "quantity": "position", "unit": "m"}}],
         "title": "Demo",
-        "model": {"name": "m", "known": {"k": 1e-7, "odd key": 3}, "estimate": {"c": {"low": 1, "high": 2.5}}},
+        "model": {"name": "m", "known": {"k": 1e-7, "odd key": 3}, "estimate": {
+            "c": {"low": 1, "high": 2.5, "each": True}, "d": {"low": 1.0, "high": 2.0, "scale": "log", "each": False},
+            "k1": {"mean": 0.0, "sd": 2}, "x0": {"median": 1e-3, "sd_log": 0.7}, "f": {"half_sd": 3.0, "each": True}}},
+        "sensor": {"noise": "shared", "offset": {"mean": 0.0, "sd": 1e-4}},
+        "levels": [
+            {"amplitude": 50, "unit": "N", "frequency": 2.0, "name": "one", "motion": "chaotic",
+             "lyapunov": {"value": 2.0, "sd": 0.1, "unit": "bit/s"}, "d2": {"value": 2.5, "low": 2.4, "high": 2.6}},
+            {"amplitude": 0.1, "unit": "rad", "omega": 2.0, "motion": "periodic"}],
         "truth": {"c": 2},
     }  # fmt: skip
     dump_case(content, tmp_path / "case.toml")
@@ -191,5 +314,14 @@ def test_what_is_dumped_is_read_back(tmp_path: Path) -> None:
     assert got.recordings[0].excitation.column == channel["column"]
     assert got.recordings[0].excitation.factor == 2.0
     assert got.known == {"k": 1e-7, "odd key": 3.0}
-    assert got.estimate == {"c": Prior(1.0, 2.5)}
+    assert got.estimate == {
+        "c": Prior(1.0, 2.5, each=True), "d": Prior(1.0, 2.0, "log"), "k1": Prior(mean=0.0, sd=2.0),
+        "x0": Prior(median=1e-3, sd_log=0.7), "f": Prior(half_sd=3.0, each=True),
+    }  # fmt: skip
+    assert got.sensor == Sensor("shared", Prior(mean=0.0, sd=1e-4))
+    one, two = got.levels
+    assert (one.name, one.amplitude, one.omega, one.motion) == ("one", 50.0, pytest.approx(4.0 * math.pi), "chaotic")
+    assert one.lyapunov == Measured(2.0 * math.log(2.0), 0.1 * math.log(2.0))
+    assert one.d2 == Measured(2.5, pytest.approx(0.2 / 3.919928))
+    assert (two.name, two.unit, two.omega, two.lyapunov, two.motion) == ("0.1 rad", "rad", 2.0, None, "periodic")
     assert got.truth == {"c": 2.0}

@@ -60,6 +60,20 @@ class Fields:
         """Return a finite number, or None where the key is absent."""
         return self.number(key) if key in self.values else None
 
+    def positive(self, key: str) -> float:
+        """Return a number above zero; the key must be there."""
+        value = self.number(key)
+        if value <= 0:
+            raise self.wrong(key, "a positive number")
+        return value
+
+    def truth(self, key: str) -> bool:
+        """Return true or false; false where the key is absent."""
+        value = self.values.get(key, False)
+        if not isinstance(value, bool):
+            raise self.wrong(key, "true or false, without quotes")
+        return value
+
     def choice(self, key: str, known: Iterable[str]) -> str:
         """Return a text that is among `known`."""
         value, known = self.text(key), list(known)

@@ -6,9 +6,10 @@ import tomllib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, cast
+from typing import Any, Literal, cast, get_args
 
 from lostmotion.case.fields import Fields
+from lostmotion.case.levels import Level, levels_of
 from lostmotion.case.prior import Prior, Scale
 from lostmotion.errors import CaseError, DataError
 from lostmotion.provenance import digest
@@ -16,11 +17,26 @@ from lostmotion.quantities import si_factor
 from lostmotion.recording import Channel, Hold, RecordingSpec
 from lostmotion.recording.spec import EXCITATIONS, RESPONSES
 
-TOP = ("title", "plugins", "recordings", "model", "truth")
+TOP = ("title", "plugins", "recordings", "levels", "sensor", "model", "truth")
 RECORDING = ("file", "time", "rate", "excitation", "response", "hold", "t_start", "t_end", "name")
 CHANNEL = ("column", "quantity", "unit", "factor")
 MODEL = ("name", "known", "estimate")
-PRIOR = ("low", "high", "scale", "mean", "sd")
+SENSOR = ("noise", "offset")
+PRIOR = ("low", "high", "scale", "mean", "sd", "median", "sd_log", "half_sd")
+FORMS = ({"low", "high"}, {"mean", "sd"}, {"median", "sd_log"}, {"half_sd"})
+
+Sharing = Literal["each", "shared"]
+
+
+@dataclass(frozen=True)
+class Sensor:
+    """What is believed of the measurement: whether several recordings share one `noise` or each has its own.
+
+    `offset` is the prior of the zero of the response, in each recording anew, in the SI unit of the channel.
+    """
+
+    noise: Sharing = "each"
+    offset: Prior | None = None
 
 
 @dataclass(frozen=True)
@@ -28,7 +44,8 @@ class Case:
     """What was recorded, what is believed and what is to be estimated, in SI units.
 
     `folder` is where the case file lies: the files of `recordings` and `plugins` are relative to it. `truth` holds
-    true values for the report alone. `digest` is the SHA-256 of the case file.
+    true values for the report alone. `digest` is the SHA-256 of the case file. A case may be without recordings or
+    without levels: whoever needs them says so.
     """
 
     title: str
@@ -40,6 +57,8 @@ class Case:
     truth: Mapping[str, float]
     plugins: tuple[str, ...]
     digest: str
+    sensor: Sensor = Sensor()
+    levels: tuple[Level, ...] = ()
 
 
 def load_case(path: Path) -> Case:
@@ -51,13 +70,15 @@ def load_case(path: Path) -> Case:
     return Case(
         title=top.maybe_text("title") or path.stem,
         folder=path.parent,
-        recordings=tuple(_named_apart([_recording(fields) for fields in top.tables("recordings")])),
+        recordings=_recordings(top),
         model=model.text("name"),
         known=known,
         estimate=_estimate(model, known),
         truth=top.maybe_table("truth").numbers(),
         plugins=_plugins(top, path.parent),
         digest=digest(path),
+        sensor=_sensor(top),
+        levels=levels_of(top),
     )
 
 
@@ -80,13 +101,19 @@ def _plugins(top: Fields, folder: Path) -> tuple[str, ...]:
     return files
 
 
+def _recordings(top: Fields) -> tuple[RecordingSpec, ...]:
+    if "recordings" not in top.values:
+        return ()
+    return tuple(_named_apart([_recording(fields) for fields in top.tables("recordings")]))
+
+
 def _recording(fields: Fields) -> RecordingSpec:
     fields.only(RECORDING)
     _check_span(fields)
     return RecordingSpec(
         file=fields.text("file"),
         time=fields.maybe_text("time"),
-        rate=_positive(fields, "rate"),
+        rate=fields.positive("rate") if "rate" in fields.values else None,
         excitation=_channel(fields.table("excitation"), EXCITATIONS),
         response=_channel(fields.table("response"), RESPONSES),
         hold=cast(Hold, fields.choice("hold", ("smooth", "step")) if "hold" in fields.values else "smooth"),
@@ -103,13 +130,6 @@ def _check_span(fields: Fields) -> None:
     start, end = fields.maybe_number("t_start"), fields.maybe_number("t_end")
     if start is not None and end is not None and start >= end:
         raise fields.error(f"has t_start = {start:g} and t_end = {end:g}: t_start must lie before t_end")
-
-
-def _positive(fields: Fields, key: str) -> float | None:
-    value = fields.maybe_number(key)
-    if value is not None and value <= 0:
-        raise fields.wrong(key, "a positive number")
-    return value
 
 
 def _channel(fields: Fields, quantities: tuple[str, ...]) -> Channel:
@@ -151,16 +171,25 @@ def _estimate(model: Fields, known: Mapping[str, float]) -> dict[str, Prior]:
     both = [name for name in fields.values if name in known]
     if both:
         raise model.error(f"has {both[0]!r} both known and estimated: take it out of one of the two")
-    return {name: _prior(fields.table(name)) for name in fields.values}
+    return {name: _prior(fields.table(name), ("each",)) for name in fields.values}
 
 
-def _prior(fields: Fields) -> Prior:
-    fields.only(PRIOR)
-    if not ({"low", "high"} <= fields.values.keys() or {"mean", "sd"} <= fields.values.keys()):
-        raise fields.error("has neither low and high nor mean and sd: give one of these pairs")
+def _sensor(top: Fields) -> Sensor:
+    fields = top.maybe_table("sensor").only(SENSOR)
+    noise = fields.choice("noise", get_args(Sharing)) if "noise" in fields.values else "each"
+    offset = _prior(fields.table("offset")) if "offset" in fields.values else None
+    return Sensor(cast(Sharing, noise), offset)
+
+
+def _prior(fields: Fields, more: tuple[str, ...] = ()) -> Prior:
+    """Return a prior; `more` are the keys beside its numbers that are known where it stands."""
+    fields.only((*PRIOR, *more))
+    if not any(form <= fields.values.keys() for form in FORMS):
+        wanted = "neither low and high nor mean and sd nor median and sd_log nor half_sd"
+        raise fields.error(f"has {wanted}: give one of these")
     scale = fields.choice("scale", ("linear", "log")) if "scale" in fields.values else "linear"
-    numbers = {key: fields.number(key) for key in fields.values if key != "scale"}
+    numbers = {key: fields.number(key) for key in fields.values if key not in ("scale", "each")}
     try:
-        return Prior(scale=cast(Scale, scale), **numbers)
+        return Prior(scale=cast(Scale, scale), each=fields.truth("each"), **numbers)
     except CaseError as err:
         raise fields.error(str(err)) from err

@@ -48,6 +48,8 @@ def case_of(path: Path, registry: Registry) -> Case:
 def prepare(path: Path, registry: Registry) -> Prepared:
     """Return the case at `path`, ready for the stages; whatever cannot be meant is refused here."""
     case = case_of(path, registry)
+    if not case.recordings:
+        raise CaseError(f"{path.name} has no [[recordings]]: add one, with file, time or rate, excitation and response")
     model: Model = registry.make("model", case.model)
     recordings = tuple(load_recording(spec, case.folder) for spec in case.recordings)
     tracks = tuple(track_of(r, model, held=r.hold == "step") for r in recordings)

@@ -71,6 +71,8 @@ def source_of(path: Path, wanted: Wanted, registry: Registry) -> Source:
 
 
 def _of_case(case: Case, wanted: Wanted) -> Source:
+    if not case.recordings:
+        raise CaseError(f"{case.title!r} has no [[recordings]]: add one, or analyse a recording by itself")
     names = [spec.label for spec in case.recordings]
     asked = wanted.column
     if asked is not None and asked not in names:
