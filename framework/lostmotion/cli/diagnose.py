@@ -7,6 +7,7 @@ from pathlib import Path
 import click
 
 from lostmotion.cli._lazy import examples, registry_of
+from lostmotion.cli._options import on_a_case
 from lostmotion.cli._progress import progress
 
 
@@ -16,17 +17,7 @@ from lostmotion.cli._progress import progress
         "lostmotion --plugin my_terms.py diagnose case.toml --out result --seed 1",
     )
 )
-@click.argument("case", metavar="CASE.toml", type=click.Path(path_type=Path))
-@click.option(
-    "--out",
-    required=True,
-    metavar="DIR",
-    type=click.Path(file_okay=False, path_type=Path),
-    help="Where the results go.",
-)
-@click.option("--seed", default=0, show_default=True, help="Seed of the starting points and of the posterior draws.")
-@click.option("--jobs", default=2, show_default=True, type=click.IntRange(1), help="How many cores to use.")
-@click.option("--quiet", is_flag=True, help="Show no progress.")
+@on_a_case
 @click.pass_context
 def command(ctx: click.Context, case: Path, out: Path, seed: int, jobs: int, quiet: bool) -> None:
     """Locate the mismatch, say which physics was left out, model it, show that the fit improves.

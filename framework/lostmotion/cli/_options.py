@@ -1,0 +1,32 @@
+"""What the commands that work on a case have in common: the case, where the results go, seed, cores, silence."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import click
+
+Command = Callable[..., Any]
+
+_COMMON = (
+    click.argument("case", metavar="CASE.toml", type=click.Path(path_type=Path)),
+    click.option(
+        "--out",
+        required=True,
+        metavar="DIR",
+        type=click.Path(file_okay=False, path_type=Path),
+        help="Where the results go.",
+    ),
+    click.option("--seed", default=0, show_default=True, type=click.IntRange(0), help="The same seed, the same bytes."),
+    click.option("--jobs", default=2, show_default=True, type=click.IntRange(1), help="How many cores to use."),
+    click.option("--quiet", is_flag=True, help="Show no progress."),
+)
+
+
+def on_a_case(command: Command) -> Command:
+    """Return the command with the argument CASE.toml and the options --out, --seed, --jobs and --quiet."""
+    for option in reversed(_COMMON):
+        command = option(command)
+    return command

@@ -1,0 +1,86 @@
+"""Figure: what was measured at each level of the drive, beside what the posterior expects there."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from lostmotion.report import style
+from lostmotion.report.words import readable, with_unit
+
+CAPTION = (
+    "Dots with bars: what was measured, with its 95 % interval; squares: no chaos was seen. Blue bars: where the"
+    " posterior expects a chaotic motion to lie (95 %). Below: how likely the posterior holds chaos to be at each"
+    " level; the square or dot stands where the recording put it."
+)
+QUANTITIES = {"lyapunov": "exponent", "d2": "correlation dimension"}
+Level = Mapping[str, Any]
+
+
+def draw(levels: Sequence[Level]) -> Figure:
+    """Return a panel for each measured quantity over the levels of the drive, and one for the share of chaos."""
+    shown = [key for key in QUANTITIES if any(level.get(key) for level in levels)]
+    figure = style.blank(2.1 * len(shown) + 1.9)
+    panels = figure.subplots(
+        len(shown) + 1, 1, sharex=True, squeeze=False, height_ratios=[1.4] * len(shown) + [1.0]
+    ).ravel()
+    for axes, key in zip(panels, shown, strict=False):
+        _draw_quantity(axes, levels, key)
+    _draw_share(panels[-1], levels)
+    panels[-1].set_xticks(range(len(levels)), [_amplitude(level) for level in levels])
+    panels[-1].set_xlim(-0.6, len(levels) - 0.4)
+    panels[-1].set_xlabel("amplitude of the drive")
+    style.legend_above(figure, panels[0])
+    return figure
+
+
+def _amplitude(level: Level) -> str:
+    scale = readable(float(level["amplitude"]), str(level["unit"]))
+    return f"{scale.factor * float(level['amplitude']):.4g} {scale.unit}"
+
+
+def _draw_quantity(axes: Axes, levels: Sequence[Level], key: str) -> None:
+    unit = ""
+    for place, level in enumerate(levels):
+        expected, seen = level["predicted"].get(key), level.get(key)
+        if expected and level["predicted"]["chaotic_share"] > 0.0:
+            _draw_expected(axes, place, expected, float(level["predicted"]["chaotic_share"]))
+        if seen:
+            unit = str(seen.get("unit", ""))
+            _draw_seen(axes, place, seen)
+        elif level.get("motion") == "periodic" and key == "lyapunov":
+            axes.plot([place], [0.0], "s", color=style.RECORDED, markersize=6, fillstyle="none")
+    axes.plot([], [], "o", color=style.RECORDED, label="measured")
+    axes.plot([], [], color=style.AFTER, linewidth=7, alpha=0.5, label="expected by the posterior")
+    axes.set_ylabel(with_unit(QUANTITIES[key], unit))
+    axes.set_ylim(bottom=min(0.0, axes.get_ylim()[0]) if key == "lyapunov" else None)
+
+
+def _draw_expected(axes: Axes, place: int, expected: Level, share: float) -> None:
+    """Draw a bar, the fainter the less likely chaos is at this level."""
+    low, median, high = (float(expected[end]) for end in ("low", "median", "high"))
+    alpha = 0.12 + 0.4 * share
+    axes.bar(place, high - low, bottom=low, width=0.42, color=style.AFTER, alpha=alpha, linewidth=0)
+    axes.plot([place - 0.21, place + 0.21], [median, median], color=style.AFTER, linewidth=1.6, alpha=0.3 + 0.7 * share)
+
+
+def _draw_seen(axes: Axes, place: int, seen: Level) -> None:
+    value, low, high = (float(seen[end]) for end in ("value", "low", "high"))
+    room = np.maximum([[value - low], [high - value]], 0.0)
+    axes.errorbar([place], [value], yerr=room, fmt="o", color=style.RECORDED, markersize=5, capsize=3, linewidth=1.2)
+
+
+def _draw_share(axes: Axes, levels: Sequence[Level]) -> None:
+    shares = [float(level["predicted"]["chaotic_share"]) for level in levels]
+    axes.bar(range(len(levels)), shares, width=0.42, color=style.AFTER, alpha=0.5)
+    for place, level in enumerate(levels):
+        if level.get("motion") in ("chaotic", "periodic"):
+            chaotic = level["motion"] == "chaotic"
+            look = {"marker": "o" if chaotic else "s", "fillstyle": "full" if chaotic else "none"}
+            axes.plot([place], [float(chaotic)], color=style.RECORDED, markersize=6, clip_on=False, **look)
+    axes.set_ylim(0.0, 1.05)
+    axes.set_ylabel("share of chaos")
