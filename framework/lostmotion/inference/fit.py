@@ -123,13 +123,13 @@ def sensitivity(problem: Problem, theta: Array, steps: Array) -> Sensitivity:
     """Return innovations and their derivatives at `theta`, by central differences that stay within the bounds."""
     low, high = problem.clip(theta - 1e300), problem.clip(theta + 1e300)
     up, down = np.minimum(theta + steps, high), np.maximum(theta - steps, low)
-    points = [theta]
+    points = []
     for i in range(len(theta)):
         for end in (up, down):
             point = theta.copy()
             point[i] = end[i]
             points.append(point)
-    here, *around = problem.many(points)
+    here, *around = problem.around(theta, points)
     pairs = list(zip(around[::2], around[1::2], up - down, strict=True))
     de = np.array([_difference(a.errors, b.errors, w) for a, b, w in pairs])
     dv = np.array([_difference(a.variances, b.variances, w) for a, b, w in pairs])
@@ -239,5 +239,5 @@ def robust_covariance(fit: Fit) -> Array:
 def warmed(problem: Problem, theta: Array, by: float) -> Array:
     """Return the coordinates with the random force raised, so that a fit begins where the posterior is smooth."""
     warm = theta.copy()
-    warm[problem.keys.index(RANDOM)] += by
+    warm[[f.parameter == RANDOM for f in problem.free]] += by
     return problem.clip(warm)

@@ -78,7 +78,7 @@ def _with_force(problem: Problem, theta: Array, share: float, pace: float) -> tu
     """Return the problem and coordinates with a latent force of the given share of the drive and pace."""
     pace = pace / problem.scales.time
     intensity = 2.0 * (share * problem.scales.force) ** 2 / pace
-    kept = [i for i, key in enumerate(problem.keys) if key not in (RANDOM, PACE)]
+    kept = [i for i, f in enumerate(problem.free) if f.parameter not in (RANDOM, PACE)]
     frees = (*(problem.free[i] for i in kept), fixed(RANDOM), fixed(PACE))
     return replace(problem, free=frees), np.append(theta[kept], [math.log(intensity), math.log(pace)])
 

@@ -35,6 +35,7 @@ def draws(fit: Fit, rng: np.random.Generator, count: int) -> Array:
     """Return draws (count, free parameters) of the coordinates from the posterior about a fit.
 
     Spreads are those of the robust covariance where that is wider, so that leftovers with a memory widen them.
+    Where each recording has a random force of its own, all are drawn from the normal approximation at the maximum.
     """
     nodes = _nodes(fit)
     weights = np.exp([n.weight - max(m.weight for m in nodes) for n in nodes])
@@ -44,8 +45,8 @@ def draws(fit: Fit, rng: np.random.Generator, count: int) -> Array:
     theta = np.array(
         [nodes[k].local.theta + wider * (_root(nodes[k].local) @ z) for k, z in zip(which, noise, strict=True)]
     )
-    at = fit.problem.keys.index(RANDOM)
-    theta[:, at] += STRIDE * (rng.random(count) - 0.5) if len(nodes) > 1 else 0.0
+    if len(nodes) > 1:
+        theta[:, fit.problem.keys.index(RANDOM)] += STRIDE * (rng.random(count) - 0.5)
     return fit.problem.clip(theta)
 
 
@@ -59,6 +60,8 @@ def _root(local: Local) -> Array:
 
 def _nodes(fit: Fit) -> list[Node]:
     """Return the nodes from the maximum outwards, each started from its neighbour."""
+    if RANDOM not in fit.problem.keys:
+        return [Node(fit.local, 0.0)]
     at = fit.problem.keys.index(RANDOM)
     free = fit.problem.free[at]
     centre = _node(fit, fit.theta, at)

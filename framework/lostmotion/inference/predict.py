@@ -59,7 +59,8 @@ def free_runs(problem: Problem, theta: Array, states: Array, starts: Array, step
     track = problem.tracks[index]
     error = np.full((len(starts), steps), np.nan)
     for row, start in enumerate(starts):
-        seen = observed(problem, theta, free_run(problem, theta, states[start], int(start), steps), (int(start), index))
+        run = free_run(problem, theta, states[start], int(start), steps, index)
+        seen = observed(problem, theta, run, (int(start), index))
         error[row] = seen - track.z[start : start + steps]
     return FreeRuns(np.asarray(np.arange(steps) * track.dt, dtype=float), error)
 
@@ -67,7 +68,7 @@ def free_runs(problem: Problem, theta: Array, states: Array, starts: Array, step
 def free_run(problem: Problem, theta: Array, y0: Array, start: int, steps: int, index: int = 0) -> Array:
     """Return the states (steps, n) of a free run that begins at sample `start` of a recording."""
     system, drive = problem.system, problem.drives[index]
-    base, own = system.pack(problem.full(theta), drive.dt / drive.nsub)
+    base, own = system.pack(problem.full(theta, index), drive.dt / drive.nsub)
     on, at = system.wiring(problem.active)
     y0 = y0[: system.states(problem.active)]
     states = np.full((steps, len(y0)), np.nan)
@@ -81,9 +82,10 @@ def observed(problem: Problem, theta: Array, states: Array, where: tuple[int, in
     system, (start, index) = problem.system, where
     track, drive = problem.tracks[index], problem.drives[index]
     channel, direct = system.channel(track.channel)
+    offset = problem.offset(theta, index)
     if direct >= 0:
-        return states[:, direct]
-    base, own = system.pack(problem.full(theta), drive.dt / drive.nsub)
+        return states[:, direct] + offset if offset else states[:, direct]
+    base, own = system.pack(problem.full(theta, index), drive.dt / drive.nsub)
     on, at = system.wiring(problem.active)
     derivative = system.kernel(problem.active).derivative
     seen, dydt = np.zeros(len(system.model.channels)), np.zeros(states.shape[1])
@@ -92,7 +94,7 @@ def observed(problem: Problem, theta: Array, states: Array, where: tuple[int, in
         u = drive.u[3 * drive.nsub * (start + k)]
         derivative(0.0, y, u, base, own, on, at, 0.0, dydt)
         system.model.observe(0.0, y, dydt, u, base, seen)
-        shown[k] = seen[channel]
+        shown[k] = seen[channel] + offset
     return shown
 
 

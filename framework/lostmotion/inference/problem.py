@@ -3,24 +3,26 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
+from typing import Any, TypeVar
 
 import numpy as np
 
 from lostmotion.contracts import Array
+from lostmotion.inference.free import LEVELS, NOISE, OFFSET, PACE, RANDOM, Free, Route
 from lostmotion.inference.tracks import Track
 from lostmotion.system import Drive, System
 
-RANDOM = "log_random_force"
-NOISE = "log_noise"
-PACE = "log_random_pace"
-LEVELS = (RANDOM, NOISE, PACE)
-"""The free parameters that are no physics: intensity and pace of a random force, and the measurement noise."""
+__all__ = [
+    "LEVELS", "NOISE", "OFFSET", "PACE", "RANDOM", "USUAL", "Free", "Innovations", "Kept", "Problem", "Scales",
+]  # fmt: skip
+
 USUAL = 1e-3
 """The noise of a measured excitation as a share of the drive that is usual, and no mechanism left out."""
+Out = TypeVar("Out")
 _NONE = np.zeros((1, 1))
 _NONE3 = np.zeros((1, 1, 1))
 
@@ -28,46 +30,6 @@ _NONE3 = np.zeros((1, 1, 1))
 @cache
 def _pool(jobs: int) -> ThreadPoolExecutor:
     return ThreadPoolExecutor(jobs)
-
-
-@dataclass(frozen=True)
-class Free:
-    """A parameter to be estimated, in the coordinate in which its prior is simple.
-
-    `log` says that the coordinate is the logarithm. The prior is uniform between `low` and `high` (coordinate), or
-    normal with `mean` and `sd` and cut there.
-    """
-
-    key: str
-    unit: str
-    start: float
-    low: float
-    high: float
-    log: bool = False
-    mean: float = 0.0
-    sd: float = math.inf
-
-    def value(self, coordinate: float) -> float:
-        """Return the parameter at a coordinate."""
-        return math.exp(coordinate) if self.log else coordinate
-
-    def coordinate(self, value: float) -> float:
-        """Return the coordinate of a parameter, clipped into the bounds."""
-        raw = math.log(max(value, 1e-300)) if self.log else value
-        return min(max(raw, self.low), self.high)
-
-    def log_prior(self, coordinate: float) -> float:
-        """Return the log prior density of the coordinate."""
-        if not self.low <= coordinate <= self.high:
-            return -math.inf
-        if math.isinf(self.sd):
-            return -math.log(self.high - self.low)
-        kept = 0.5 * (
-            math.erf((self.high - self.mean) / self.sd / math.sqrt(2))
-            - math.erf((self.low - self.mean) / self.sd / math.sqrt(2))
-        )
-        z = (coordinate - self.mean) / self.sd
-        return -0.5 * z * z - math.log(self.sd * math.sqrt(2.0 * math.pi) * max(kept, 1e-300))
 
 
 @dataclass(frozen=True)
@@ -104,13 +66,22 @@ class Innovations:
         return float(-0.5 * np.sum(self.errors**2 / self.variances + np.log(2.0 * np.pi * self.variances)))
 
 
+Part = tuple[Array, Array, bool]
+"""The innovations of one recording, their variances, and whether the filter got through."""
 Kept = tuple[Array, Array, Array, Array, Array]
 """What a smoother needs: states and covariances after and before each sample, and the steps between."""
+
+
+def _joined(parts: Sequence[Part]) -> Innovations:
+    errors, variances = (np.concatenate([p[k] for p in parts]) for k in (0, 1))
+    return Innovations(errors, variances, all(p[2] for p in parts))
 
 
 @dataclass(frozen=True)
 class Problem:
     """Recordings, a system, what is known of it (`known`, full vector) and what is free.
+
+    A key such as `c[run 1]` is the parameter `c` of the recording "run 1" alone; without brackets all share it.
 
     The random force is white, or, when `PACE` is among the free parameters, an Ornstein-Uhlenbeck force of the same
     intensity at low frequency: it stands for what no term explains, and keeps slow leftovers from posing as evidence.
@@ -128,7 +99,7 @@ class Problem:
     @property
     def coloured(self) -> bool:
         """Whether the random force has a memory."""
-        return PACE in self.keys
+        return any(f.parameter == PACE for f in self.free)
 
     @property
     def keys(self) -> tuple[str, ...]:
@@ -145,12 +116,22 @@ class Problem:
         """The coordinates to start from."""
         return np.array([f.start for f in self.free])
 
-    def full(self, theta: Array) -> Array:
-        """Return the full parameter vector of the system at the coordinates `theta`."""
-        full = self.known.copy()
-        for f, coordinate in zip(self.free, theta, strict=True):
-            if f.key not in LEVELS:
-                full[self.system.index[f.key]] = f.value(coordinate)
+    @cached_property
+    def routes(self) -> tuple[Route, ...]:
+        """Which coordinate stands for what in each recording."""
+        return tuple(Route.of(self.keys, track.name) for track in self.tracks)
+
+    @cached_property
+    def _slots(self) -> tuple[tuple[int, Free], ...]:
+        """Where each free parameter of the system stands in the full vector."""
+        frees = {f.parameter: f for f in self.free}
+        return tuple((self.system.index[name], f) for name, f in frees.items() if name not in LEVELS)
+
+    def full(self, theta: Array, index: int = 0) -> Array:
+        """Return the full parameter vector of the system in a recording at the coordinates `theta`."""
+        full, route = self.known.copy(), self.routes[index]
+        for slot, f in self._slots:
+            full[slot] = f.value(route.at(theta, f.parameter))
         return full
 
     def values(self, theta: Array) -> dict[str, float]:
@@ -167,9 +148,7 @@ class Problem:
 
     def innovations(self, theta: Array) -> Innovations:
         """Return the one-step prediction errors of the filter at the coordinates `theta`."""
-        parts = [self._filter(i, theta) for i in range(len(self.tracks))]
-        errors = np.concatenate([p[0] for p in parts])
-        return Innovations(errors, np.concatenate([p[1] for p in parts]), all(p[2] for p in parts))
+        return _joined([self._filter(i, theta) for i in range(len(self.tracks))])
 
     def log_posterior(self, theta: Array) -> float:
         """Return log-likelihood plus log prior at the coordinates `theta`."""
@@ -178,36 +157,61 @@ class Problem:
 
     def many(self, thetas: Iterable[Array]) -> list[Innovations]:
         """Return the innovations at several points, computed on `jobs` cores (the kernels release the lock)."""
-        points = list(thetas)
-        if self.jobs < 2 or len(points) < 2:
-            return [self.innovations(p) for p in points]
-        return list(_pool(self.jobs).map(self.innovations, points))
+        return self._each(self.innovations, list(thetas))
 
-    def noise(self, theta: Array) -> tuple[float, float]:
+    def log_likelihoods(self, points: Array) -> Array:
+        """Return the log-likelihood (count,) at several `points` (count, n); minus infinity where it diverges."""
+        found = np.array(self._each(lambda p: self.innovations(p).log_likelihood, list(points)), dtype=float)
+        return np.where(np.isnan(found), -np.inf, found)
+
+    def around(self, theta: Array, points: Sequence[Array]) -> list[Innovations]:
+        """Return the innovations at `theta` and then at `points` about it.
+
+        A recording is filtered anew only at those points of which a coordinate that matters to it has moved.
+        """
+        tasks = [(i, theta) for i in range(len(self.tracks))]
+        tasks += [(i, p) for p in points for i, r in enumerate(self.routes) if np.any(p[r.used] != theta[r.used])]
+        done = self._each(lambda task: self._filter(*task), tasks)
+        here = {i: part for (i, p), part in zip(tasks, done, strict=True) if p is theta}
+        table = {(i, id(p)): part for (i, p), part in zip(tasks, done, strict=True)}
+        return [_joined([table.get((i, id(p)), here[i]) for i in here]) for p in (theta, *points)]
+
+    def _each(self, function: Callable[[Any], Out], items: Sequence[Any]) -> list[Out]:
+        if self.jobs < 2 or len(items) < 2:
+            return [function(item) for item in items]
+        return list(_pool(self.jobs).map(function, items))
+
+    def noise(self, theta: Array, index: int = 0) -> tuple[float, float]:
         """Return the intensity of the random force (N^2 s) and the variance of the measurement noise."""
-        values = dict(zip(self.keys, theta, strict=True))
-        return math.exp(values[RANDOM]), math.exp(2.0 * values[NOISE])
+        route = self.routes[index]
+        return math.exp(route.at(theta, RANDOM)), math.exp(2.0 * route.at(theta, NOISE))
 
-    def initial(self, index: int, n: int) -> tuple[Array, Array]:
+    def offset(self, theta: Array, index: int = 0) -> float:
+        """Return what the response sensor shows at zero, in the unit of the channel."""
+        route = self.routes[index]
+        return route.at(theta, OFFSET) if OFFSET in route.columns else 0.0
+
+    def initial(self, index: int, n: int, theta: Array | None = None) -> tuple[Array, Array]:
         """Return mean (n,) and covariance (n, n) of the state at the first sample of a recording."""
         track, scales = self.tracks[index], self.scales
+        offset = 0.0 if theta is None else self.offset(theta, index)
         y0, cov = np.zeros(n), np.zeros((n, n))
         cov[0, 0], cov[1, 1] = scales.length**2, scales.velocity**2
         if track.channel == "position":
-            y0[0], y0[1] = track.first
+            y0[0], y0[1] = track.first[0] - offset, track.first[1]
             cov[0, 0] = min((10.0 * track.noise) ** 2 + (1e-3 * scales.length) ** 2, scales.length**2)
             cov[1, 1] *= 0.25
         return y0, cov
 
-    def random(self, theta: Array) -> tuple[float, float]:
+    def random(self, theta: Array, index: int = 0) -> tuple[float, float]:
         """Return pace (1/s; zero when white) and noise intensity of the random force as the kernel takes them."""
-        intensity, _ = self.noise(theta)
+        intensity, _ = self.noise(theta, index)
         if not self.coloured:
             return 0.0, intensity
-        pace = math.exp(theta[self.keys.index(PACE)])
+        pace = math.exp(self.routes[index].at(theta, PACE))
         return pace, intensity * pace**2
 
-    def _filter(self, index: int, theta: Array) -> tuple[Array, Array, bool]:
+    def _filter(self, index: int, theta: Array) -> Part:
         track = self.tracks[index]
         errors, variances = np.zeros(track.samples), np.ones(track.samples)
         done = self.track(index, theta, errors, variances, None)
@@ -216,17 +220,17 @@ class Problem:
     def track(self, index: int, theta: Array, errors: Array, variances: Array, kept: Kept | None) -> int:
         """Run the filter over one recording into the given arrays; return how many samples it got through."""
         track, drive, system = self.tracks[index], self.drives[index], self.system
-        base, own = system.pack(self.full(theta), drive.dt / drive.nsub)
+        base, own = system.pack(self.full(theta, index), drive.dt / drive.nsub)
         on, at = system.wiring(self.active)
         channel, direct = system.channel(track.channel)
-        pace, intensity = self.random(theta)
-        y0, cov = self.initial(index, system.states(self.active) + self.coloured)
+        (pace, intensity), offset = self.random(theta, index), self.offset(theta, index)
+        y0, cov = self.initial(index, system.states(self.active) + self.coloured, theta)
         if self.coloured:
             cov[-1, -1] = 0.5 * intensity / pace
         arrays = kept or (_NONE, _NONE3, _NONE, _NONE3, _NONE3)
         done: int = system.kernel(self.active, latent=self.coloured).track(
-            track.z, drive.u, drive.dt, drive.nsub, base, own, on, at, pace, intensity, self.noise(theta)[1], y0, cov,
-            channel, direct, errors, variances, kept is not None, *arrays,
+            track.z - offset if offset else track.z, drive.u, drive.dt, drive.nsub, base, own, on, at, pace, intensity,
+            self.noise(theta, index)[1], y0, cov, channel, direct, errors, variances, kept is not None, *arrays,
         )  # fmt: skip
         return done
 
