@@ -9,22 +9,25 @@ from dataclasses import replace
 import numpy as np
 from scipy.stats import qmc
 
-from lostmotion.case import Case, Prior
+from lostmotion.case import Case, Prior, Sensor
 from lostmotion.contracts import Array
 from lostmotion.errors import CaseError, ContractError
-from lostmotion.inference.fit import Fit, maximise, warmed
-from lostmotion.inference.problem import LEVELS, NOISE, RANDOM, USUAL, Free, Problem, Scales
+from lostmotion.inference.fit import Fit, maximise, restarted, warmed
+from lostmotion.inference.free import LEVELS, NOISE, OFFSET, RANDOM, Free, keys_of
+from lostmotion.inference.modes import Tried, distinct
+from lostmotion.inference.noise import LEVELS_TRIED, noise_frees, own_levels, random_level, usual_of
+from lostmotion.inference.problem import Problem, Scales
 from lostmotion.inference.tracks import Track
 from lostmotion.system import Slot, System, substeps
 
 HELD_OUT = 0.3
-LEVELS_TRIED = (0.3, 0.05, 0.008)
-"""Random forces, as shares of the drive, with which starting points are compared: a large one lets the filter follow
-whatever the parameters, a small one tells good parameters from bad ones."""
+BEGINNING, FEWEST = 3000, 400
+"""Starting points are compared on so many samples of one recording; of each of many at least on so few."""
 
-LEAST = 2.0 * math.log(0.3)
-"""The random force is never less than 0.3 of the usual: with less, a filter trusts its linearisation too far, and
-intervals from long recordings become too narrow (over 24 recordings, z rms 1.4 with 0.1 and 1.05 with 0.3)."""
+WITHIN = 20.0
+"""A mode of which the log evidence is further below the best has no share in the posterior."""
+SLACK = 30.0
+"""Before the final fits a hill may be this much lower, in log posterior."""
 
 FINE = 0.015
 """Final estimates take steps a quarter as long as those of the search: a kink makes RK4 first order."""
@@ -65,45 +68,30 @@ def _rate(track: Track) -> float:
 
 
 def free_of(slot: Slot, prior: Prior) -> Free:
-    """Return the free parameter of a case's prior."""
-    if prior.mean is not None and prior.sd is not None:
-        low = max(slot.param.low, prior.mean - 12.0 * prior.sd)
-        return Free(slot.key, slot.unit, prior.mean, low, prior.mean + 12.0 * prior.sd, mean=prior.mean, sd=prior.sd)
-    log = prior.scale == "log"
-    low, high = (math.log(prior.low), math.log(prior.high)) if log else (prior.low, prior.high)
-    return Free(slot.key, slot.unit, 0.5 * (low + high), low, high, log=log)
+    """Return the free parameter of a case's prior, where all recordings share it."""
+    return _free(slot.key, slot.unit, prior, (slot.param.low, slot.param.high))
 
 
-def usual_of(problem: Problem, rate: float) -> float:
-    """Return the log intensity of the random force that the usual noise of a measured excitation makes.
-
-    The noise of a base motion enters through the stiffness of the joint, of which `rate` (1/s) is the fastest motion.
-    """
-    system, track = problem.system, problem.tracks[0]
-    size = USUAL * problem.scales.force
-    if "force" not in system.model.inputs:
-        inertia = problem.known[system.index[system.model.interfaces[0].inertia]]
-        size = USUAL * math.sqrt(2.0) * float(np.std(track.inputs[:, 0])) * inertia * rate**2
-    return math.log(max(size, 1e-300) ** 2 * track.dt)
+def frees_for(slot: Slot, prior: Prior, recordings: Sequence[str]) -> tuple[Free, ...]:
+    """Return the free parameters of a case's prior: one, or with `each` one for each of the named recordings."""
+    shared = free_of(slot, prior)
+    keys = keys_of(slot.key, recordings) if prior.each else (slot.key,)
+    return tuple(replace(shared, key=key) for key in keys)
 
 
-def noise_frees(tracks: Sequence[Track], scales: Scales) -> tuple[Free, Free]:
-    """Return the two noise levels: the intensity of a random force, and the measurement noise, as logarithms.
-
-    The random force has a broad normal prior about the usual noise of a measured excitation.
-    """
-    usual = scales.usual
-    start = max(random_level(tracks, scales, LEVELS_TRIED[0]), usual + 2.0)
-    noise = math.log(float(np.median([t.noise for t in tracks])))
-    return (
-        Free(RANDOM, "1", start, usual + LEAST, start + 6.0, mean=usual, sd=4.0),
-        Free(NOISE, "1", noise, noise - 7.0, noise + 3.0),
-    )
-
-
-def random_level(tracks: Sequence[Track], scales: Scales, share: float) -> float:
-    """Return the log intensity of a random force that is the given share of the drive, white from sample to sample."""
-    return math.log((share * scales.force) ** 2 * tracks[0].dt)
+def _free(key: str, unit: str, prior: Prior, bounds: tuple[float, float]) -> Free:
+    """Return the free parameter with a prior, cut at the bounds (value) and 12 standard deviations from its middle."""
+    log = prior.kind in ("log-uniform", "log-normal")
+    if prior.bell is None:
+        low, high = (math.log(prior.low), math.log(prior.high)) if log else (prior.low, prior.high)
+        return Free(key, unit, 0.5 * (low + high), low, high, log=log)
+    mean, sd = prior.bell
+    ends = [math.log(max(end, 1e-300)) for end in bounds] if log else [*bounds]
+    low, high = max(ends[0], mean - 12.0 * sd), min(ends[1], mean + 12.0 * sd)
+    if prior.kind == "half-normal":
+        low = max(low, 0.0)
+    start = math.log(prior.start()) if log else prior.start()
+    return Free(key, unit, min(max(start, low), high), low, high, log=log, mean=mean, sd=sd)
 
 
 def known_of(system: System, case: Case) -> Array:
@@ -117,7 +105,7 @@ def known_of(system: System, case: Case) -> Array:
         _check_bounds(system, name, value, value)
     for name, prior in case.estimate.items():
         at = prior.start()
-        _check_bounds(system, name, *((prior.low, prior.high) if prior.mean is None else (at, at)))
+        _check_bounds(system, name, *((prior.low, prior.high) if prior.bell is None else (at, at)))
     if twice := set(values) & set(guesses):
         raise CaseError(f"{sorted(twice)[0]} is both known and to be estimated: keep one of them")
     lacking = [
@@ -142,10 +130,11 @@ def _check_bounds(system: System, name: str, low: float, high: float) -> None:
 
 
 def problem_of(system: System, case: Case, tracks: tuple[Track, ...], *, jobs: int = 2) -> Problem:
-    """Return the problem of a case on the given recordings, with no term active."""
+    """Return the problem of a case on the given recordings, with no term active, noise levels shared."""
     known = known_of(system, case)
     scales = scales_of(system, tracks, known)
-    frees = [free_of(system.slot(name), prior) for name, prior in case.estimate.items()]
+    names = [track.name for track in tracks]
+    frees = [f for name, prior in case.estimate.items() for f in frees_for(system.slot(name), prior, names)]
     problem = Problem(system, tracks, scales, known, tuple(frees), jobs=jobs)
     scales = replace(scales, usual=usual_of(problem, rate_of(problem, problem.start)))
     problem = replace(problem, scales=scales, free=(*frees, *noise_frees(tracks, scales)))
@@ -160,38 +149,55 @@ def rate_of(problem: Problem, theta: Array) -> float:
     states[:, 0] = np.repeat(grid, 3) * scales.length
     states[:, 1] = np.tile([-1.0, 0.03, 1.0], len(grid)) * scales.velocity
     middle = np.repeat(np.mean(track.inputs, axis=0)[None], len(states), axis=0)
-    rate = system.stiffness(problem.full(theta), problem.active, states, middle)
-    return max(rate, 1.0 / scales.time)
+    alike = all(f.recording is None or f.parameter in LEVELS for f in problem.free)
+    fulls = [problem.full(theta, i) for i in range(1 if alike else len(problem.tracks))]
+    return max(1.0 / scales.time, *(system.stiffness(full, problem.active, states, middle) for full in fulls))
 
 
 def stepped(problem: Problem, theta: Array, *, accuracy: float = 0.06) -> Problem:
     """Return the problem with as many steps between samples as the stiffness along the recorded motion asks for."""
     rate = rate_of(problem, theta)
-    return replace(problem, nsub=substeps(rate, problem.tracks[0].dt, accuracy=accuracy))
+    return replace(problem, nsub=substeps(rate, max(t.dt for t in problem.tracks), accuracy=accuracy))
 
 
 def search(problem: Problem, rng: np.random.Generator, *, points: int = 48, finalists: int = 4) -> Fit:
-    """Return the best fit of several starts: a Latin hypercube on the beginning of the recording, then all of it."""
-    beginning = problem.on(tuple(t.part(0, min(t.samples, 3000)) for t in problem.tracks[:1]))
-    base = [i for i, f in enumerate(problem.free) if f.key not in LEVELS]
-    starts = np.repeat(problem.start[None], points, axis=0)
-    random = problem.keys.index(RANDOM)
-    if base:
-        cube = qmc.LatinHypercube(len(base), rng=rng).random(points - 1)
-        low, high = (np.array([getattr(problem.free[i], end) for i in base]) for end in ("low", "high"))
-        starts[1:, base] = low + cube * (high - low)
-    scores = np.full(points, -np.inf)
-    for share in LEVELS_TRIED:
-        starts[:, random] = random_level(problem.tracks, problem.scales, share)
-        at_share = [here.log_likelihood for here in beginning.many(problem.clip(starts))]
-        scores = np.maximum(scores, at_share)
-    starts[:, random] = problem.start[random]
-    best = np.argsort(scores)[::-1][:finalists]
-    fits = [maximise(beginning, starts[i]) for i in best]
+    """Return the best fit of several starts: a Latin hypercube on the beginnings of the recordings, then all of it."""
+    beginning = beginnings(problem)
+    tried = _tried(problem, beginning, rng, points)
+    fits = [maximise(beginning, tried.starts[i]) for i in tried.best(finalists)]
     ranked = sorted(fits, key=lambda f: -f.local.log_posterior)
     chosen = _distinct(ranked)
     whole = [maximise(stepped(problem, f.theta), warmed(problem, f.theta, 3.0)) for f in chosen]
     return max(whole, key=lambda f: f.local.log_posterior)
+
+
+def beginnings(problem: Problem) -> Problem:
+    """Return the problem on the beginnings of its recordings, about `BEGINNING` samples of one or twice that of all."""
+    several = len(problem.tracks) > 1
+    samples = max(2 * BEGINNING // len(problem.tracks), FEWEST) if several else BEGINNING
+    return problem.on(tuple(t.part(0, min(t.samples, samples)) for t in problem.tracks))
+
+
+def _tried(problem: Problem, beginning: Problem, rng: np.random.Generator, points: int) -> Tried:
+    """Return a Latin hypercube over the priors, scored with the best of three random forces.
+
+    A parameter that each recording has for itself starts at the same value in all of them.
+    """
+    names = list(dict.fromkeys(f.parameter for f in problem.free if f.parameter not in LEVELS))
+    starts = np.repeat(problem.start[None], points, axis=0)
+    cube = np.full((points, len(names)), 0.5)
+    if names:
+        cube[1:] = qmc.LatinHypercube(len(names), rng=rng).random(points - 1)
+        for i, f in enumerate(problem.free):
+            if f.parameter in names:
+                starts[1:, i] = [f.quantile(float(share)) for share in cube[1:, names.index(f.parameter)]]
+    random = [f.parameter == RANDOM for f in problem.free]
+    scores = np.full(points, -np.inf)
+    for share in LEVELS_TRIED:
+        starts[:, random] = random_level(problem.tracks, problem.scales, share)
+        scores = np.maximum(scores, beginning.log_likelihoods(problem.clip(starts)))
+    starts[:, random] = problem.start[random]
+    return Tried(cube, starts, scores)
 
 
 def _distinct(fits: list[Fit]) -> list[Fit]:
@@ -204,8 +210,67 @@ def _distinct(fits: list[Fit]) -> list[Fit]:
     return [best]
 
 
+def modes(problem: Problem, rng: np.random.Generator, *, points: int = 96, finalists: int = 8) -> list[Fit]:
+    """Return the distinct maxima of the posterior on all recordings, best first by log evidence.
+
+    It looks more widely than `search`, fits each hill that the beginnings leave within `SLACK` of the best on the whole
+    recordings, and keeps those within `WITHIN` in log evidence. All are maxima of one problem, which takes as many
+    steps between samples as the stiffest of them asks for.
+    """
+    beginning = beginnings(problem)
+    tried = _tried(problem, beginning, rng, points)
+    short = distinct([maximise(beginning, tried.starts[i]) for i in tried.peaks(finalists)], SLACK)
+    whole: list[Fit] = []
+    for fit in short:
+        hopeless = max((f.local.log_posterior for f in whole), default=-math.inf) - 2.0 * SLACK
+        whole.append(maximise(stepped(problem, fit.theta), warmed(problem, fit.theta, 3.0), hopeless=hopeless))
+    hills = distinct(whole, SLACK) or [maximise(problem)]
+    return _together(hills, max((f.problem for f in hills), key=lambda p: p.nsub))
+
+
+def _together(fits: list[Fit], problem: Problem) -> list[Fit]:
+    """Return the maxima of `problem` that begin at those of the fits, each hill once, best first."""
+    again = [f if f.problem.nsub == problem.nsub else maximise(problem, f.theta) for f in fits]
+    hills = [replace(f, problem=problem) for f in distinct(again, SLACK)] or again
+    top = max(f.log_evidence for f in hills)
+    return sorted((f for f in hills if f.log_evidence >= top - WITHIN), key=lambda f: -f.log_evidence)
+
+
+def separated(fit: Fit, sensor: Sensor) -> Fit:
+    """Return the fit with what a case says of the sensor: noise levels of each recording's own, and its zero.
+
+    It begins at the fit with shared levels; with one recording and a known zero it is that fit itself.
+    """
+    problem = restarted(fit)
+    own = sensor.noise == "each" and len(problem.tracks) > 1
+    levels = tuple(f for f in problem.free if f.key in (RANDOM, NOISE))
+    if own:
+        levels = own_levels(problem, rate_of(problem, fit.theta), float(fit.theta[problem.keys.index(RANDOM)]))
+    if not own and sensor.offset is None:
+        return fit
+    kept = tuple(f for f in problem.free if f.key not in (RANDOM, NOISE))
+    apart = replace(problem, free=(*kept, *_offsets(problem, sensor.offset), *levels))
+    return maximise(apart, apart.start)
+
+
+def _offsets(problem: Problem, prior: Prior | None) -> tuple[Free, ...]:
+    """Return the zero of the response sensor in each recording; none where it is known."""
+    if prior is None:
+        return ()
+    rotation, channel = problem.system.model.motion == "rotation", problem.tracks[0].channel
+    per = {"position": "", "velocity": "/s", "acceleration": "/s^2"}
+    unit = ("N m" if rotation else "N") if channel == "force" else ("rad" if rotation else "m") + per[channel]
+    keys = keys_of(OFFSET, [track.name for track in problem.tracks])
+    return tuple(_free(key, unit, prior, (-math.inf, math.inf)) for key in keys)
+
+
 def polish(fit: Fit) -> Fit:
     """Return the fit with finer integration steps."""
     problem = stepped(fit.problem, fit.theta, accuracy=FINE)
     finer = maximise(problem, fit.theta)
     return finer if finer.status in ("converged", "rough") else fit
+
+
+def polished(fits: list[Fit]) -> list[Fit]:
+    """Return the modes with finer integration steps, all of one problem, best first by log evidence."""
+    return _together(fits, max((stepped(f.problem, f.theta, accuracy=FINE) for f in fits), key=lambda p: p.nsub))

@@ -1,0 +1,81 @@
+"""Which maxima of a posterior are one hill, and which are modes of their own."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from lostmotion.contracts import Array
+from lostmotion.inference.fit import Fit
+from lostmotion.inference.problem import Problem
+
+NEAR = 3.0
+"""Maxima that are closer than this many standard deviations in each coordinate are one."""
+DIP = 3.0
+"""Between two modes the log posterior falls by more than this: two normal hills five deviations apart leave 3.1."""
+LOOKS = 9
+NEIGHBOURS = 4
+
+
+def one_hill(a: Fit, b: Fit) -> bool:
+    """Return whether two maxima belong to one hill: close by, or no dip on the straight line between them.
+
+    A filter through a kink leaves a posterior rough, so that fits stop at several places of one hill; a dip that
+    roughness makes is shallower than one between modes.
+    """
+    width = np.maximum(_sd(a), _sd(b))
+    if np.all(np.abs(a.theta - b.theta) < NEAR * width):
+        return True
+    problem = max(a.problem, b.problem, key=lambda p: p.nsub)
+    along = np.linspace(0.0, 1.0, LOOKS)[:, None]
+    heights = heights_of(problem, problem.clip(a.theta + along * (b.theta - a.theta)))
+    return bool(np.min(heights[1:-1]) > min(heights[0], heights[-1]) - DIP)
+
+
+def heights_of(problem: Problem, points: Array) -> Array:
+    """Return the log posterior (count,) at several points (count, n)."""
+    priors = np.array([problem.log_prior(p) for p in points])
+    return np.asarray(problem.log_likelihoods(points) + priors, dtype=float)
+
+
+def _sd(fit: Fit) -> Array:
+    return np.array(list(fit.sd.values()))
+
+
+def distinct(fits: Iterable[Fit], within: float) -> list[Fit]:
+    """Return one fit of each hill, best first by log posterior, down to `within` below the best."""
+    ranked = sorted((f for f in fits if math.isfinite(f.local.log_posterior)), key=lambda f: -f.local.log_posterior)
+    kept: list[Fit] = []
+    for fit in ranked:
+        if fit.local.log_posterior < ranked[0].local.log_posterior - within:
+            break
+        if not any(one_hill(fit, other) for other in kept):
+            kept.append(fit)
+    return kept
+
+
+@dataclass(frozen=True)
+class Tried:
+    """Starting points: their places `unit` (points, parameters) in the unit cube, coordinates, and scores (points,)."""
+
+    unit: Array
+    starts: Array
+    scores: Array
+
+    def best(self, count: int) -> list[int]:
+        """Return the `count` points with the best scores."""
+        return [int(i) for i in np.argsort(self.scores)[::-1][:count]]
+
+    def peaks(self, count: int) -> list[int]:
+        """Return up to `count` points, those first that are better than their nearest neighbours.
+
+        The best points alone would often lie all on the widest hill.
+        """
+        apart = np.abs(self.unit[:, None] - self.unit[None]).max(axis=2)
+        near = np.argsort(apart, axis=1)[:, 1 : NEIGHBOURS + 1]
+        peak = self.scores >= self.scores[near].max(axis=1, initial=-math.inf)
+        order = np.lexsort((-self.scores, ~peak))
+        return [int(i) for i in order[:count] if math.isfinite(self.scores[i])]
