@@ -17,6 +17,7 @@ __all__ = ["PluginName", "examples", "main", "registry_of"]
 class _Commands(LazyGroup):
     table: ClassVar[Mapping[str, tuple[str, str]]] = {
         "analyse": ("lostmotion.cli.analyse:command", "Tell whether a recorded motion is periodic, chaotic or noise."),
+        "calibrate": ("lostmotion.cli.calibrate:command", "See whether the intervals of identify hold the truth."),
         "demo": ("lostmotion.cli.demo:command", "See it work: a robot joint hides friction, and it is found."),
         "diagnose": ("lostmotion.cli.diagnose:command", "Find the physics that the model of a case leaves out."),
         "identify": ("lostmotion.cli.identify:command", "Estimate the parameters of a case, with their intervals."),

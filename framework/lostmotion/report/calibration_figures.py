@@ -1,0 +1,136 @@
+"""Figures of a calibration: rank histograms, ECDF differences in their band, and where intervals miss the truth."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from lostmotion.report import style
+from lostmotion.report.words import readable, with_unit
+from lostmotion.results import Array
+
+ACROSS = 3
+DECADE = 4.0
+"""Ratio of largest to smallest truth from which the axis is logarithmic."""
+FAR = 5.0
+"""Standard deviations beyond which an interval is drawn at the rim."""
+CAPTIONS = {
+    "ranks": (
+        "Ranks of the true value among 99 draws of its posterior. A posterior that is right gives even bars; one that"
+        " is too narrow a bowl, one too wide a hill, a biased one a slope. Shaded: what a single bar leaves one time in"
+        " a hundred."
+    ),
+    "ecdf": (
+        "Share of ranks below each place, less what is expected. A right posterior leaves the shaded band anywhere in"
+        " one campaign of a hundred (Säilynoja, Bürkner, Vehtari 2022)."
+    ),
+    "intervals": (
+        "Central 95 % intervals less the truth, in standard deviations of each posterior, over the true value. An"
+        " interval that misses is coloured; one in twenty should. Triangles lie beyond the frame."
+    ),
+}
+
+
+class Found(NamedTuple):
+    """A parameter in words, what is said of it, and its columns (machines,): truth, low, median, high, sd."""
+
+    words: str
+    row: Mapping[str, Any]
+    columns: Mapping[str, Array]
+
+
+def _panels(found: Sequence[Found], height: float, across: int = ACROSS) -> tuple[Figure, list[Axes]]:
+    """Return a figure with a panel for each parameter, titled with its name."""
+    wide = min(across, len(found))
+    rows = -(-len(found) // wide)
+    figure = style.blank(height * rows + 0.2)
+    panels = list(figure.subplots(rows, wide, squeeze=False).flat)
+    for axes in panels[len(found) :]:
+        axes.remove()
+    for axes, one in zip(panels, found, strict=False):
+        axes.set_title(one.words)
+    return figure, panels[: len(found)]
+
+
+def histograms(found: Sequence[Found], band: Mapping[str, float]) -> Figure:
+    """Return one histogram of ranks for each parameter, with the band of a single bar."""
+    figure, panels = _panels(found, 2.2)
+    for axes, one in zip(panels, found, strict=True):
+        counts = np.array(one.row["histogram"])
+        edges = np.linspace(0.0, 100.0, len(counts) + 1)
+        axes.axhspan(band["low"], band["high"], color=style.SHADE, zorder=0)
+        axes.axhline(band["expected"], color="#555555", linewidth=0.8, linestyle=(0, (3, 2)))
+        axes.stairs(counts, edges, fill=True, color=style.AFTER, alpha=0.45)
+        axes.stairs(counts, edges, color=style.AFTER, linewidth=1.1)
+        axes.set_xlim(0, 100)
+        axes.set_ylim(0, 1.08 * max(counts.max(), band["high"]))
+        style.few_ticks(axes, 5, 4)
+        axes.set_xlabel("rank of the truth")
+    panels[0].set_ylabel("machines")
+    return figure
+
+
+def ecdf(found: Sequence[Found], band: Mapping[str, Sequence[float]]) -> Figure:
+    """Return the differences of the empirical distribution functions of ranks to the uniform one, in their band."""
+    figure, panels = _panels(found, 2.4)
+    at, middle, low, high = (np.array(band[key]) for key in ("at", "middle", "low", "high"))
+    for axes, one in zip(panels, found, strict=True):
+        machines = sum(one.row["histogram"])
+        curves = [_closed(x, middle, machines) for x in (low, high, np.array(one.row["ecdf"]))]
+        places = np.concatenate([[0.0], at, [1.0]])
+        axes.fill_between(places, curves[0], curves[1], color=style.SHADE, zorder=0, step="mid")
+        axes.axhline(0.0, color="#555555", linewidth=0.8, linestyle=(0, (3, 2)))
+        axes.step(places, curves[2], where="mid", color=style.AFTER, linewidth=1.4)
+        axes.set_xlim(0.0, 1.0)
+        style.few_ticks(axes, 5, 5)
+        axes.set_xlabel("rank / 100")
+    panels[0].set_ylabel("difference to uniform")
+    return figure
+
+
+def _closed(counts: Array, middle: Array, machines: int) -> Array:
+    """Return counts as shares less what is expected, with nothing at both ends."""
+    return np.concatenate([[0.0], (counts - middle) / machines, [0.0]])
+
+
+def intervals(found: Sequence[Found]) -> Figure:
+    """Return one panel for each parameter: its intervals about the truth, over the true values."""
+    figure, panels = _panels(found, 2.5)
+    for axes, one in zip(panels, found, strict=True):
+        _draw_intervals(axes, one)
+    panels[0].set_ylabel("(interval − truth) / sd")
+    return figure
+
+
+def _draw_intervals(axes: Axes, one: Found) -> None:
+    kept = np.isfinite(one.columns["median"])
+    truth, low, median, high, sd = (one.columns[k][kept] for k in ("truth", "low", "median", "high", "sd"))
+    scale = readable(float(np.median(np.abs(truth))), str(one.row["unit"]))
+    down, middle, up = ((x - truth) / sd for x in (low, median, high))
+    missed = (down > 0.0) | (up < 0.0)
+    place = scale.factor * truth if np.ptp(truth) else np.arange(len(truth), dtype=float)
+    for chosen, colour in ((~missed, style.AFTER), (missed, style.BEFORE)):
+        axes.vlines(place[chosen], down[chosen], up[chosen], color=colour, linewidth=0.9, alpha=0.7)
+        axes.plot(place[chosen], middle[chosen], "o", color=colour, markersize=2.4)
+    axes.axhline(0.0, color="#555555", linewidth=0.8)
+    _draw_beyond(axes, place, middle)
+    axes.set_ylim(-FAR - 0.6, FAR + 0.6)
+    if np.ptp(truth) and truth.min() > 0.0 and truth.max() > DECADE * truth.min():
+        axes.set_xscale("log")
+        style.log_ticks(axes.xaxis)
+    else:
+        style.few_ticks(axes, 5, 5)
+    axes.set_xlabel(with_unit("true value", scale.unit) if np.ptp(truth) else "machine")
+
+
+def _draw_beyond(axes: Axes, place: Array, middle: Array) -> None:
+    """Mark the machines whose posterior lies beyond the frame by a triangle at its rim."""
+    for side, marker in ((1.0, "^"), (-1.0, "v")):
+        beyond = side * middle > FAR
+        axes.plot(
+            place[beyond], np.full(int(beyond.sum()), side * (FAR + 0.3)), marker, color=style.BEFORE, markersize=4
+        )

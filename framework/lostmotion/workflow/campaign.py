@@ -1,0 +1,173 @@
+"""Many independent trials over the cores of this machine, each kept as it ends: a campaign that is killed goes on.
+
+A trial knows its number and nothing of the others, so neither their order nor the number of processes changes a byte.
+"""
+
+from __future__ import annotations
+
+import fcntl
+import json
+import multiprocessing
+import os
+import shutil
+import signal
+import threading
+from collections.abc import Callable, Generator, Iterator, Mapping
+from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import closing, contextmanager
+from dataclasses import dataclass
+from functools import partial
+from multiprocessing.connection import Connection
+from pathlib import Path
+from typing import Any
+
+from lostmotion.errors import DataError
+from lostmotion.storage import folder_for, save_json
+
+SCHEMA = "lostmotion.campaign/1"
+PLAN = "campaign.json"
+"""What a folder of a campaign is known by: how its trials are made."""
+TRIALS = "trials"
+
+Trial = Callable[[int], Mapping[str, Any]]
+"""Makes the outcome of one trial, ready for JSON, from its number; it can be pickled."""
+Say = Callable[[int, int], None]
+"""Told how many trials are done, and how many there are."""
+
+
+@dataclass(frozen=True)
+class Campaign:
+    """Trials 0 to `count` - 1 and what makes them: `identity`, plain as JSON knows it, without the number of trials."""
+
+    trial: Trial
+    count: int
+    identity: Mapping[str, Any]
+
+    def run(self, folder: Path, jobs: int, say: Say = lambda _done, _of: None, *, fresh: bool = False) -> list[Any]:
+        """Return the outcome of every trial in order; those that `folder` already holds are not made again.
+
+        Raises `DataError` when the folder holds a campaign of another identity, unless a `fresh` one is wanted.
+        """
+        with _held(folder_for(folder)):
+            self._claim(folder, fresh)
+            missing = [k for k in range(self.count) if not _file(folder, k).exists()]
+            say(self.count - len(missing), self.count)
+            with closing(self._made(folder, missing, jobs)) as numbers:
+                for done, _ in enumerate(numbers, start=self.count - len(missing) + 1):
+                    say(done, self.count)
+        return [json.loads(_file(folder, k).read_text(encoding="utf-8")) for k in range(self.count)]
+
+    def _claim(self, folder: Path, fresh: bool) -> None:
+        """Make the folder this campaign's, or refuse one that is another's."""
+        plan, trials = folder / PLAN, folder / TRIALS
+        found = _plan(plan)
+        if found is None and (plan.exists() or trials.exists()):
+            raise DataError(f"{folder} holds {trials.name} and is no campaign of ours: choose another place")
+        if found and fresh:
+            shutil.rmtree(trials, ignore_errors=True)
+        wanted = {"schema": SCHEMA, **self.identity}
+        if found and not fresh:
+            _require_same(folder, found, json.loads(json.dumps(wanted)))
+        save_json(plan, wanted)
+        trials.mkdir(exist_ok=True)
+        for spare in trials.glob(".*"):
+            spare.unlink()
+
+    def _made(self, folder: Path, missing: list[int], jobs: int) -> Generator[int, None, None]:
+        """Yield the number of each trial that was made and kept."""
+        make = partial(_kept, self.trial, folder)
+        if jobs == 1 or len(missing) < 2:
+            return (make(k) for k in missing)
+        return _spread(make, missing, min(jobs, len(missing)))
+
+
+def _plan(path: Path) -> dict[str, Any] | None:
+    """Return what made the campaign of a folder, or None where there is none of ours."""
+    try:
+        found: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return None
+    return found if found.get("schema") == SCHEMA else None
+
+
+def _file(folder: Path, number: int) -> Path:
+    return folder / TRIALS / f"{number:05d}.json"
+
+
+def _kept(trial: Trial, folder: Path, number: int) -> int:
+    """Return the number of a trial, once its outcome is on the disk."""
+    save_json(_file(folder, number), trial(number))
+    return number
+
+
+def _spread(make: Callable[[int], int], numbers: list[int], jobs: int) -> Generator[int, None, None]:
+    """Yield each number as it is made, by processes that end at once when this one is interrupted, closed or killed."""
+    spawn = multiprocessing.get_context("spawn")
+    ear, mouth = spawn.Pipe(duplex=False)
+    pool = ProcessPoolExecutor(jobs, mp_context=spawn, initializer=_listen, initargs=(ear,))
+    waiting, running = numbers[::-1], set[Future[int]]()
+    try:
+        while waiting or running:
+            while waiting and len(running) < jobs:
+                running.add(pool.submit(make, waiting.pop()))
+            finished, running = wait(running, return_when=FIRST_COMPLETED)
+            for future in finished:
+                yield future.result()
+    except BrokenProcessPool as err:
+        raise DataError(
+            "a process of the campaign was killed, perhaps for want of memory: run the same command again, with"
+            " fewer --jobs; what is done is kept"
+        ) from err
+    finally:
+        if running or waiting:
+            mouth.close()
+        pool.shutdown(cancel_futures=True)
+        mouth.close()
+        ear.close()
+
+
+def _listen(ear: Connection) -> None:
+    """Leave Ctrl-C to the parent, and end with it: its end of the pipe closes however it ends."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+    def hear() -> None:
+        try:
+            ear.recv_bytes()
+        except (EOFError, OSError):
+            os._exit(1)
+
+    threading.Thread(target=hear, daemon=True).start()
+
+
+def _require_same(folder: Path, old: Mapping[str, Any], new: Mapping[str, Any]) -> None:
+    if old == new:
+        return
+    said = "; ".join(_differences(old, new))
+    raise DataError(
+        f"{folder} holds a campaign made otherwise ({said}): give the same settings to continue it, another --out,"
+        " or --fresh to start over"
+    )
+
+
+def _differences(old: Mapping[str, Any], new: Mapping[str, Any]) -> Iterator[str]:
+    """Yield what two nested tables differ in, entry by entry."""
+    for key in sorted({*old, *new}):
+        was, now = old.get(key), new.get(key)
+        if isinstance(was, Mapping) and isinstance(now, Mapping):
+            yield from _differences(was, now)
+        elif was != now:
+            yield f"{key} {was}, now {now}"
+
+
+@contextmanager
+def _held(folder: Path) -> Iterator[None]:
+    """Hold the folder for this process; the hold ends with the process, however that ends."""
+    handle = os.open(folder, os.O_RDONLY)
+    try:
+        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        yield
+    except BlockingIOError as err:
+        raise DataError(f"{folder} is being written by another run: wait for it, or stop it") from err
+    finally:
+        os.close(handle)

@@ -1,0 +1,282 @@
+"""A campaign that is killed goes on and ends with the same bytes, and its summary tells good posteriors from bad."""
+
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from lostmotion.case import Prior
+from lostmotion.errors import DataError
+from lostmotion.inference.ranks import DRAWS, coverage_limits, ecdf, ecdf_band, rank_of
+from lostmotion.report.calibration import write_calibration
+from lostmotion.storage import save_json
+from lostmotion.workflow.calibrate import _save_csv, sound, summary
+from lostmotion.workflow.campaign import Campaign
+from lostmotion.workflow.machines import Bench
+from lostmotion.workflow.trials import Design, workshop
+
+COUNT = 12
+PERFECT = 2000
+TOY = """
+import sys, time
+from functools import partial
+from pathlib import Path
+sys.path.insert(0, {here!r})
+from test_calibrate import campaign
+if __name__ == "__main__":
+    campaign(Path({out!r}), pause=0.15).run(Path({out!r}), {jobs})
+"""
+
+
+def toy(out, pause, number):
+    """Return a trial: a truth from N(0, 1), and where it lies in the posterior of one noisy look at it."""
+    time.sleep(pause)
+    rng = np.random.default_rng([3, number])
+    truth, seen = rng.standard_normal(), 0.0
+    seen = truth + rng.standard_normal()
+    return placed(number, truth, rng.normal(0.5 * seen, 0.5**0.5, (4, 250)))
+
+
+def placed(number, truth, chain):
+    low, median, high = np.quantile(chain, [0.025, 0.5, 0.975])
+    place = {
+        "truth": truth, "drawn": True, "unit": "1", "low": low, "median": median, "high": high, "sd": chain.std(),
+        "z": (truth - chain.mean()) / chain.std(), "below": float(np.mean(chain < truth)),
+        "rank": rank_of(truth, chain),
+    }  # fmt: skip
+    return {"machine": number, "status": "ok", "says": "", "parameters": {"a": place}}
+
+
+def campaign(out, *, count=COUNT, pause=0.0, identity=None):
+    return Campaign(partial(toy, out, pause), count, identity or {"settings": {"noise": 1.0}, "seed": 3})
+
+
+def files(folder):
+    return {p.name: p.read_bytes() for p in sorted(folder.glob("trials/*"))}
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory):
+    """A campaign that nothing disturbed, on one core."""
+    out = tmp_path_factory.mktemp("whole")
+    campaign(out).run(out, 1)
+    return out
+
+
+def began(tmp_path, jobs):
+    """Return a campaign in a process of its own that has finished a few trials."""
+    script = tmp_path / "toy.py"
+    script.write_text(TOY.format(here=str(Path(__file__).parent), out=str(tmp_path / "out"), jobs=jobs))
+    process = subprocess.Popen([sys.executable, str(script)], env=os.environ, start_new_session=True)
+    until = time.monotonic() + 60.0
+    while len(list((tmp_path / "out" / "trials").glob("0*.json"))) < 2 and time.monotonic() < until:
+        time.sleep(0.02)
+    return process
+
+
+@pytest.mark.parametrize(("jobs", "how"), [(1, signal.SIGKILL), (2, signal.SIGKILL), (2, signal.SIGINT)])
+def test_a_killed_campaign_goes_on_with_the_same_bytes(tmp_path, whole, jobs, how):
+    process, out = began(tmp_path, jobs), tmp_path / "out"
+    os.kill(process.pid, how)
+    process.wait(30)
+    time.sleep(0.5)
+    before = files(out)
+    assert 2 <= len([name for name in before if not name.startswith(".")]) < COUNT
+    time.sleep(0.5)
+    assert files(out) == before, "a process of the killed campaign goes on"
+    told = []
+    campaign(out).run(out, 1, lambda done, of: told.append((done, of)))
+    assert told[0][0] >= 2
+    assert told[-1] == (COUNT, COUNT)
+    assert files(out) == files(whole)
+
+
+def test_the_number_of_processes_changes_no_byte(tmp_path, whole):
+    campaign(tmp_path).run(tmp_path, 2)
+    assert files(tmp_path) == files(whole)
+
+
+def test_a_campaign_can_be_enlarged(tmp_path, whole):
+    campaign(tmp_path, count=5).run(tmp_path, 1)
+    campaign(tmp_path).run(tmp_path, 1)
+    assert files(tmp_path) == files(whole)
+
+
+def test_another_campaign_is_refused_unless_fresh(tmp_path):
+    campaign(tmp_path, count=3).run(tmp_path, 1)
+    other = campaign(tmp_path, count=2, identity={"settings": {"noise": 2.0}, "seed": 3})
+    with pytest.raises(DataError, match=r"made otherwise \(noise 1.0, now 2.0\).*--fresh to start over"):
+        other.run(tmp_path, 1)
+    other.run(tmp_path, 1, fresh=True)
+    assert len(files(tmp_path)) == 2
+
+
+def test_what_is_none_of_ours_is_left_alone(tmp_path):
+    (tmp_path / "trials").mkdir()
+    (tmp_path / "trials" / "mine.txt").write_text("dear")
+    for fresh in (False, True):
+        with pytest.raises(DataError, match="no campaign of ours"):
+            campaign(tmp_path).run(tmp_path, 1, fresh=fresh)
+    (tmp_path / "campaign.json").write_text("{}")
+    with pytest.raises(DataError, match="no campaign of ours"):
+        campaign(tmp_path).run(tmp_path, 1, fresh=True)
+    assert (tmp_path / "trials" / "mine.txt").read_text() == "dear"
+
+
+def broken(number):
+    raise TypeError("a slip")
+
+
+def test_a_slip_of_the_code_is_no_failed_machine(tmp_path):
+    with pytest.raises(TypeError, match="a slip"):
+        Campaign(broken, 3, {}).run(tmp_path, 1)
+
+
+def rows(machines, *, width=1.0, shift=0.0, seed=0):
+    """Return trials whose posteriors are N(shift, width^2) where N(0, 1) is right."""
+    rng = np.random.default_rng(seed)
+    truths = rng.standard_normal(machines)
+    return [placed(k, t, shift + width * rng.standard_normal((4, 250))) for k, t in enumerate(truths)]
+
+
+def test_a_right_posterior_passes():
+    content = summary(rows(200))
+    assert content["passes"] is True
+    assert content["parameters"]["a"]["rms_z"] == pytest.approx(1.0, abs=0.15)
+    assert content["says"] == [
+        "The intervals hold what they promise, over 200 machines: ranks are uniform, and intervals cover."
+    ]
+
+
+@pytest.mark.parametrize(
+    ("wrong", "word"),
+    [({"width": 0.6}, "too narrow"), ({"width": 1.8}, "too wide"), ({"shift": 0.6}, "biased.*below")],
+)
+def test_a_bad_posterior_does_not_pass(wrong, word):
+    content = summary(rows(200, **wrong))
+    assert content["passes"] is False
+    assert "do not hold" in content["says"][0]
+    assert re.search(word, content["says"][1])
+
+
+def test_verdict_refuses_few_perfect_parameters():
+    """The false alarms of the verdict on one parameter, at the level of one of two, are 3 % at the most."""
+    rng = np.random.default_rng(8)
+    below = rng.uniform(size=(PERFECT, 200))
+    band = ecdf_band(200, 0.005)
+    counts = np.stack([ecdf((b * (DRAWS + 1)).astype(int)) for b in below])
+    wrong = ((counts < band.low) | (counts > band.high)).any(axis=1)
+    for share in (0.5, 0.9, 0.95):
+        low, high = coverage_limits(200, share)
+        inside = np.sum(np.abs(below - 0.5) <= 0.5 * share, axis=1)
+        wrong |= (inside < low) | (inside > high)
+    assert 0.005 < wrong.mean() < 0.03
+
+
+def test_lost_machines_are_told_and_not_counted():
+    lost = [{"machine": 200 + k, "status": "failed", "says": "no", "parameters": {}} for k in range(3)]
+    content = summary([*rows(200), *lost])
+    assert content["passes"] is True
+    assert content["failed"] == [{"machine": 200 + k, "says": "no"} for k in range(3)]
+    assert "Of 203 machines 3 failed" in content["says"][1]
+    many = [{"machine": 200 + k, "status": "unconverged", "says": "ESS", "parameters": {}} for k in range(20)]
+    content = summary([*rows(200), *many])
+    assert content["passes"] is False
+    assert "without a posterior" in content["says"][0]
+    assert summary(many)["says"][0] == "Not one machine has a posterior."
+    assert summary(many)["passes"] is False
+
+
+def test_page_shows_what_was_found(tmp_path):
+    found = [*rows(60), {"machine": 60, "status": "failed", "says": "the <motion> left", "parameters": {}}]
+    head = {"title": "T & co", "model": "m", "route": "trajectory", "moved_by": "hand", "hidden": {}}
+    save_json(tmp_path / "calibration.json", {**head, **summary(found), "provenance": {}})
+    _save_csv(tmp_path / "machines.csv", found)
+    page = write_calibration(tmp_path).read_text(encoding="utf-8")
+    for words in ("T &amp; co", "Calibrated", "Are the ranks uniform?", "Hardest machines", "The &lt;motion&gt; left"):
+        assert words in page
+    assert "<script" not in page
+    assert len((tmp_path / "machines.csv").read_text().splitlines()) == 62
+    save_json(tmp_path / "calibration.json", {**head, **summary(found[-1:]), "provenance": {}})
+    _save_csv(tmp_path / "machines.csv", found[-1:])
+    assert "Not calibrated" in write_calibration(tmp_path).read_text(encoding="utf-8")
+
+
+FORCE = "harmonic:amplitude=100,omega=40"
+CASE = """
+[model]
+name = "lin_backlash"
+[model.known]
+m = 1.0
+k0 = 40000.0
+[model.estimate]
+c = { low = 2.0, high = 32.0, scale = "log" }
+gap = { mean = 0.005, sd = 0.004 }
+"""
+BENCH = Bench((FORCE, "harmonic:amplitude=80,omega=40"), 1.0, 600.0, 0.01)
+
+
+def design(tmp_path, text=CASE, **more):
+    path = tmp_path / "case.toml"
+    path.write_text(text, encoding="utf-8")
+    return Design(path, BENCH, **more)
+
+
+def test_machines_come_from_the_priors(tmp_path):
+    shop = workshop(design(tmp_path, hide=("coulomb_friction:force=1",)))
+    drawn = [shop.draw(np.random.default_rng(k)) for k in range(400)]
+    c = np.array([one.truth["c"] for one in drawn])
+    assert np.mean(c < 8.0) == pytest.approx(0.5, abs=0.1)
+    x0 = np.array([one.truth["x0"] for one in drawn])
+    assert x0.min() >= 0.0
+    assert np.median(x0) == pytest.approx(0.0055, abs=5e-4)
+    assert drawn[0].drawn == {"c", "x0"}
+    assert drawn[0].truth["coulomb_friction.force"] == 1.0
+    assert all(full[shop.system.index["coulomb_friction.force"]] == 1.0 for full in drawn[0].fulls)
+    assert all(full[shop.system.index["x0"]] == drawn[0].truth["x0"] for full in drawn[0].fulls)
+
+
+def test_each_recording_may_have_its_own(tmp_path):
+    text = (
+        CASE.replace('scale = "log" }', 'scale = "log", each = true }')
+        + "[sensor]\noffset = { mean = 0.0, sd = 1e-3 }\n"
+    )
+    one = workshop(design(tmp_path, text)).draw(np.random.default_rng(0))
+    assert set(one.truth) == {"c[drive1]", "c[drive2]", "x0", "offset[drive1]", "offset[drive2]"}
+    assert one.truth["c[drive1]"] != one.truth["c[drive2]"]
+    assert one.offsets == (one.truth["offset[drive1]"], one.truth["offset[drive2]"])
+
+
+@pytest.mark.parametrize(
+    ("text", "more", "sentence"),
+    [
+        (CASE.split("[model.estimate]")[0], {}, "estimates nothing"),
+        (CASE, {"route": "telepathy"}, "no route 'telepathy'"),
+        (CASE, {"hide": ("coulomb_frictoin:force=1",)}, "did you mean 'coulomb_friction'"),
+        (CASE, {"hide": ("coulomb_friction",)}, "coulomb_friction.force has no value"),
+        (CASE, {"terms": ("coulomb_friction@base",)}, "base"),
+        (CASE.replace("k0 = 40000.0", ""), {}, "needs k0"),
+        (CASE + '"coulomb_friction.force" = { half_sd = 1.0 }', {"hide": ("coulomb_friction:force=1",)}, "keep one"),
+    ],
+)
+def test_what_cannot_be_meant_is_refused(tmp_path, text, more, sentence):
+    with pytest.raises(Exception, match=sentence) as caught:
+        workshop(design(tmp_path, text, **more))
+    assert caught.type.__module__ == "lostmotion.errors"
+
+
+def test_prior_and_verdict_are_what_they_say():
+    assert Prior(low=2.0, high=32.0, scale="log").quantile(0.5) == pytest.approx(8.0)
+    row = {"ecdf_p": 0.5, "coverage": {"50": {"low": 1, "inside": 2, "high": 3}}}
+    assert sound(row, 0.01)
+    assert not sound({**row, "ecdf_p": 0.001}, 0.01)
+    assert not sound({**row, "coverage": {"50": {"low": 3, "inside": 2, "high": 4}}}, 0.01)
+    json.dumps(row)
