@@ -9,8 +9,8 @@ import pytest
 from lostmotion.errors import CaseError, DataError
 from lostmotion.inference.problem import Free
 from lostmotion.stages._chains import grouped, quality_of, quiet_arviz
-from lostmotion.stages._sampling import Cloud, state_of
-from lostmotion.stages.identify import Plan, identify
+from lostmotion.stages._sampling import state_of
+from lostmotion.stages.identify import Cloud, Plan, Shown, Task, identify, task_of
 
 MEAN = np.array([1.0, -2.0, 0.3])
 COVARIANCE = np.array([[0.04, 0.015, 0.0], [0.015, 0.01, 0.0], [0.0, 0.0, 0.25]])
@@ -28,9 +28,9 @@ class Bell:
     def log_prior(self, theta):
         return sum(f.log_prior(float(c)) for f, c in zip(self.free, theta, strict=True))
 
-    def many(self, thetas):
-        self.asked.extend(thetas)
-        return [SimpleNamespace(log_likelihood=self.height(t)) for t in thetas]
+    def log_likelihoods(self, points):
+        self.asked.extend(points)
+        return np.array([self.height(t) for t in points])
 
     def height(self, theta):
         if self.pressed:
@@ -39,14 +39,28 @@ class Bell:
         return -0.5 * float(d @ PRECISION @ d)
 
 
-def fit_of(problem, theta=MEAN, covariance=COVARIANCE, height=0.0):
-    return SimpleNamespace(
-        problem=problem, theta=theta, local=SimpleNamespace(covariance=covariance, log_posterior=height)
+def task_at(problem, theta=MEAN, covariance=COVARIANCE):
+    shown = tuple(Shown(f.key, f.unit, 1.0 if f.log else 0.0) for f in problem.free)
+    return Task(problem, Cloud.of_modes(theta[None], [covariance], np.ones(1), problem.free), shown, theta)
+
+
+def fit_of(theta=(0.1, -5.0, 1.0, 2.0, -3.0), log_posterior=0.0, log_evidence=0.0):
+    """Return a fit of two recordings of a rotation, as far as a task needs one."""
+    tracks = (
+        SimpleNamespace(name="one", dt=0.01, channel="position"),
+        SimpleNamespace(name="two", dt=0.04, channel="velocity"),
     )
+    keys = ("c", "x0", "offset[two]", "log_noise[two]", "log_random_force[two]")
+    free = tuple(Free(k, "?", 0.0, -40.0, 40.0, log=k == "x0") for k in keys)
+    problem = SimpleNamespace(
+        free=free, tracks=tracks, system=SimpleNamespace(model=SimpleNamespace(motion="rotation"))
+    )
+    local = SimpleNamespace(covariance=np.eye(5), log_posterior=log_posterior)
+    return SimpleNamespace(problem=problem, theta=np.array(theta), local=local, log_evidence=log_evidence)
 
 
 def draw(seed=0, plan=None, **settings):
-    return identify(fit_of(Bell(), **settings), rng=np.random.default_rng(seed), plan=plan or Plan())
+    return identify(task_at(Bell(), **settings), rng=np.random.default_rng(seed), plan=plan or Plan())
 
 
 @pytest.fixture(scope="module")
@@ -76,8 +90,8 @@ def test_a_poor_start_is_made_good():
 def test_posterior_that_presses_against_its_bound():
     free = (Free("a", "N", 0.0, -40.0, 40.0), Free("b", "N", 0.0, 0.0, 40.0))
     problem = Bell(free, pressed=True)
-    fit = fit_of(problem, np.zeros(2), np.diag([1.0, 4.0]))
-    result = identify(fit, rng=np.random.default_rng(4), plan=Plan(ess=2000))
+    task = task_at(problem, np.zeros(2), np.diag([1.0, 4.0]))
+    result = identify(task, rng=np.random.default_rng(4), plan=Plan(ess=2000))
     assert result.converged
     assert result.intervals["b"].median == pytest.approx(np.log(2.0) / 3.0, rel=0.1)
     assert result.intervals["b"].high == pytest.approx(-np.log(0.025) / 3.0, rel=0.15)
@@ -86,8 +100,8 @@ def test_posterior_that_presses_against_its_bound():
 
 def test_logarithms_become_numbers():
     free = (Free("a", "m", 0.0, -40.0, 40.0, log=True), *Bell().free[1:])
-    fit = fit_of(Bell(free))
-    result = identify(fit, rng=np.random.default_rng(0), plan=Plan(max_steps=20))
+    task = task_at(Bell(free))
+    result = identify(task, rng=np.random.default_rng(0), plan=Plan(max_steps=20))
     assert result.units == ("m", "N", "N")
     assert result.maximum["a"] == pytest.approx(np.exp(MEAN[0]))
     assert result.chain[..., 0].min() > 0.0
@@ -113,7 +127,7 @@ def test_no_interval_without_convergence():
 def test_watch_hears_of_every_step():
     heard = []
     identify(
-        fit_of(Bell()),
+        task_at(Bell()),
         rng=np.random.default_rng(0),
         plan=Plan(max_steps=25),
         watch=lambda steps, says: heard.append((steps, says)),
@@ -127,18 +141,37 @@ def test_too_few_walkers_and_a_hopeless_fit_are_refused():
     with pytest.raises(CaseError, match="4 walkers are too few for 3 parameters: give 8 or more"):
         draw(plan=Plan(walkers=4))
     with pytest.raises(DataError, match="cannot follow this recording"):
-        draw(height=-np.inf)
+        task_of([fit_of(log_posterior=-np.inf)])
+
+
+def test_a_task_tells_each_recording_in_its_own_unit():
+    task = task_of([fit_of()])
+    assert [one.name for one in task.shown] == ["c", "x0", "offset[two]", "measurement_noise[two]", "random_force[two]"]
+    assert [one.unit for one in task.shown] == ["?", "?", "rad/s", "rad/s", "N m"]
+    expected = [0.1, np.exp(-5.0), 1.0, np.exp(2.0), np.exp(-1.5) / 0.2]
+    np.testing.assert_allclose(task.values(task.maximum), expected)
+
+
+def test_a_task_weighs_modes_by_their_evidence_and_keeps_all():
+    fits = [fit_of(log_evidence=e, log_posterior=p) for e, p in ((1.0, 0.0), (1.0, 2.0), (-50.0, 0.0), (np.nan, 0.0))]
+    fits[1] = fit_of((1.0, 1.0, 1.0, 1.0, 1.0), 2.0, 1.0)
+    task = task_of([*fits, fit_of(log_posterior=-np.inf)])
+    assert task.cloud.kernels == 4
+    assert task.cloud.weights[0] == pytest.approx(task.cloud.weights[1])
+    assert task.cloud.weights[2] == pytest.approx(task.cloud.weights[3])
+    assert 0.03 < task.cloud.weights[2] < 0.06
+    np.testing.assert_array_equal(task.maximum, np.ones(5))
 
 
 def test_evaluations_are_counted():
     problem = Bell()
-    result = identify(fit_of(problem), rng=np.random.default_rng(0), plan=Plan(max_steps=20))
+    result = identify(task_at(problem), rng=np.random.default_rng(0), plan=Plan(max_steps=20))
     assert result.evaluations == len(problem.asked)
 
 
 def test_density_of_the_cloud_is_that_of_its_draws():
     free = (Free("a", "1", 0.0, 0.0, 3.0),)
-    cloud = Cloud.about(np.array([0.0]), np.array([[0.2]]), free)
+    cloud = Cloud.of_modes(np.array([[0.0]]), [np.array([[0.2]])], np.ones(1), free)
     points = cloud.draw(40000, np.random.RandomState(3))
     counts, edges = np.histogram(points[:, 0], bins=30, range=(0.05, 2.95), density=True)
     middle = 0.5 * (edges[1:] + edges[:-1])
@@ -176,7 +209,7 @@ def test_many_walkers_do_not_make_a_short_chain_long():
 
 
 def test_state_is_seeded_by_the_generator():
-    keys = [state_of(np.zeros((4, 2)), np.random.default_rng(s)).random_state[1] for s in (1, 1, 2)]
+    keys = [state_of(np.zeros((4, 2)), np.zeros(4), np.random.default_rng(s)).random_state[1] for s in (1, 1, 2)]
     np.testing.assert_array_equal(keys[0], keys[1])
     assert not np.array_equal(keys[0], keys[2])
 

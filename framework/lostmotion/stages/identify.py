@@ -1,32 +1,43 @@
-"""Identify: the joint posterior of a fit's parameters, drawn by an ensemble of walkers."""
+"""Identify: the joint posterior of what is unknown, drawn by an ensemble of walkers, and whether it may be believed."""
 
 from __future__ import annotations
 
 import math
+import time
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from lostmotion.contracts import Array
 from lostmotion.errors import CaseError, DataError
-from lostmotion.inference.fit import Fit
-from lostmotion.inference.problem import NOISE, PACE, RANDOM, Free
+from lostmotion.provenance import provenance
 from lostmotion.results import Interval
 from lostmotion.stages._chains import Quality, autocorrelation, inference_data, quality_of
-from lostmotion.stages._sampling import Cloud, Density, sampler_of, state_of
+from lostmotion.stages._cloud import Cloud
+from lostmotion.stages._keep import Kept, cleared, fingerprint, load, save
+from lostmotion.stages._population import Population, adapted
+from lostmotion.stages._sampling import Density, sampler_of, state_of
+from lostmotion.stages._task import NOISES, Shown, Task, task_of
+
+__all__ = ["NOISES", "Cloud", "Identification", "Plan", "Shown", "Task", "Watch", "identify", "task_of"]
 
 WALKERS = 16
+POOR = 0.1
+"""With a smaller effective share of the pilot draws, pilot walks are taken too, which find their way more surely."""
 PILOT = 32
 PILOTS = 4
 ACCEPTED = 0.3
-"""Pilot runs end when this share of the proposals is accepted."""
+"""Pilot walks end when this share of the proposals is accepted."""
 BLOCK = 10
+GROWTH = 0.05
+"""Convergence is checked after each block, and in a long chain after this share of it."""
 BURN = 3.0
-"""The burn-in in autocorrelation times; the pilot runs before it are thrown away altogether."""
-NOISES = {RANDOM: "random_force", PACE: "random_pace", NOISE: "measurement_noise"}
-"""What the noise levels are called once they are numbers and no longer logarithms."""
+"""The burn-in in autocorrelation times; the pilot draws before it are thrown away altogether."""
+EVERY = 2.0
+"""A growing chain goes to the disk every so many seconds."""
 
 Watch = Callable[[int, str], None]
 """Is told how many steps were taken since the last time, and how the chain stands."""
@@ -49,7 +60,9 @@ class Identification:
     """The posterior of the parameters `keys`, in SI `units`: draws, intervals, and whether they may be believed.
 
     `chain` is (walkers, steps, parameters) without the burn-in, `log_density` (walkers, steps); `maximum` holds the
-    parameters at the maximum from which the walkers started. `lacks` says what keeps the chain from being believed.
+    parameters at the highest maximum. `lacks` says what keeps the chain from being believed. `evaluations` counts the
+    runs of the likelihood, those of the pilots too. `resumed`: a kept chain was continued; `replaced`: a chain of
+    another case, of other settings or another version was kept there, and this one took its place.
     """
 
     keys: tuple[str, ...]
@@ -62,6 +75,8 @@ class Identification:
     burn_in: int
     acceptance: float
     evaluations: int
+    resumed: bool = field(default=False, compare=False)
+    replaced: bool = field(default=False, compare=False)
 
     @property
     def converged(self) -> bool:
@@ -93,114 +108,171 @@ class Identification:
 
 
 def identify(
-    fit: Fit, *, rng: np.random.Generator, plan: Plan | None = None, watch: Watch = lambda _steps, _says: None
+    task: Task,
+    *,
+    rng: np.random.Generator,
+    plan: Plan | None = None,
+    watch: Watch = lambda _steps, _says: None,
+    keep: Path | None = None,
 ) -> Identification:
-    """Return the posterior around the maximum `fit`, sampled with emcee as `plan` says.
+    """Return the posterior of a task, sampled with emcee as `plan` says.
 
-    The walkers start from the normal approximation. Pilot runs fit the density from which most proposals are drawn;
-    it stays as it is while the draws that count are made. Nothing depends on the number of cores.
+    Weighted pilot draws fit the cloud from which most proposals come; it stays as it is while the draws that count are
+    made. With `keep` the chain is kept in that HDF5 file, which emcee reads, and a run that was cut short goes on from
+    there to the same end. Nothing depends on the number of cores, nor on how often the run was cut short.
     """
-    if not math.isfinite(fit.local.log_posterior):
-        raise DataError("the model cannot follow this recording from any start: check units, known values and priors")
-    return _Course(fit, plan or Plan(), rng, watch).run()
+    return _Course(task, plan or Plan(), int(rng.integers(2**63)), watch).run(keep)
 
 
 class _Course:
-    """One sampling from its pilot runs to its end."""
+    """One sampling from its pilot draws to its end."""
 
-    def __init__(self, fit: Fit, plan: Plan, rng: np.random.Generator, watch: Watch) -> None:
-        self.fit, self.plan, self.rng, self.watch = fit, plan, rng, watch
-        self.free = fit.problem.free
-        self.walkers = _walkers(plan, len(self.free))
-        self.density = Density(fit.problem)
+    def __init__(self, task: Task, plan: Plan, seed: int, watch: Watch) -> None:
+        self.task, self.plan, self.seed, self.watch = task, plan, seed, watch
+        self.walkers = _walkers(plan, len(task.posterior.free))
+        self.density = Density(task.posterior)
+        self.height = float(self.density(np.atleast_2d(task.maximum))[0])
+        if not math.isfinite(self.height):
+            raise DataError("the posterior has no density at the maximum it came with: look for that again")
 
-    def run(self) -> Identification:
+    def run(self, keep: Path | None) -> Identification:
         """Return the posterior, converged or not."""
-        cloud, points = self._pilots()
-        sampler, state = sampler_of(cloud, self.density, self.walkers), state_of(points, self.rng)
-        lacks: tuple[str, ...] = ("no step was taken",)
-        before = math.inf
-        while lacks and sampler.iteration < self.plan.max_steps:
-            size = min(BLOCK, self.plan.max_steps - sampler.iteration)
-            state = sampler.run_mcmc(state, size)
-            quality = quality_of(_kept(sampler)[0])
-            lacks, before = quality.lacks(self.plan.ess, before), quality.slowest
-            self.watch(size, f"tau {quality.slowest:.1f} · ESS {quality.ess.min():.0f} of {self.plan.ess:g}")
-        return self._result(sampler, lacks)
+        there = keep is not None and keep.exists()
+        found = load(keep, self.digest) if keep and there else None
+        kept = found or self._begun()
+        self.density.evaluations = kept.evaluations
+        sampler = sampler_of(kept.cloud, self.density, self.walkers, kept.backend)
+        self.watch(sampler.iteration, "a kept chain is continued" if found else "the chain begins")
+        lacks = self._chain(sampler, _Shelf(keep, self, kept))
+        return self._result(sampler, lacks, resumed=found is not None, replaced=there and found is None)
 
-    def _pilots(self) -> tuple[Cloud, Array]:
-        """Return a density to propose from and where the walkers stand after the pilot runs."""
-        cloud = Cloud.about(self.fit.theta, self.fit.local.covariance, self.free)
-        points = cloud.draw(self.walkers, np.random.RandomState(int(self.rng.integers(2**32))))
+    @property
+    def digest(self) -> str:
+        """The digest of all that the chain depends on, its length left out."""
+        task, cloud = self.task, self.task.cloud
+        arrays = (task.maximum, cloud.weights, cloud.centres, cloud.roots)
+        versions = provenance("identify", {}, self.seed, {})["versions"]
+        texts = (versions, task.digest, task.posterior.free, task.shown, self.seed, self.walkers)
+        return fingerprint([*texts, self.height, *arrays])
+
+    def _begun(self) -> Kept:
+        """Return a chain without a step: the cloud that the pilots fit, and walkers where it is probable."""
+        from emcee.backends import Backend
+
+        rng = np.random.default_rng(self.seed)
+        population = Population.empty(self.density, self.task.cloud.size)
+        cloud, share = adapted(self.task.cloud, population, rng, self.watch)
+        start = state_of(*population.chosen(self.walkers, rng), rng)
+        if share < POOR:
+            cloud, start = self._pilot_walks(cloud, start, rng)
+        backend = Backend()
+        backend.reset(self.walkers, cloud.size)
+        return Kept(backend, cloud, start, self.density.evaluations)
+
+    def _pilot_walks(self, cloud: Cloud, start: Any, rng: np.random.Generator) -> tuple[Cloud, Any]:
+        """Return a cloud fitted to short chains, and where their walkers stand."""
         for _ in range(PILOTS):
             sampler = sampler_of(cloud, self.density, self.walkers)
-            points = sampler.run_mcmc(state_of(points, self.rng), PILOT).coords
+            start = sampler.run_mcmc(start, PILOT, skip_initial_state_check=True)
             late = sampler.get_chain(flat=True, discard=PILOT // 3)
+            cloud = cloud.fitted(late, np.full(len(late), 1.0 / len(late)))
             accepted = float(np.mean(sampler.acceptance_fraction))
-            cloud = Cloud.around(late, self.free)
-            self.watch(0, f"pilot run, {accepted:.0%} accepted")
+            self.watch(0, f"pilot walks, {accepted:.0%} accepted")
             if accepted > ACCEPTED:
                 break
-        return cloud, points
+        return cloud, state_of(start.coords, start.log_prob, rng)
 
-    def _result(self, sampler: Any, lacks: tuple[str, ...]) -> Identification:
-        coordinates, burn = _kept(sampler)
-        shown = [_shown(f, self.fit) for f in self.free]
+    def _chain(self, sampler: Any, shelf: _Shelf) -> tuple[str, ...]:
+        """Let the walkers walk until the chain may be believed or its time is up; return what it lacks."""
+        state, says = shelf.kept.state, "no check yet"
+        while True:
+            done, check = sampler.iteration, _next_check(sampler.iteration - 1)
+            if done and (done == check or done >= self.plan.max_steps):
+                lacks, says = self._judged(sampler)
+                self.watch(0, says)
+                if not lacks or done >= self.plan.max_steps:
+                    shelf.put()
+                    return lacks
+            size = min(BLOCK, _next_check(done) - done, self.plan.max_steps - done)
+            state = sampler.run_mcmc(state, size, skip_initial_state_check=True)
+            self.watch(size, says)
+            shelf.put(EVERY)
+
+    def _judged(self, sampler: Any) -> tuple[tuple[str, ...], str]:
+        """Return what the chain lacks, and how it stands; this depends on the chain and on nothing else."""
+        quality = quality_of(_kept(sampler, sampler.iteration)[0])
+        earlier = _last_check(sampler.iteration)
+        before = float(np.max(autocorrelation(_kept(sampler, earlier)[0]))) if earlier else math.inf
+        says = f"tau {quality.slowest:.1f} · ESS {quality.ess.min():.0f} of {self.plan.ess:g}"
+        return quality.lacks(self.plan.ess, before), says
+
+    def _result(self, sampler: Any, lacks: tuple[str, ...], **flags: bool) -> Identification:
+        coordinates, burn = _kept(sampler, sampler.iteration)
+        task = self.task
+        names = tuple(one.name for one in task.shown)
         return Identification(
-            keys=tuple(one.name for one in shown),
-            units=tuple(one.unit for one in shown),
-            chain=_values(shown, coordinates),
+            keys=names,
+            units=tuple(one.unit for one in task.shown),
+            chain=task.values(coordinates),
             log_density=np.ascontiguousarray(sampler.get_log_prob(discard=burn).T),
-            maximum={one.name: float(v) for one, v in zip(shown, _values(shown, self.fit.theta), strict=True)},
+            maximum=dict(zip(names, task.values(np.asarray(task.maximum)).tolist(), strict=True)),
             quality=quality_of(coordinates),
             lacks=lacks,
             burn_in=burn,
             acceptance=float(np.mean(sampler.acceptance_fraction)),
             evaluations=self.density.evaluations,
+            **flags,
         )
+
+
+class _Shelf:
+    """Where a chain is kept, if anywhere, and when it was put there last."""
+
+    def __init__(self, path: Path | None, course: _Course, kept: Kept) -> None:
+        self.path, self.course, self.kept = path, course, kept
+        self.last = -math.inf
+        if path is not None:
+            cleared(path)
+            self.put()
+
+    def put(self, every: float = 0.0) -> None:
+        """Keep the chain as it is now, unless that was done less than `every` seconds ago."""
+        if self.path is None or time.monotonic() - self.last < every:
+            return
+        course = self.course
+        keys = tuple(f.key for f in course.task.posterior.free)
+        save(self.path, course.digest, keys, self.kept, course.density.evaluations)
+        self.last = time.monotonic()
 
 
 def _walkers(plan: Plan, parameters: int) -> int:
     least = max(8, 2 * parameters)
     if plan.walkers is not None and plan.walkers < least:
         raise CaseError(f"{plan.walkers} walkers are too few for {parameters} parameters: give {least} or more")
+    if plan.max_steps < 1:
+        raise CaseError(f"at most {plan.max_steps} steps are allowed: give 1 or more")
     return plan.walkers or max(WALKERS, least + 2)
 
 
-def _kept(sampler: Any) -> tuple[Array, int]:
-    """Return the chain (walkers, steps, parameters) after the burn-in, and the length of that in steps."""
-    chain = np.swapaxes(sampler.get_chain(), 0, 1)
+def _next_check(done: int) -> int:
+    """Return after how many steps convergence is checked next; which those are does not depend on where a run began."""
+    check = 0
+    while check <= done:
+        check += BLOCK * max(1, math.ceil(GROWTH * check / BLOCK))
+    return check
+
+
+def _last_check(done: int) -> int:
+    """Return the number of steps at the check before the one after `done` steps, or 0."""
+    check = before = 0
+    while check < done:
+        before, check = check, _next_check(check)
+    return before
+
+
+def _kept(sampler: Any, steps: int) -> tuple[Array, int]:
+    """Return the first `steps` of the chain (walkers, steps, parameters) after the burn-in, and that in steps."""
+    chain = np.swapaxes(sampler.get_chain()[:steps], 0, 1)
     slowest = float(np.max(autocorrelation(chain)))
-    burn = int(min(math.ceil(BURN * slowest), chain.shape[1] // 2)) if math.isfinite(slowest) else chain.shape[1] // 2
+    burn = int(min(math.ceil(BURN * slowest), steps // 2)) if math.isfinite(slowest) else steps // 2
     return np.ascontiguousarray(chain[:, burn:]), burn
-
-
-@dataclass(frozen=True)
-class _Shown:
-    """How a coordinate is told: `exp(power * coordinate) * factor` in `unit`, or as it is where `power` is 0."""
-
-    name: str
-    unit: str
-    power: float
-    factor: float = 1.0
-
-    def value(self, coordinate: Array) -> Array:
-        """Return numbers in SI units of coordinates of any shape."""
-        return np.asarray(self.factor * np.exp(self.power * coordinate) if self.power else coordinate)
-
-
-def _values(shown: list[_Shown], coordinates: Array) -> Array:
-    """Return coordinates (..., parameters) as numbers in SI units."""
-    return np.stack([one.value(coordinates[..., i]) for i, one in enumerate(shown)], axis=-1)
-
-
-def _shown(free: Free, fit: Fit) -> _Shown:
-    """Return how a parameter is told; a random force as the rms (N, N m) of one that is held from sample to sample."""
-    if free.key not in NOISES:
-        return _Shown(free.key, free.unit, 1.0 if free.log else 0.0)
-    name, track = NOISES[free.key], fit.problem.tracks[0]
-    rotation = fit.problem.system.model.motion == "rotation"
-    if free.key == RANDOM:
-        return _Shown(name, "N m" if rotation else "N", 0.5, track.dt**-0.5)
-    per = {"position": "", "velocity": "/s", "acceleration": "/s^2"}[track.channel]
-    return _Shown(name, "1/s" if free.key == PACE else ("rad" if rotation else "m") + per, 1.0)

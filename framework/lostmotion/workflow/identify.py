@@ -1,40 +1,55 @@
-"""The whole way of an identification: case in, `identification.json`, `posterior.nc` and `report.html` out."""
+"""The whole way of an identification: case in, `identification.json`, `posterior.nc` and `report.html` out.
+
+Two routes lead to one posterior: by trajectory, the recordings themselves; by quantifiers, chaos measures at several
+levels of the drive. Sampling, statement and page are the same.
+"""
 
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field, replace
+from collections.abc import Callable, Mapping
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from lostmotion.case import Case
-from lostmotion.contracts import Term
-from lostmotion.errors import CaseError, nearest
-from lostmotion.inference.candidates import fit_with, screen, slopes_of
-from lostmotion.inference.fit import Fit, maximise, restarted
-from lostmotion.inference.selection import significant_random_force
-from lostmotion.inference.setup import free_of, polish, problem_of, search
+from lostmotion.contracts import Array
+from lostmotion.errors import CaseError
+from lostmotion.inference.free import Free
 from lostmotion.provenance import provenance
 from lostmotion.registry import Registry
 from lostmotion.report.identification import write_identification
-from lostmotion.stages.diagnose import SIGNIFICANT
-from lostmotion.stages.identify import NOISES, Identification, Plan, Watch, identify
+from lostmotion.results import Interval
+from lostmotion.stages.identify import Identification, Plan, Task, Watch, identify
 from lostmotion.storage import folder_for, save_json, whole
-from lostmotion.system import System, key_of
-from lostmotion.workflow.prepare import Prepared, prepare
+from lostmotion.study.inversion import Inversion, predicted
+from lostmotion.workflow.identification_words import modes_said, statement
+from lostmotion.workflow.levels import Survey, derived, quantifier_task
+from lostmotion.workflow.prepare import case_of, prepared_of
+from lostmotion.workflow.trajectory import best_fits, chosen_terms, doubts, task_for
+
+ROUTES = ("trajectory", "quantifiers")
+CHAIN = "chain.h5"
+EXPECTED = 4000
+"""Draws from which is told what the posterior expects at each level."""
 
 
 @dataclass(frozen=True)
 class Order:
-    """What is asked for beyond the case: terms to add (`NAME` or `NAME@PLACE`), seed, cores, how long to sample."""
+    """What is asked for beyond the case: route, terms (`NAME` or `NAME@PLACE`), seed, cores, how long to sample.
+
+    Without a route it is the trajectory where the case has recordings. `maps` are files for the quantifier route.
+    """
 
     terms: tuple[str, ...] = ()
     seed: int = 0
     jobs: int = 2
     plan: Plan = field(default_factory=Plan)
+    route: str | None = None
+    maps: tuple[Path, ...] = ()
+    fresh: bool = False
 
 
 @dataclass(frozen=True)
@@ -46,147 +61,119 @@ class Identified:
     seconds: float
 
 
+@dataclass(frozen=True)
+class Way:
+    """A task, and what is to be told of it beside the posterior: `facts` at once, `more` once there are draws."""
+
+    task: Task
+    facts: Mapping[str, Any]
+    more: Callable[[Identification], Mapping[str, Any]] = lambda _result: {}
+
+
 def run_identification(
     path: Path, out: Path, registry: Registry, order: Order, watch: Watch = lambda _steps, _says: None
 ) -> Identified:
-    """Return what was identified after writing it into the folder `out`; all recordings of the case are used."""
+    """Return what was identified after writing it into the folder `out`; all recordings of the case are used.
+
+    A chain that an interrupted run has left there is continued.
+    """
     watch(0, "reading the case")
-    prepared = prepare(path, registry)
-    terms = chosen_terms(prepared, order.terms, registry)
-    folder = folder_for(out)
-    rng = np.random.default_rng(order.seed)
-    watch(0, "looking for the maximum")
-    fit = best_fit(prepared, terms, rng, order.jobs)
+    case, rng = case_of(path, registry), np.random.default_rng(order.seed)
+    route = route_of(case, order)
+    way = (_by_trajectory if route == "trajectory" else _by_quantifiers)(case, out, registry, (order, rng, watch))
+    if order.fresh:
+        (out / CHAIN).unlink(missing_ok=True)
     begin = time.perf_counter()
-    result = identify(fit, rng=rng, plan=order.plan, watch=watch)
+    result = identify(way.task, rng=rng, plan=order.plan, watch=watch, keep=out / CHAIN)
     seconds = time.perf_counter() - begin
     watch(0, "report")
-    content = {**statement(result), **_background(prepared, fit, order)}
-    _write(folder, result, content)
+    content = _content(result, route, way)
+    _write(out, result, content)
     return Identified(result, content, seconds)
 
 
-def chosen_terms(prepared: Prepared, asked: tuple[str, ...], registry: Registry) -> tuple[Term, ...]:
-    """Return the terms asked for and those whose parameters the case names, each once."""
-    offered = {key_of(term): term for term in prepared.terms}
-    named = [key.rpartition(".")[0] for key in (*prepared.case.known, *prepared.case.estimate) if "." in key]
-    keys = dict.fromkeys(text.removesuffix("@ground") for text in (*asked, *named))
-    for key in keys:
-        registry.load("term", key.partition("@")[0])
-        if key not in offered:
-            raise CaseError(
-                f"the term {key!r} has no place in {prepared.case.model}{nearest(key, offered)}:"
-                f" the terms that have are {', '.join(offered)}"
-            )
-    return tuple(offered[key] for key in keys)
+def route_of(case: Case, order: Order) -> str:
+    """Return the route that is asked for, or else the one that the case offers."""
+    if order.route == "trajectory" and case.levels and not case.recordings:
+        raise CaseError("the case has [[levels]] and no [[recordings]]: take --route quantifiers, or add a recording")
+    if order.route == "quantifiers" and order.terms:
+        raise CaseError("the quantifier route knows no terms, since its maps have none: leave --term out")
+    return order.route or ("quantifiers" if case.levels and not case.recordings else "trajectory")
 
 
-def best_fit(prepared: Prepared, terms: tuple[Term, ...], rng: np.random.Generator, jobs: int) -> Fit:
-    """Return the maximum of the posterior on all recordings, with the terms, in fine integration steps."""
-    case = prepared.case
-    bare = replace(case, estimate={k: v for k, v in case.estimate.items() if "." not in k})
-    fit = search(problem_of(System(prepared.model, terms), bare, prepared.tracks, jobs=jobs), rng)
-    for term in terms:
-        fit = fit_with(fit, screen(fit, slopes_of(fit), key_of(term)))
-    return polish(_as_the_case_says(fit, case) if any("." in k for k in (*case.known, *case.estimate)) else fit)
+Asked = tuple[Order, np.random.Generator, Watch]
 
 
-def _as_the_case_says(fit: Fit, case: Case) -> Fit:
-    """Return the fit with the priors and the known values that the case gives to parameters of terms."""
-    problem = restarted(fit)
-    frees = []
-    for free in problem.free:
-        if free.key in case.estimate and "." in free.key:
-            given = free_of(problem.system.slot(free.key), case.estimate[free.key])
-            free = replace(given, start=given.coordinate(free.value(free.start)))
-        if free.key not in case.known:
-            frees.append(free)
-    return maximise(replace(problem, free=tuple(frees)))
-
-
-def statement(result: Identification) -> dict[str, Any]:
-    """Return the content of `identification.json`, title and provenance left out; without convergence no interval."""
-    rows = _parameters(result)
-    noise = set(NOISES.values())
-    return {
-        "schema": "lostmotion.identification/1",
-        "route": "trajectory",
-        "converged": result.converged,
-        "says": list(says(result)),
-        "ess_min": float(result.quality.ess.min()),
-        "ess_tail_min": float(result.quality.ess_tail.min()),
-        "rhat_max": float(result.quality.rhat.max()),
-        "parameters": {k: row for k, row in rows.items() if k not in noise},
-        "noise": {k: row for k, row in rows.items() if k in noise},
-        "sampling": _sampling(result),
-        "log_likelihood_evaluations": result.evaluations,
+def _by_trajectory(case: Case, out: Path, registry: Registry, asked: Asked) -> Way:
+    order, rng, watch = asked
+    prepared = prepared_of(case, registry)
+    terms = chosen_terms(prepared, order.terms, registry)
+    folder_for(out)
+    watch(0, "looking for the maximum")
+    fits = best_fits(prepared, terms, rng, order.jobs)
+    problem = fits[0].problem
+    settings = {"terms": sorted(problem.active), "steps_between_samples": problem.nsub, "sensor": asdict(case.sensor)}
+    facts = {
+        **_facts(case, order, settings, prepared.inputs),
+        "model": " + ".join([case.model, *sorted(problem.active)]),
+        "modes": len(fits),
+        "notes": [*prepared.notes, *modes_said(len(fits)), *doubts(fits[0])],
     }
+    return Way(task_for(prepared, fits, terms), facts)
 
 
-def _parameters(result: Identification) -> dict[str, dict[str, Any]]:
-    intervals, sd, quality = result.intervals, result.sd, result.quality
-    nothing = {"median": None, "low": None, "high": None}
+def _by_quantifiers(case: Case, out: Path, registry: Registry, asked: Asked) -> Way:
+    order, rng, watch = asked
+    folder_for(out)
+    survey = Survey(maps=order.maps, jobs=order.jobs)
+    watch(0, "reading the levels")
+
+    def say(done: int, cells: int) -> None:
+        watch(0, f"map: {done} of {cells} cells")
+
+    task = quantifier_task(case, registry, out, rng, survey, say=say)
+    posterior = task.posterior
+    assert isinstance(posterior, Inversion)  # noqa: S101 - it is what a quantifier task holds
+    facts = _facts(case, order, {"maps": [asdict(survey)["maps"]]}, {"case": case.digest})
+
+    def more(result: Identification) -> Mapping[str, Any]:
+        points = coordinates(posterior.free, result.draws)
+        some = points[:: max(1, len(points) // EXPECTED)]
+        expected = predicted(posterior, some, np.random.default_rng(order.seed))
+        return {"levels": [level.as_dict() for level in expected], "derived": _derived(posterior, points, result)}
+
+    return Way(task, facts, more)
+
+
+def coordinates(free: tuple[Free, ...], values: Array) -> Array:
+    """Return the coordinates (count, parameters) of parameter values (count, parameters)."""
+    return np.stack([np.log(values[:, i]) if f.log else values[:, i] for i, f in enumerate(free)], axis=1)
+
+
+def _derived(posterior: Inversion, points: Array, result: Identification) -> dict[str, Any]:
+    """Return the intervals of what follows from the parameters; none from a chain that has not converged."""
+    if not result.converged:
+        return {}
     rows = {}
-    for i, (key, unit) in enumerate(zip(result.keys, result.units, strict=True)):
-        given = intervals[key].as_dict() if key in intervals else nothing
-        reached = {"ess": float(quality.ess[i]), "rhat": float(quality.rhat[i]), "tau": float(quality.tau[i])}
-        rows[key] = {**given, "sd": sd.get(key), "unit": unit, "at_maximum": result.maximum[key], **reached}
+    for name, values in derived(posterior, points).items():
+        low, median, high = np.quantile(values, [0.025, 0.5, 0.975]).tolist()
+        rows[name] = Interval(median, low, high, "1").as_dict()
     return rows
 
 
-def _sampling(result: Identification) -> dict[str, Any]:
-    walkers, steps, _ = result.chain.shape
-    return {
-        "walkers": walkers,
-        "steps": steps,
-        "burn_in": result.burn_in,
-        "acceptance": result.acceptance,
-        "autocorrelation_time": result.quality.slowest,
-        "lacks": list(result.lacks),
-    }
-
-
-def says(result: Identification) -> tuple[str, ...]:
-    """Return what the report opens with."""
-    quality = result.quality
-    if not result.converged:
-        return (
-            "The chain has not converged, so no interval is given.",
-            f"What is missing: {'; '.join(result.lacks)}. Give more steps with --max-steps, or look at the trace.",
-        )
-    return (
-        f"The chain has converged: {quality.ess.min():.0f} effective draws or more of each parameter.",
-        f"R-hat is {quality.rhat.max():.3f} at most, and the longest autocorrelation time is {quality.slowest:.1f} of"
-        f" {quality.steps} steps.",
-    )
-
-
-def _background(prepared: Prepared, fit: Fit, order: Order) -> dict[str, Any]:
-    case = prepared.case
-    settings = {
-        "model": case.model,
-        "known": dict(case.known),
-        "terms": sorted(fit.problem.active),
-        "steps_between_samples": fit.problem.nsub,
-        **asdict(order.plan),
-    }
+def _facts(case: Case, order: Order, settings: Mapping[str, Any], inputs: Mapping[str, str]) -> dict[str, Any]:
+    told = {"model": case.model, "known": dict(case.known), **settings, **asdict(order.plan)}
     return {
         "title": case.title,
-        "model": " + ".join([case.model, *sorted(fit.problem.active)]),
+        "model": case.model,
         "truth": dict(case.truth),
-        "notes": [*prepared.notes, *_doubts(fit)],
-        "provenance": provenance("identify", settings, order.seed, prepared.inputs),
+        "notes": [],
+        "provenance": provenance("identify", told, order.seed, inputs),
     }
 
 
-def _doubts(fit: Fit) -> list[str]:
-    """Return what makes the intervals too narrow although the chain has converged."""
-    if significant_random_force(fit) <= SIGNIFICANT:
-        return []
-    return [
-        "A force is left over that this model does not explain. The intervals hold only if the model is right: they are"
-        " then too narrow, and may miss the truth. `lostmotion diagnose` looks for what was left out."
-    ]
+def _content(result: Identification, route: str, way: Way) -> dict[str, Any]:
+    return {**statement(result, route), **way.facts, **way.more(result)}
 
 
 def _write(folder: Path, result: Identification, content: Mapping[str, Any]) -> None:

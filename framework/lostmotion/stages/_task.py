@@ -1,0 +1,108 @@
+"""What is to be sampled, and how it is told: tasks made of fits, coordinates told as numbers in SI units."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from lostmotion.contracts import Array
+from lostmotion.errors import DataError
+from lostmotion.inference.fit import Fit
+from lostmotion.inference.problem import NOISE, PACE, RANDOM, Free, Problem
+from lostmotion.inference.tracks import Track
+from lostmotion.stages._cloud import Cloud
+from lostmotion.stages._sampling import Posterior
+
+OFFSET = "offset"
+NOISES = {RANDOM: "random_force", PACE: "random_pace", NOISE: "measurement_noise"}
+"""What the noise levels are called once they are numbers and no longer logarithms."""
+LEAST = 0.05
+"""No mode gets a smaller share of the first proposals: Laplace's method may be far off where a mode is not normal."""
+PER = {"position": "", "velocity": "/s", "acceleration": "/s^2"}
+
+
+@dataclass(frozen=True)
+class Shown:
+    """How a coordinate is told: `exp(power * coordinate) * factor` in `unit`, or as it is where `power` is 0."""
+
+    name: str
+    unit: str
+    power: float
+    factor: float = 1.0
+
+    def value(self, coordinate: Array) -> Array:
+        """Return numbers in SI units of coordinates of any shape."""
+        return np.asarray(self.factor * np.exp(self.power * coordinate) if self.power else coordinate)
+
+
+@dataclass(frozen=True)
+class Task:
+    """What is to be sampled: a posterior, where to look for it, how its coordinates are told, and its maximum.
+
+    `digest` is a text that changes with the case and its recordings: a kept chain is continued only if it is the same.
+    """
+
+    posterior: Posterior
+    cloud: Cloud
+    shown: tuple[Shown, ...]
+    maximum: Array
+    digest: str = ""
+
+    def values(self, coordinates: Array) -> Array:
+        """Return coordinates (..., parameters) as numbers in SI units."""
+        return np.stack([one.value(coordinates[..., i]) for i, one in enumerate(self.shown)], axis=-1)
+
+
+def task_of(fits: Sequence[Fit], digest: str = "") -> Task:
+    """Return the task of sampling the posterior around the distinct maxima `fits`, the posterior being the first one's.
+
+    The modes are weighted by their evidence, and none is left out.
+    """
+    found = [f for f in fits if np.isfinite(f.local.log_posterior)]
+    if not found:
+        raise DataError("the model cannot follow this recording from any start: check units, known values and priors")
+    problem = fits[0].problem
+    highest = max(found, key=lambda f: f.local.log_posterior)
+    cloud = Cloud.of_modes(
+        np.array([f.theta for f in found]),
+        [f.local.covariance for f in found],
+        mode_weights(np.array([f.log_evidence for f in found])),
+        problem.free,
+    )
+    return Task(problem, cloud, tuple(_shown(f, problem) for f in problem.free), highest.theta, digest)
+
+
+def mode_weights(log_evidence: Array) -> Array:
+    """Return the weights (modes,) of modes with a log evidence, each at least `LEAST` before they are made to add up.
+
+    A mode whose evidence is not a number, where the information is singular, counts as the least.
+    """
+    known = np.where(np.isfinite(log_evidence), log_evidence, -np.inf)
+    if not np.isfinite(known).any():
+        return np.full(len(known), 1.0 / len(known))
+    weights = np.exp(known - np.max(known))
+    weights = np.maximum(weights / weights.sum(), LEAST)
+    return np.asarray(weights / weights.sum())
+
+
+def _shown(free: Free, problem: Problem) -> Shown:
+    """Return how a parameter is told; a random force as the rms (N, N m) of one that is held from sample to sample."""
+    base, _, place = free.key.partition("[")
+    track = _track(problem, place.removesuffix("]"))
+    rotation = problem.system.model.motion == "rotation"
+    channel = ("rad" if rotation else "m") + PER[track.channel]
+    if base == OFFSET:
+        return Shown(free.key, channel, 0.0)
+    if base not in NOISES:
+        return Shown(free.key, free.unit, 1.0 if free.log else 0.0)
+    name = NOISES[base] + free.key[len(base) :]
+    if base == RANDOM:
+        return Shown(name, "N m" if rotation else "N", 0.5, track.dt**-0.5)
+    return Shown(name, "1/s" if base == PACE else channel, 1.0)
+
+
+def _track(problem: Problem, name: str) -> Track:
+    """Return the recording that a key names, or the first."""
+    return next((t for t in problem.tracks if t.name == name), problem.tracks[0])
