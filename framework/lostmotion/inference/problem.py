@@ -13,7 +13,7 @@ import numpy as np
 
 from lostmotion.contracts import Array
 from lostmotion.inference.free import LEVELS, NOISE, OFFSET, PACE, RANDOM, Free, Route
-from lostmotion.inference.tracks import Track
+from lostmotion.inference.tracks import Track, seat
 from lostmotion.system import Drive, System
 
 __all__ = [
@@ -192,7 +192,10 @@ class Problem:
         return route.at(theta, OFFSET) if OFFSET in route.columns else 0.0
 
     def initial(self, index: int, n: int, theta: Array | None = None) -> tuple[Array, Array]:
-        """Return mean (n,) and covariance (n, n) of the state at the first sample of a recording."""
+        """Return mean (n,) and covariance (n, n) of the state at the first sample of a recording.
+
+        Where a force was measured, the place depends on the parameters: it is that where the model shows this force.
+        """
         track, scales = self.tracks[index], self.scales
         offset = 0.0 if theta is None else self.offset(theta, index)
         y0, cov = np.zeros(n), np.zeros((n, n))
@@ -201,6 +204,13 @@ class Problem:
             y0[0], y0[1] = track.first[0] - offset, track.first[1]
             cov[0, 0] = min((10.0 * track.noise) ** 2 + (1e-3 * scales.length) ** 2, scales.length**2)
             cov[1, 1] *= 0.25
+        if track.channel == "force":
+            y0[:2] = track.inputs[0]
+            cov[1, 1] *= 0.25
+            if theta is not None:
+                level = replace(track, z=track.z - offset) if offset else track
+                y0[0], spread = seat(level, self.system.model, self.full(theta, index)[: len(self.system.model.params)])
+                cov[0, 0] = spread**2 + (1e-3 * scales.length) ** 2
         return y0, cov
 
     def random(self, theta: Array, index: int = 0) -> tuple[float, float]:

@@ -45,8 +45,10 @@ def split(tracks: Sequence[Track]) -> tuple[tuple[Track, ...], tuple[Track, ...]
 def scales_of(system: System, tracks: Sequence[Track], known: Array) -> Scales:
     """Return the natural sizes of force, length and time of the recorded motion."""
     rate = float(np.median([_rate(t) for t in tracks]))
-    order = {"position": 0, "velocity": 1, "acceleration": 2}[tracks[0].channel]
-    length = float(np.median([t.amplitude for t in tracks])) / rate**order
+    size = float(np.median([t.amplitude for t in tracks]))
+    if tracks[0].channel == "force":
+        return Scales(size, float(np.median([t.travel for t in tracks])), 1.0 / rate)
+    length = size / rate ** {"position": 0, "velocity": 1, "acceleration": 2}[tracks[0].channel]
     if "force" in system.model.inputs:
         force = math.sqrt(2.0) * float(np.sqrt(np.mean([np.var(t.inputs[:, 0]) for t in tracks])))
         force = force or float(np.mean([np.abs(t.inputs[:, 0]).max() for t in tracks]))

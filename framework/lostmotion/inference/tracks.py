@@ -8,6 +8,7 @@ from functools import cached_property
 
 import numpy as np
 from scipy.interpolate import CubicSpline
+from scipy.optimize import brentq
 
 from lostmotion.contracts import Array, Model
 from lostmotion.errors import CaseError
@@ -67,12 +68,42 @@ class Track:
         return math.sqrt(2.0) * float(np.nanstd(self.z))
 
     @cached_property
+    def travel(self) -> float:
+        """The amplitude of the first input, for instance of a base motion: sqrt(2) times its standard deviation."""
+        return math.sqrt(2.0) * float(np.std(self.inputs[:, 0]))
+
+    @cached_property
     def first(self) -> tuple[float, float]:
         """The response and its time derivative at the first sample, from a parabola through the first ones."""
         z = self.z[:9]
         kept = np.flatnonzero(np.isfinite(z))
         bend = np.polynomial.Polynomial.fit(kept * self.dt, z[kept], 2)
         return float(bend(0.0)), float(bend.deriv()(0.0))
+
+
+def seat(track: Track, model: Model, p: Array) -> tuple[float, float]:
+    """Return where a body moved by its base stands at the first sample, and how far that is open (m or rad).
+
+    It is where the model, with the parameters `p` and moving with its base, shows the force that was measured, give or
+    take ten times the noise. Inside a gap that is the whole gap: a recording of force had better begin in contact.
+    """
+    y, seen = np.zeros(len(model.states)), np.zeros(len(model.channels))
+    u, still = track.inputs[0], np.zeros(len(model.states))
+    y[1], index = u[1], model.channels.index(track.channel)
+    reach = 10.0 * float(np.ptp(track.inputs[:, 0]))
+
+    def short(position: float, level: float) -> float:
+        y[0] = position
+        model.observe(0.0, y, still, u, p, seen)
+        return float(seen[index]) - level
+
+    ends = []
+    for level in (track.z[0] - 10.0 * track.noise, track.z[0] + 10.0 * track.noise):
+        low, high = u[0] - reach, u[0] + reach
+        if not short(low, level) > 0.0 > short(high, level):
+            return float(u[0]), 0.1 * reach
+        ends.append(float(brentq(short, low, high, args=(level,))))
+    return 0.5 * (ends[0] + ends[1]), 0.5 * (ends[0] - ends[1])
 
 
 def track_of(recording: Recording, model: Model, *, held: bool = False) -> Track:
@@ -90,15 +121,20 @@ def track_of(recording: Recording, model: Model, *, held: bool = False) -> Track
         spline = smoothing_spline(u, recording.dt)
         t = np.arange(len(u)) * recording.dt
         inputs = np.stack([spline(t), spline.derivative()(t)], axis=1)
-    response = recording.data["response"]
-    return Track(
-        recording.name,
-        np.asarray(response.values, dtype=float),
-        inputs,
-        recording.dt,
-        str(response.attrs["quantity"]),
-        held,
-    )
+    z = np.asarray(recording.data["response"].values, dtype=float)
+    return Track(recording.name, z, inputs, recording.dt, _channel(recording, model), held)
+
+
+def _channel(recording: Recording, model: Model) -> str:
+    """Return the channel of the model that the response of a recording shows; a torque is a force of a rotation."""
+    quantity = str(recording.data["response"].attrs["quantity"])
+    channel = "force" if quantity == "torque" else quantity
+    if channel not in model.channels:
+        raise CaseError(
+            f"{model.name} shows {', '.join(model.channels)}, but the response of {recording.name} is a {quantity}:"
+            " choose another model or another column"
+        )
+    return channel
 
 
 def period_samples(track: Track) -> float | None:

@@ -62,7 +62,8 @@ def load_recording(spec: RecordingSpec, folder: Path) -> Recording:
     time, pair = _cut(spec, time, pair)
     check_length(time.size, path.name)
     dt, notes = check_time(time, path.name) if spec.time else (1.0 / _rate(spec), ())
-    checked = [_checked(c, v, path.name) for c, v in zip((spec.excitation, spec.response), pair, strict=True)]
+    roles = (("excitation", spec.excitation), ("response", spec.response))
+    checked = [_checked(r, c, v, path.name) for (r, c), v in zip(roles, pair, strict=True)]
     data = _dataset(time[0] + dt * np.arange(time.size), [si for si, _ in checked])
     notes = (*notes, *(note for _, own in checked for note in own))
     return Recording(spec.label, data, dt, digest(path), path.name, spec.hold, notes)
@@ -111,11 +112,11 @@ def _cut(spec: RecordingSpec, time: Array, pair: list[Array]) -> tuple[Array, li
     return time[inside], [values[inside] for values in pair]
 
 
-def _checked(channel: Channel, values: Array, source: str) -> tuple[xr.DataArray, tuple[str, ...]]:
+def _checked(role: str, channel: Channel, values: Array, source: str) -> tuple[xr.DataArray, tuple[str, ...]]:
     import xarray as xr
 
-    response = channel.quantity in ("position", "velocity", "acceleration")
-    what = f"the {'response' if response else 'excitation'} {channel.column!r}"
+    response = role == "response"
+    what = f"the {role} {channel.column!r}"
     notes = [*check_values(values, what, source, may_miss=response)]
     if response:
         notes += note_stuck(values, what)

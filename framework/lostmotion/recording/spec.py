@@ -10,7 +10,7 @@ Hold = Literal["smooth", "step"]
 """How the excitation runs between samples: smoothly, or held as a digital controller holds it."""
 
 EXCITATIONS = ("force", "torque", "base_position")
-RESPONSES = ("position", "velocity", "acceleration")
+RESPONSES = ("position", "velocity", "acceleration", "force", "torque")
 
 
 @dataclass(frozen=True)

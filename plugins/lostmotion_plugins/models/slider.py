@@ -1,0 +1,63 @@
+"""A body on a guide, pushed and pulled through a gap by a measured motion: the force through the gap is measured."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from lostmotion.contracts import Array, Interface, Model, Param
+from lostmotion.quantities import DAMPING, INERTIA, LENGTH, STIFFNESS
+from lostmotion_plugins.models.joint import base
+from lostmotion_plugins.models.lin import ground
+
+
+@dataclass(frozen=True)
+class BacklashSlider(Model):
+    """m x'' = f = c (xb' - x') + F(xb - x): a body x moved by a base motion xb through a gap of 2 x0.
+
+    The contact F is zero inside the gap |xb - x| < x0 and k0 (|xb - x| - x0) beyond. The channel "force" is f, what
+    the base exerts on the body through contact and damper, as a load cell in the joint shows it; a term at the place
+    "base" is not part of it. Friction of the guide is a term at the ground: with it this is a friction damper with
+    backlash, and its loop of force over travel is flat where it slides and thin where the gap is crossed.
+    """
+
+    name: ClassVar[str] = "backlash_slider"
+    paper: ClassVar[str] = "Nordin, Gutman, Automatica 38 (2002) 1633-1649, section 2.1: dead zone with a damper"
+    motion = "translation"
+    states = ("position", "velocity")
+    inputs = ("base_position", "base_velocity")
+    channels = ("position", "velocity", "acceleration", "force")
+    params = (
+        Param("m", "moving mass", INERTIA, low=0.0, scale="log", aliases=("mass",)),
+        Param("c", "viscous damping across the gap", DAMPING, low=0.0, scale="log", aliases=("damping",)),
+        Param("k0", "stiffness of the contact", STIFFNESS, low=0.0, scale="log", aliases=("stiffness",)),
+        Param("x0", "half gap", LENGTH, low=0.0, scale="log", aliases=("gap", "backlash")),
+    )
+    interfaces = (
+        Interface("base", row=1, inertia="m", motion=base, holds=("k0", "x0")),
+        Interface("ground", row=1, inertia="m", motion=ground),
+    )
+
+    @staticmethod
+    def rhs(t: float, y: Array, u: Array, p: Array, dydt: Array) -> None:
+        gap = u[0] - y[0]
+        contact = 0.0
+        if gap > p[3]:
+            contact = p[2] * (gap - p[3])
+        elif gap < -p[3]:
+            contact = p[2] * (gap + p[3])
+        dydt[0] = y[1]
+        dydt[1] = (p[1] * (u[1] - y[1]) + contact) / p[0]
+
+    @staticmethod
+    def observe(t: float, y: Array, dydt: Array, u: Array, p: Array, seen: Array) -> None:
+        gap = u[0] - y[0]
+        contact = 0.0
+        if gap > p[3]:
+            contact = p[2] * (gap - p[3])
+        elif gap < -p[3]:
+            contact = p[2] * (gap + p[3])
+        seen[0] = y[0]
+        seen[1] = y[1]
+        seen[2] = dydt[1]
+        seen[3] = p[1] * (u[1] - y[1]) + contact
