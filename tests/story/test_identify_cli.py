@@ -12,7 +12,7 @@ from click.testing import CliRunner
 from lostmotion.cli import main
 from lostmotion.registry import default
 from lostmotion.stages._chains import quiet_arviz
-from lostmotion.workflow.identify import best_fit, chosen_terms
+from lostmotion.workflow.trajectory import best_fits, chosen_terms
 from lostmotion.workflow.prepare import prepare
 
 CASE = """
@@ -114,7 +114,7 @@ def test_report_stands_by_itself(done):
 def test_chain_agrees_with_the_normal_approximation(folder, done):
     prepared = prepare(folder / "case.toml", default())
     terms = chosen_terms(prepared, ("coulomb_friction",), default())
-    fit = best_fit(prepared, terms, np.random.default_rng(2), 2)
+    fit = best_fits(prepared, terms, np.random.default_rng(2), 2)[0]
     posterior = quiet_arviz().from_netcdf(done[1] / "posterior.nc").posterior
     # The maximum lies at the least random force there may be; more of it widens the gap, which no normal can follow.
     near = (posterior["random_force"] < posterior["random_force"].quantile(0.35)).values
@@ -165,7 +165,7 @@ def test_a_case_gives_the_prior_of_a_term(folder, tmp_path):
         prepared = prepare(case, default())
         terms = chosen_terms(prepared, (), default())
         assert [t.name for t in terms] == ["coulomb_friction"]
-        fit = best_fit(prepared, terms, np.random.default_rng(0), 2)
+        fit = best_fits(prepared, terms, np.random.default_rng(0), 2)[0]
         assert (FRICTION in fit.problem.keys) == (name == "estimate")
         assert fit.problem.active == {"coulomb_friction"}
         if name == "estimate":

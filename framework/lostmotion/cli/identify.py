@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import click
 
 from lostmotion.cli._lazy import examples, registry_of
+from lostmotion.cli._options import on_a_case
 
 if TYPE_CHECKING:
     from lostmotion.workflow.identify import Identified
@@ -19,43 +20,54 @@ if TYPE_CHECKING:
     epilog=examples(
         "lostmotion identify case.toml --out result",
         "lostmotion identify case.toml --out result --term coulomb_friction --term viscous_damping@base",
+        "lostmotion identify levels.toml --route quantifiers --out result",
         "lostmotion plugins     the terms there are",
     )
 )
-@click.argument("case", metavar="CASE.toml", type=click.Path(path_type=Path))
+@on_a_case
 @click.option(
-    "--out",
-    required=True,
-    metavar="DIR",
-    type=click.Path(file_okay=False, path_type=Path),
-    help="Where the results go.",
+    "--route",
+    type=click.Choice(["trajectory", "quantifiers"]),
+    help="By the recordings themselves, or by chaos measures at levels of the drive; the case decides if not given.",
 )
 @click.option("--term", "terms", metavar="NAME[@PLACE]", multiple=True, help="A term to add to the model of the case.")
-@click.option("--seed", default=0, show_default=True, type=click.IntRange(0), help="The same seed, the same bytes.")
-@click.option("--jobs", default=2, show_default=True, type=click.IntRange(1), help="How many cores to use.")
+@click.option(
+    "--map",
+    "maps",
+    metavar="FILE",
+    multiple=True,
+    type=click.Path(exists=True, path_type=Path),
+    help="A map for the route by quantifiers, of `lostmotion map`; made in DIR if not given.",
+)
 @click.option("--walkers", type=click.IntRange(1), help="Walkers of the ensemble; 16 or more if not given.")
 @click.option("--max-steps", default=2000, show_default=True, type=click.IntRange(10), help="Steps at the most.")
 @click.option(
     "--ess", default=1000.0, show_default=True, type=click.FloatRange(1), help="Effective draws of each parameter."
 )
-@click.option("--quiet", is_flag=True, help="Show no progress.")
+@click.option("--fresh", is_flag=True, help="Throw away a chain that an earlier run left in DIR.")
 @click.pass_context
 def command(
-    ctx: click.Context, /, case: Path, out: Path, terms: tuple[str, ...], seed: int, jobs: int, **settings: object
+    ctx: click.Context, /, case: Path, out: Path, seed: int, jobs: int, quiet: bool, **settings: object
 ) -> None:
     """Estimate the parameters of a case jointly, with intervals that hold what was recorded.
 
-    Writes identification.json, posterior.nc (for ArviZ) and report.html into DIR. All recordings are used. Exit
-    status 0 when the sampling ended, converged or not; no interval is given of a chain that has not converged. 2 for
-    a case that cannot be used.
+    By trajectory the recordings themselves are fitted, all of them together. By quantifiers exponents and dimensions
+    at several levels of the drive, read from recordings or typed in as [[levels]], are inverted through maps of the
+    model.
+
+    Writes identification.json, posterior.nc (for ArviZ), chain.h5 (for emcee) and report.html into DIR. A run that was
+    cut short goes on where it stopped. Exit status 0 when the sampling ended, converged or not; no interval is given of
+    a chain that has not converged. 2 for a case that cannot be used.
     """
     from lostmotion.stages.identify import Plan
     from lostmotion.workflow.identify import Order, run_identification
 
-    quiet = bool(settings.pop("quiet"))
-    plan = Plan(**settings)  # type: ignore[arg-type]
+    plan = Plan(**{key: settings.pop(key) for key in ("ess", "max_steps", "walkers")})  # type: ignore[arg-type]
+    order = Order(seed=seed, jobs=jobs, plan=plan, **settings)  # type: ignore[arg-type]
     with _bar(plan.max_steps, quiet=quiet) as watch:
-        done = run_identification(case, out, registry_of(ctx), Order(terms, seed, jobs, plan), watch)
+        done = run_identification(case, out, registry_of(ctx), order, watch)
+    if done.result.replaced:
+        click.echo("The chain that was kept there belongs to another case or to other settings: begun anew.", err=True)
     for line in (*_table(done), *done.content["says"], *done.content["notes"], _speed(done)):
         click.echo(line)
     click.echo(str(out / "report.html"))

@@ -242,15 +242,16 @@ def _standing(fit: Fit) -> tuple[float, float]:
 
 
 def significant_random_force(fit: Fit) -> float:
-    """Return the log-likelihood that a random force beyond three times the usual noise of the drive adds."""
-    problem = fit.problem
-    i = problem.keys.index(RANDOM)
-    cap = problem.scales.usual + 2.0 * math.log(3.0)
-    if fit.theta[i] <= cap:
+    """Return the log-likelihood that a random force beyond three times the usual noise of the drive adds.
+
+    Where each recording has a random force of its own, all are held below that together.
+    """
+    problem, theta, frees = fit.problem, fit.theta.copy(), list(fit.problem.free)
+    for i, free in enumerate(frees):
+        cap = free.mean + 2.0 * math.log(3.0)
+        if free.parameter == RANDOM and theta[i] > cap:
+            theta[i], frees[i] = cap, replace(free, high=cap, start=cap)
+    if np.array_equal(theta, fit.theta):
         return 0.0
-    frees = list(problem.free)
-    frees[i] = replace(frees[i], high=cap, start=cap)
-    theta = fit.theta.copy()
-    theta[i] = cap
     capped = maximise(replace(problem, free=tuple(frees)), theta)
     return float(np.maximum(fit.log_likelihood - capped.log_likelihood, 0.0))

@@ -11,6 +11,7 @@ from markupsafe import Markup
 from matplotlib.figure import Figure
 
 from lostmotion.report import identification_figures as drawing
+from lostmotion.report import identification_levels as leveled
 from lostmotion.report import style
 from lostmotion.report.identification_facts import Sampled, read_sampled
 from lostmotion.report.pages import template
@@ -54,7 +55,9 @@ def render(sampled: Sampled) -> str:
 def _figures(sampled: Sampled) -> list[Drawn]:
     known = any(np.isfinite(sampled.truth(name)) for name in sampled.names)
     parts = [("trace", "Did the walkers mix?", drawing.trace(sampled), drawing.TRACE)]
-    if sampled.converged and len(sampled.names) > 1:
+    if levels := sampled.facts.get("levels"):
+        parts.insert(0, ("levels", "What was measured, and what is expected", leveled.draw(levels), leveled.CAPTION))
+    if sampled.converged and len(sampled.joint) > 1:
         said = drawing.CORNER + (" Dashed: the known value." if known else "")
         parts.insert(0, ("corner", "How the parameters hang together", drawing.corner(sampled), said))
     return [Drawn(name, title, _embedded(figure, name), said) for name, title, figure, said in parts]

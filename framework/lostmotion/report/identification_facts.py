@@ -16,6 +16,9 @@ from lostmotion.report.posteriors import words_of
 from lostmotion.report.words import Scale, readable, spoken
 from lostmotion.results import Array
 
+MOST = 8
+"""Parameters that a figure of all pairs can hold."""
+
 
 @dataclass(frozen=True)
 class Sampled:
@@ -38,6 +41,12 @@ class Sampled:
     def names(self) -> tuple[str, ...]:
         """The parameters that were drawn, noise levels last."""
         return tuple(name for name in self.rows if name in self.draws)
+
+    @property
+    def joint(self) -> tuple[str, ...]:
+        """The parameters that are drawn against one another: all, or those of the machine where all are too many."""
+        own = tuple(name for name in self.names if name in self.facts["parameters"])
+        return (self.names if len(self.names) <= MOST else own)[:MOST]
 
     @property
     def converged(self) -> bool:

@@ -68,7 +68,7 @@ def _draw_ranks(axes: Axes, walks: Array) -> None:
 
 def corner(sampled: Sampled) -> Figure:
     """Return the densities of all parameters on the diagonal and of all pairs below it, known values dashed."""
-    names = sampled.names
+    names = sampled.joint
     figure = style.blank(min(1.55 * len(names) + 0.6, 11.0))
     panels = figure.subplots(len(names), len(names), squeeze=False, sharex="col")
     for row, across in enumerate(names):
@@ -128,8 +128,8 @@ def _mark(draw: Callable[..., object], sampled: Sampled, name: str) -> None:
 
 
 def _label(panels: Any, sampled: Sampled) -> None:
-    last = len(sampled.names) - 1
-    for k, name in enumerate(sampled.names):
+    last = len(sampled.joint) - 1
+    for k, name in enumerate(sampled.joint):
         words = _broken(sampled.word(name), sampled.scale(name).unit)
         panels[last, k].set_xlabel(words)
         if k:

@@ -78,9 +78,9 @@ def _draw_share(axes: Axes, levels: Sequence[Level]) -> None:
     shares = [float(level["predicted"]["chaotic_share"]) for level in levels]
     axes.bar(range(len(levels)), shares, width=0.42, color=style.AFTER, alpha=0.5)
     for place, level in enumerate(levels):
-        if level.get("motion") in ("chaotic", "periodic"):
-            chaotic = level["motion"] == "chaotic"
-            look = {"marker": "o" if chaotic else "s", "fillstyle": "full" if chaotic else "none"}
-            axes.plot([place], [float(chaotic)], color=style.RECORDED, markersize=6, clip_on=False, **look)
+        if level.get("motion") == "chaotic":
+            axes.plot([place], [1.0], "o", color=style.RECORDED, markersize=6, clip_on=False)
+        elif level.get("motion") == "periodic":
+            axes.plot([place], [0.0], "s", color=style.RECORDED, markersize=6, fillstyle="none", clip_on=False)
     axes.set_ylim(0.0, 1.05)
     axes.set_ylabel("share of chaos")

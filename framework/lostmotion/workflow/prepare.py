@@ -47,9 +47,13 @@ def case_of(path: Path, registry: Registry) -> Case:
 
 def prepare(path: Path, registry: Registry) -> Prepared:
     """Return the case at `path`, ready for the stages; whatever cannot be meant is refused here."""
-    case = case_of(path, registry)
+    return prepared_of(case_of(path, registry), registry)
+
+
+def prepared_of(case: Case, registry: Registry) -> Prepared:
+    """Return a case with its recordings, its model and its terms."""
     if not case.recordings:
-        raise CaseError(f"{path.name} has no [[recordings]]: add one, with file, time or rate, excitation and response")
+        raise CaseError("the case has no [[recordings]]: add one, with file, time or rate, excitation and response")
     model: Model = registry.make("model", case.model)
     recordings = tuple(load_recording(spec, case.folder) for spec in case.recordings)
     tracks = tuple(track_of(r, model, held=r.hold == "step") for r in recordings)

@@ -23,13 +23,13 @@ from lostmotion.inference.setup import known_of
 from lostmotion.provenance import digest
 from lostmotion.quantities import ANGULAR, SI
 from lostmotion.registry import Registry
-from lostmotion.stages.identify import Identification, Plan, identify
+from lostmotion.stages.identify import Identification, Plan
 from lostmotion.storage import save_table
 from lostmotion.system import Slot, System, key_of
-from lostmotion.workflow.identify import Order, best_fit, chosen_terms
 from lostmotion.workflow.machines import Bench, Seen, moved_by, recorded
-from lostmotion.workflow.prepare import Prepared, prepare
+from lostmotion.workflow.prepare import prepare
 from lostmotion.workflow.simulate import assembly_of
+from lostmotion.workflow.trajectory import chosen_terms, sampled
 
 TRIES = 1000
 """Draws from a prior until one is a machine that can be: a normal prior may reach below zero."""
@@ -239,17 +239,11 @@ def by_trajectory(
     seen = shop.record(machine, rng)
     with tempfile.TemporaryDirectory() as folder:
         prepared = prepare(_write(shop, machine, seen, Path(folder)), shop.registry)
-    result = _sampled(prepared, Order(shop.design.terms, seed, 1, shop.design.plan), shop.registry)
+    terms = chosen_terms(prepared, shop.design.terms, shop.registry)
+    result = sampled(prepared, terms, shop.design.plan, rng=np.random.default_rng(seed)).result
     several = len(seen) > 1
     names = [f"measurement_noise[{label}]" if several else "measurement_noise" for label in shop.design.labels]
     return result, {name: one.noise for name, one in zip(names, seen, strict=True)}
-
-
-def _sampled(prepared: Prepared, order: Order, registry: Registry) -> Identification:
-    """Return the posterior by the way that `lostmotion identify` goes."""
-    rng = np.random.default_rng(order.seed)
-    fit = best_fit(prepared, chosen_terms(prepared, order.terms, registry), rng, order.jobs)
-    return identify(fit, rng=rng, plan=order.plan)
 
 
 def _write(shop: Workshop, machine: Machine, seen: list[Seen], folder: Path) -> Path:
