@@ -76,23 +76,30 @@ class Free:
             return -math.inf
         if math.isinf(self.sd):
             return -math.log(self.high - self.low)
-        kept = 0.5 * (
-            math.erf((self.high - self.mean) / self.sd / math.sqrt(2))
-            - math.erf((self.low - self.mean) / self.sd / math.sqrt(2))
-        )
+        first, last = self._below
         z = (coordinate - self.mean) / self.sd
-        return -0.5 * z * z - math.log(self.sd * math.sqrt(2.0 * math.pi) * max(kept, 1e-300))
+        return -0.5 * z * z - math.log(self.sd * math.sqrt(2.0 * math.pi) * max(abs(last - first), 1e-300))
 
     def quantile(self, share: float) -> float:
         """Return the coordinate below which lies the given share (0 to 1) of the prior, its cut included."""
         if math.isinf(self.sd):
             return self.low + share * (self.high - self.low)
-        side = 1.0 if self.low <= self.mean else -1.0  # in the far tail, seen from where nothing is rounded to one
-        first, last = (_UNIT.cdf(side * (end - self.mean) / self.sd) for end in (self.low, self.high))
+        first, last = self._below
         below = first + share * (last - first)
         if not 0.0 < below < 1.0:
             return self.low if share < 0.5 else self.high
-        return min(max(self.mean + side * self.sd * _UNIT.inv_cdf(below), self.low), self.high)
+        return min(max(self.mean + self._side * self.sd * _UNIT.inv_cdf(below), self.low), self.high)
+
+    @property
+    def _side(self) -> float:
+        """Where the shares of the prior are counted from: below, or above where only the upper tail is left."""
+        return 1.0 if self.low <= self.mean else -1.0
+
+    @property
+    def _below(self) -> tuple[float, float]:
+        """The shares of the whole normal distribution that lie beyond `low` and `high`, seen from `_side`."""
+        first, last = (self._side * (end - self.mean) / self.sd / math.sqrt(2) for end in (self.low, self.high))
+        return 0.5 * math.erfc(-first), 0.5 * math.erfc(-last)
 
 
 @dataclass(frozen=True)

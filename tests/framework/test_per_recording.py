@@ -1,0 +1,224 @@
+"""Parameters that each recording has for itself: noise, random force, zero of the sensor, and what has each = true."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.linalg import expm
+
+from lostmotion.case import Case, Prior, Sensor
+from lostmotion.contracts import Param
+from lostmotion.inference.free import Free, Route, keys_of, parted
+from lostmotion.inference.noise import LEAST
+from lostmotion.inference.predict import free_runs, observed
+from lostmotion.inference.problem import NOISE, OFFSET, RANDOM, Problem
+from lostmotion.inference.setup import beginnings, free_of, problem_of, search, separated
+from lostmotion.inference.tracks import Track
+from lostmotion.quantities import DAMPING
+from lostmotion.registry import default
+from lostmotion.system import Slot, System
+
+M, C, K, DT = 2.0, 3.0, 800.0, 0.01
+"""A linear oscillator whose drive is held between the samples, so that the matrix exponential solves it exactly."""
+PRIORS = {"c": Prior(0.3, 30.0, "log"), "k": Prior(200.0, 3000.0, "log")}
+QUIET = {"drive": 1.0, "noise": 2e-5, "zero": 0.0}
+LOUD = {"drive": 10.0, "noise": 1e-3, "zero": 5e-3}
+SLIP = 0.02
+"""The noise of the measured force, as a share of the drive."""
+
+
+def recorded(name: str, seed: int, *, samples: int = 3000, c: float = C, **how: float) -> Track:
+    """Return a recording of the oscillator under a broad-band drive of which the measured force is noisy."""
+    rng = np.random.default_rng(seed)
+    how = {**QUIET, **how}
+    a = np.array([[0.0, 1.0, 0.0], [-K / M, -c / M, 1.0 / M], [0.0, 0.0, 0.0]])
+    step = expm(a * DT)
+    push = how["drive"] * np.repeat(rng.choice([-1.0, 1.0], samples // 5 + 1), 5)[:samples]
+    y, seen = np.zeros(2), np.zeros(samples)
+    for i, u in enumerate(push):
+        seen[i] = y[0]
+        y = (step @ np.append(y, u))[:2]
+    seen += how["zero"] + how["noise"] * rng.standard_normal(samples)
+    felt = push + SLIP * how["drive"] * rng.standard_normal(samples)
+    return Track(name, seen, felt[:, None], DT, "position", held=True)
+
+
+def case_of(estimate: dict[str, Prior]) -> Case:
+    known = {k: v for k, v in {"m": M, "c": C, "k": K}.items() if k not in estimate}
+    return Case("study", Path(), (), "linear_oscillator", known, estimate, {}, (), "")
+
+
+def problem_for(*tracks: Track, **estimate: Prior) -> Problem:
+    system = System(default().make("model", "linear_oscillator"), ())
+    return problem_of(system, case_of(estimate or PRIORS), tracks)
+
+
+TWO = (recorded("low", 1, **QUIET), recorded("run 2.5 [high]", 2, **LOUD))
+LOW, HIGH = (t.name for t in TWO)
+
+
+@pytest.fixture(scope="module")
+def apart():
+    """The fit of two levels with all of the sensor's parameters their own."""
+    fit = search(problem_for(*TWO), np.random.default_rng(0))
+    return separated(fit, Sensor(offset=Prior(mean=0.0, sd=0.1)))
+
+
+def test_keys_say_the_recording() -> None:
+    assert keys_of("c", (LOW, HIGH)) == ("c[low]", "c[run 2.5 [high]]")
+    assert keys_of("c", (LOW,)) == ("c",)
+    assert [parted(k) for k in ("c", "friction.force", *keys_of("c", (LOW, HIGH)))] == [
+        ("c", None), ("friction.force", None), ("c", LOW), ("c", HIGH)]  # fmt: skip
+
+
+def test_each_recording_is_filtered_with_its_own_values(apart) -> None:
+    """The joint likelihood is, bit by bit, that of two problems which know of one recording only. No chance."""
+    problem, values = apart.problem, dict(zip(apart.problem.keys, apart.theta, strict=True))
+    joint = problem.innovations(apart.theta)
+    for i, track in enumerate(problem.tracks):
+        own = [f for f in problem.free if f.recording in (None, track.name)]
+        single = replace(problem, tracks=(track,), free=tuple(replace(f, key=f.parameter) for f in own))
+        theta = np.array([values[f.key] for f in own])
+        seen = single.innovations(theta)
+        part = slice(0, track.samples) if i == 0 else slice(-track.samples, None)
+        assert np.array_equal(joint.errors[part], seen.errors)
+        assert np.array_equal(joint.variances[part], seen.variances)
+        assert problem.noise(apart.theta, i) == single.noise(theta)
+        assert np.array_equal(problem.full(apart.theta, i), single.full(theta))
+
+
+def test_differences_filter_only_what_has_moved(apart, monkeypatch) -> None:
+    problem, theta = replace(apart.problem, jobs=1), apart.theta
+    points = [theta + 1e-3 * (np.arange(len(theta)) == i) for i in range(len(theta))]
+    slow = problem.many([theta, *points])
+    runs = []
+    monkeypatch.setattr(Problem, "_filter", lambda p, i, at, run=Problem._filter: (runs.append(i), run(p, i, at))[1])
+    fast = problem.around(theta, points)
+    assert all(np.array_equal(a.errors, b.errors) for a, b in zip(fast, slow, strict=True))
+    assert all(np.array_equal(a.variances, b.variances) for a, b in zip(fast, slow, strict=True))
+    shared = sum(f.recording is None for f in problem.free)
+    assert shared == 2
+    assert len(runs) == 2 + 2 * shared + (len(theta) - shared)
+
+
+def test_levels_of_each_recording_are_found(apart) -> None:
+    """Within four of their standard deviations (one seeded pair; false alarm below 1e-3), where shared ones are not."""
+    sd, values = apart.sd, apart.values
+    assert apart.status == "converged"
+    truths = {
+        "c": math.log(C), "k": math.log(K),
+        f"log_noise[{LOW}]": math.log(QUIET["noise"]), f"log_noise[{HIGH}]": math.log(LOUD["noise"]),
+        f"log_random_force[{LOW}]": math.log((SLIP * QUIET["drive"]) ** 2 * DT),
+        f"log_random_force[{HIGH}]": math.log((SLIP * LOUD["drive"]) ** 2 * DT),
+        f"offset[{LOW}]": 0.0, f"offset[{HIGH}]": LOUD["zero"],
+    }  # fmt: skip
+    assert list(values) == list(apart.problem.keys)
+    assert set(values) == set(truths)
+    misses = {k: (c - truths[k]) / sd[k] for k, c in zip(apart.problem.keys, apart.theta, strict=True)}
+    assert all(abs(miss) < 4.0 for miss in misses.values()), misses
+    assert values[f"offset[{HIGH}]"] > 10.0 * sd[f"offset[{HIGH}]"]
+    assert apart.log_likelihood > search(problem_for(*TWO), np.random.default_rng(0)).log_likelihood + 1000.0
+
+
+def test_usual_random_force_is_in_proportion_to_each_drive(apart) -> None:
+    low, high = (f for f in apart.problem.free if f.parameter == RANDOM)
+    assert high.mean - low.mean == pytest.approx(2.0 * math.log(LOUD["drive"] / QUIET["drive"]), abs=0.05)
+    assert (low.low, high.low) == pytest.approx((low.mean + LEAST, high.mean + LEAST))
+
+
+def test_a_shift_of_the_response_is_a_shift_of_its_zero() -> None:
+    track = TWO[0]
+    problem = separated(search(problem_for(track), np.random.default_rng(0)), Sensor(offset=Prior(-1.0, 1.0))).problem
+    assert problem.keys == ("c", "k", OFFSET, RANDOM, NOISE)
+    theta = problem.start
+    moved = theta + 0.125 * (np.array(problem.keys) == OFFSET)
+    other = problem.on((replace(track, z=track.z + 0.125),))
+    assert other.innovations(moved).log_likelihood == pytest.approx(problem.innovations(theta).log_likelihood, abs=1e-3)
+    assert other.innovations(theta).log_likelihood < problem.innovations(theta).log_likelihood - 100.0
+
+
+def test_nothing_is_split_where_nothing_is_its_own() -> None:
+    one = search(problem_for(TWO[0]), np.random.default_rng(0))
+    assert separated(one, Sensor()) is one
+    two = search(problem_for(*TWO), np.random.default_rng(0))
+    assert separated(two, Sensor("shared")) is two
+    zeros = separated(two, Sensor("shared", Prior(mean=0.0, sd=1.0))).problem.keys
+    assert zeros == ("c", "k", f"offset[{LOW}]", f"offset[{HIGH}]", RANDOM, NOISE)
+
+
+def test_a_prior_with_each_gives_every_recording_its_own_value() -> None:
+    """Two dampings, 3 and 6 N s/m, each found within four standard deviations (one seeded pair; chance below 1e-3)."""
+    tracks = (recorded("a", 3), recorded("b", 4, c=2.0 * C))
+    problem = problem_for(*tracks, c=replace(PRIORS["c"], each=True), k=PRIORS["k"])
+    assert problem.keys == ("c[a]", "c[b]", "k", RANDOM, NOISE)
+    fit = search(problem, np.random.default_rng(0))
+    for i, (key, truth) in enumerate({"c[a]": C, "c[b]": 2.0 * C}.items()):
+        assert abs(math.log(fit.values[key] / truth)) < 4.0 * fit.sd[key]
+        assert problem.full(fit.theta, i)[problem.system.index["c"]] == fit.values[key]
+    assert fit.sd["c[a]"] < 0.05
+    other = problem.on((recorded("c", 5, samples=200),))
+    middle = math.sqrt(fit.values["c[a]"] * fit.values["c[b]"])
+    assert other.full(fit.theta)[problem.system.index["c"]] == pytest.approx(middle)
+    assert problem_for(tracks[0], c=replace(PRIORS["c"], each=True)).keys == ("c", RANDOM, NOISE)
+
+
+def test_a_route_that_is_nowhere_is_refused() -> None:
+    route = Route.of(("c[a]", "k"), "b")
+    assert route.at(np.array([3.0, 4.0]), "c") == 3.0
+    assert list(route.used) == [True, True]
+    with pytest.raises(KeyError):
+        route.at(np.zeros(2), NOISE)
+
+
+def test_predictions_use_what_the_recording_has_for_itself(apart) -> None:
+    problem, theta = apart.problem, apart.theta
+    states = np.zeros((3, 2))
+    zero = apart.values[f"offset[{HIGH}]"]
+    assert observed(problem, theta, states, (0, 1)) == pytest.approx(np.full(3, zero))
+    runs = free_runs(problem, theta, np.zeros((1, 2)), np.array([0]), 20, index=1)
+    assert np.abs(runs.error).max() < 6.0 * LOUD["noise"]
+
+
+def test_the_beginnings_of_all_recordings_are_searched() -> None:
+    assert [t.samples for t in beginnings(problem_for(TWO[0])).tracks] == [3000]
+    many = [recorded(str(i), i, samples=n) for i, n in enumerate((3000, 500, 3000, 3000))]
+    assert [t.samples for t in beginnings(problem_for(*many)).tracks] == [1500, 500, 1500, 1500]
+
+
+def test_log_likelihoods_are_those_of_single_points() -> None:
+    problem = problem_for(TWO[0])
+    points = np.stack([problem.start, problem.start + 0.1, problem.start])
+    points[2, problem.keys.index("k")] = 60.0
+    expected = [problem.innovations(p).log_likelihood for p in points[:2]]
+    assert list(problem.log_likelihoods(points)) == [*expected, -math.inf]
+    assert list(replace(problem, jobs=1).log_likelihoods(points)) == [*expected, -math.inf]
+
+
+FREES = [
+    Prior(0.8, 80.0, "log"), Prior(0.1, 3.0), Prior(mean=2.0, sd=0.1), Prior(mean=0.1, sd=0.5), Prior(half_sd=3.0),
+    Prior(median=2.0, sd_log=0.5), Prior(mean=-4.0, sd=0.5),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("prior", FREES, ids=lambda p: p.kind)
+def test_the_prior_of_a_coordinate_is_a_density_and_its_quantile_inverts_it(prior: Prior) -> None:
+    """Cut where the parameter has its bounds, here at zero and at 90; -4 +- 0.5 leaves the far tail of a bell only."""
+    free = free_of(Slot("c", Param("c", "damping", DAMPING, low=0.0, high=90.0), "N s/m", None), prior)
+    ends = free.quantile(0.0), free.quantile(1.0)
+    assert ends == pytest.approx((free.low, free.high))
+    for share in (0.1, 0.5, 0.99, 1.0):
+        grid = np.linspace(free.low, free.quantile(share), 40001)
+        assert np.trapezoid(np.exp([free.log_prior(x) for x in grid]), grid) == pytest.approx(share, abs=2e-4)
+    assert free.log_prior(free.low - 1e-9) == free.log_prior(free.high + 1e-9) == -math.inf
+    assert free.low >= 0.0 or free.log
+    assert free.value(free.high) <= 90.0 * (1.0 + 1e-12)
+    assert free.low <= free.start <= free.high
+
+
+def test_the_coordinate_of_a_log_normal_prior_is_the_logarithm() -> None:
+    free = free_of(Slot("c", Param("c", "damping", DAMPING, low=0.0), "1", None), Prior(median=2.0, sd_log=0.5))
+    assert free == Free("c", "1", math.log(2.0), math.log(2.0) - 6.0, math.log(2.0) + 6.0, True, math.log(2.0), 0.5)
