@@ -136,7 +136,7 @@ def _located(bare: Diagnosis) -> Diagnosis:
 
 def taken_out(problem: Problem, theta: Array) -> tuple[Problem, Array]:
     """Return a problem with its terms switched off and all else as it is, and its coordinates."""
-    kept = [i for i, f in enumerate(problem.free) if "." not in f.key]
+    kept = [i for i, f in enumerate(problem.free) if "." not in f.parameter]
     return replace(problem, free=tuple(problem.free[i] for i in kept), active=frozenset()), theta[kept]
 
 
