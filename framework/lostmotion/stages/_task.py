@@ -12,6 +12,7 @@ from lostmotion.errors import DataError
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.problem import NOISE, PACE, RANDOM, Free, Problem
 from lostmotion.inference.tracks import Track
+from lostmotion.quantities import ANGULAR, SI
 from lostmotion.stages._cloud import Cloud
 from lostmotion.stages._sampling import Posterior
 
@@ -20,7 +21,6 @@ NOISES = {RANDOM: "random_force", PACE: "random_pace", NOISE: "measurement_noise
 """What the noise levels are called once they are numbers and no longer logarithms."""
 LEAST = 0.05
 """No mode gets a smaller share of the first proposals: Laplace's method may be far off where a mode is not normal."""
-PER = {"position": "", "velocity": "/s", "acceleration": "/s^2"}
 
 
 @dataclass(frozen=True)
@@ -92,7 +92,7 @@ def _shown(free: Free, problem: Problem) -> Shown:
     base, _, place = free.key.partition("[")
     track = _track(problem, place.removesuffix("]"))
     rotation = problem.system.model.motion == "rotation"
-    channel = ("rad" if rotation else "m") + PER[track.channel]
+    channel = (ANGULAR if rotation else SI)[track.channel]
     if base == OFFSET:
         return Shown(free.key, channel, 0.0)
     if base not in NOISES:
