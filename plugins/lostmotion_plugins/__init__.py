@@ -9,6 +9,7 @@ _HERE = "lostmotion_plugins"
 def lostmotion_models() -> dict[str, str]:
     """Return the built-in models."""
     return {
+        "backlash_slider": f"{_HERE}.models.slider:BacklashSlider",
         "lin_backlash": f"{_HERE}.models.lin:LinBacklash",
         "linear_oscillator": f"{_HERE}.models.basic:LinearOscillator",
         "rigid_drive": f"{_HERE}.models.basic:RigidDrive",
@@ -63,6 +64,7 @@ def lostmotion_quantifiers() -> dict[str, str]:
         "mutual_information": f"{at}.cheap:MutualInformation",
         "noise_level": f"{at}.noise:NoiseLevel",
         "prediction_error": f"{at}.cheap:PredictionError",
+        "section_dimension": f"{at}.section:SectionDimension",
         "time_reversal": f"{at}.cheap:TimeReversal",
     }
 

@@ -98,22 +98,29 @@ def returns(series: Series, period: float, most: int = MOST_PERIODS) -> Array:
     return np.asarray(return_spread(series.x, series.dt, period, most=most) / math.sqrt(2.0))
 
 
+def returned(raw: Series, period: float, noise: float) -> tuple[int, float]:
+    """Return after how many periods a motion comes back, to within its noise, and by how much it misses; 0 for never.
+
+    `noise` and the miss are shares of the standard deviation.
+    """
+    spread = returns(raw, period, 2 * MOST_PERIODS)
+    limit = SLACK * noise + FLOOR
+    once, twice = spread[:MOST_PERIODS], spread[1::2]
+    # Two frequencies nearly return after some periods, and miss by twice as much after twice as many.
+    back = np.flatnonzero((once <= limit) & ~(twice > DRIFT * once + DRIFT_FLOOR))
+    return (int(back[0]) + 1, float(spread[back[0]])) if len(back) else (0, float(np.nanmin(once)))
+
+
 def _periodic(evidence: Evidence) -> Verdict | None:
     """Return the verdict if the motion comes back to itself after some periods, to within its noise."""
     period = evidence.beat.period
     if period is None:
         return None
-    raw = evidence.raw
-    spread = returns(raw, period, 2 * MOST_PERIODS)
-    limit = SLACK * evidence.noise + FLOOR
-    once, twice = spread[:MOST_PERIODS], spread[1::2]
-    # Two frequencies nearly return after some periods, and miss by twice as much after twice as many.
-    back = np.flatnonzero((once <= limit) & ~(twice > DRIFT * once + DRIFT_FLOOR))
-    if not len(back):
+    times, left = returned(evidence.raw, period, evidence.noise)
+    if not times:
         return None
-    times = int(back[0]) + 1
     cycle = "each period" if times == 1 else f"every {times} periods"
-    noise = f"{100 * spread[times - 1]:.2g} %"
+    noise = f"{100 * left:.2g} %"
     return Verdict(
         "periodic",
         f"The motion repeats itself {cycle} of {period:.4g} s; {noise} of it does not repeat, no more than noise.",

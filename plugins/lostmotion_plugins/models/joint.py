@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
-from lostmotion.contracts import Array, Drive, Flow, Interface, Model, Param
+from lostmotion.contracts import Array, Drive, Flow, Group, Interface, Model, Param
 from lostmotion.quantities import DAMPING, FORCE, INERTIA, LENGTH, STIFFNESS
 
 
@@ -27,7 +27,8 @@ class RobotJoint(Model):
 
     The contact F is zero inside the gap |q - qb| < x0 and k0 (|q - qb| - x0) beyond. Encoder 1 reads qb (the input),
     encoder 2 reads q (the channel "position"). The angle is measured from where the link hangs straight down; mgl = 0
-    for a link that turns in the horizontal plane.
+    for a link that turns in the horizontal plane. The dimensionless numbers are those of such a link: weight acts on
+    the angle itself and not on its ratio to the gap.
     """
 
     name: ClassVar[str] = "robot_joint"
@@ -47,6 +48,14 @@ class RobotJoint(Model):
         Interface("base", row=1, inertia="m", motion=base, holds=("k0", "x0")),
         Interface("ground", row=1, inertia="m", motion=ground),
     )
+    groups = (
+        Group("zeta", "damping ratio", "c / (2 sqrt(k0 m))", "c", lambda q, n: 2.0 * n * math.sqrt(q["k0"] * q["m"])),
+        Group(
+            "frequency_ratio", "frequency of the drive", "omega / sqrt(k0 / m)", "drive.omega",
+            lambda q, n: n * math.sqrt(q["k0"] / q["m"]),
+        ),
+        Group("alpha", "amplitude of the base motion", "A / x0", "drive.amplitude", lambda q, n: n * q["x0"]),
+    )  # fmt: skip
 
     @staticmethod
     def rhs(t: float, y: Array, u: Array, p: Array, dydt: Array) -> None:

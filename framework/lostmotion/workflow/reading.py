@@ -1,0 +1,125 @@
+"""What one recording says of its level: the drive, the kind of motion, the exponent and the correlation dimension.
+
+The chain is that of `analyse` without noise reduction and surrogate tests, which cost most and serve other questions:
+of a machine whose model is believed nobody asks whether it is noise.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from lostmotion.case import Case
+from lostmotion.case.levels import Level, Measured
+from lostmotion.contracts import Array
+from lostmotion.errors import CaseError
+from lostmotion.recording import Recording, load_recording
+from lostmotion.registry import Registry
+from lostmotion.results import Estimate
+from lostmotion.signals import checked, refined_period
+from lostmotion.stages.embed import embed
+from lostmotion.stages.quantify import quantify
+from lostmotion.workflow.motion import LOUDEST, returned
+
+EMBEDDER, EXPONENT, DIMENSION, METER = "ami_cao", "lyapunov_kantz", "correlation_dimension", "noise_level"
+PAIRS = 8_000_000
+"""Pairs of points for a dimension: a fifth of the time of `analyse`, and an interval that is hardly wider."""
+SCALE = {"lyapunov": 1.0, "d2": 1.0}
+"""What the standard deviations that the two estimators claim are multiplied by: see `benchmarks/levels.py errors`."""
+
+HARMONIC = 0.1
+"""Share of the excitation (standard deviation) that may be no sine of one frequency: its noise and small harmonics."""
+
+
+@dataclass(frozen=True, eq=False)
+class Signals:
+    """A response `x` (n,) and what drove it, `u` (n,), both in SI units, sampled every `dt` s."""
+
+    name: str
+    x: Array
+    u: Array
+    dt: float
+    unit: str
+
+
+@dataclass(frozen=True, eq=False)
+class Read:
+    """A level as it was read, with the estimates behind it, as far as they were made."""
+
+    level: Level
+    exponent: Estimate | None = None
+    dimension: Estimate | None = None
+
+
+def signals_of(recording: Recording) -> Signals:
+    """Return the longest stretch of a recording without a lost sample."""
+    response, drive = (recording.data[key] for key in ("response", "excitation"))
+    x = np.asarray(response.to_numpy(), dtype=float)
+    lost = np.concatenate([[-1], np.flatnonzero(~np.isfinite(x)), [len(x)]])
+    longest = int(np.argmax(np.diff(lost)))
+    keep = slice(int(lost[longest]) + 1, int(lost[longest + 1]))
+    u = np.asarray(drive.to_numpy(), dtype=float)[keep]
+    return Signals(recording.name, x[keep], u, recording.dt, str(drive.attrs["units"]))
+
+
+def read_levels(case: Case, registry: Registry, rng: np.random.Generator) -> tuple[Read, ...]:
+    """Return what the recordings of a case say, one level each."""
+    streams = rng.spawn(len(case.recordings))
+    loaded = (load_recording(spec, case.folder) for spec in case.recordings)
+    return tuple(read_level(signals_of(one), registry, own) for one, own in zip(loaded, streams, strict=True))
+
+
+def read_level(signals: Signals, registry: Registry, rng: np.random.Generator) -> Read:
+    """Return what a recording says of its level; raises `CaseError` where the drive is no harmonic one.
+
+    A motion that comes back to within its noise is periodic; of any other one the exponent decides.
+    """
+    amplitude, omega = harmonic_of(signals)
+    level = Level(signals.name, amplitude, omega, unit=signals.unit)
+    period = 2.0 * math.pi / omega
+    series = embed(checked(signals.x), registry.make("embedder", EMBEDDER), dt=signals.dt, period=period)
+
+    def measured(name: str, **options: int) -> Estimate:
+        return quantify(series, registry.make("quantifier", name, **options), rng=rng)
+
+    if returned(series, period, LOUDEST)[0] and returned(series, period, _loudness(measured(METER)))[0]:
+        return Read(replace(level, motion="periodic"))
+    exponent = measured(EXPONENT)
+    if exponent.status not in ("ok", "uncertain") or exponent.low <= 0.0:
+        return Read(level, exponent)
+    dimension = measured(DIMENSION, pairs=PAIRS)
+    found = _measured(dimension, SCALE["d2"]) if dimension.ok else None
+    level = replace(level, motion="chaotic", lyapunov=_measured(exponent, SCALE["lyapunov"]), d2=found)
+    return Read(level, exponent, dimension)
+
+
+def _loudness(noise: Estimate) -> float:
+    """Return the upper end of the noise level, no more than can pass for noise."""
+    return min(noise.high, LOUDEST) if math.isfinite(noise.high) else 0.0
+
+
+def _measured(estimate: Estimate, scale: float) -> Measured:
+    return Measured(estimate.value, max(scale * (estimate.high - estimate.low) / 3.92, 1e-9))
+
+
+def harmonic_of(signals: Signals) -> tuple[float, float]:
+    """Return amplitude and angular frequency (rad/s) of the drive, by least squares on the measured excitation."""
+    period = refined_period(signals.u, signals.dt)
+    if period is None:
+        raise CaseError(
+            f"the excitation of {signals.name} is not periodic: the quantifier route wants a harmonic drive at one "
+            "level in each recording"
+        )
+    omega = 2.0 * math.pi / period
+    angle = omega * signals.dt * np.arange(len(signals.u))
+    waves = np.stack([np.cos(angle), np.sin(angle), np.ones_like(angle)], axis=1)
+    found = np.linalg.lstsq(waves, signals.u, rcond=None)[0]
+    rest = float(np.std(signals.u - waves @ found)) / max(float(np.std(signals.u)), 1e-300)
+    if rest > HARMONIC:
+        raise CaseError(
+            f"the excitation of {signals.name} is no sine: {100 * rest:.2g} % of it is left, {100 * HARMONIC:g} % at "
+            "most are wanted by the quantifier route"
+        )
+    return float(math.hypot(found[0], found[1])), omega

@@ -1,0 +1,187 @@
+"""Levels inverted through a map whose answer is known: what is looked up where, and what counts for what."""
+
+import math
+
+import numpy as np
+import pytest
+
+from lostmotion.case import Prior
+from lostmotion.case.levels import Level, Measured
+from lostmotion.errors import CaseError, DataError
+from lostmotion.inference.free import Free
+from lostmotion.registry import default
+from lostmotion.study.atlas import CHAOTIC, PERIODIC, Atlas
+from lostmotion.study.inversion import Inversion, grouped, likelihood_of, predicted
+from lostmotion.study.map import RING
+from lostmotion.study.numbers import Law, Power, law_of
+
+ALPHA, ZETA = np.linspace(0.2, 2.0, 37), np.linspace(0.01, 0.1, 10)
+
+
+def atlas(exponent, dimension=None, *, starts=2):
+    """An atlas over 1/alpha in [0.5, 5] and zeta, from functions of alpha and zeta; chaotic where positive."""
+    inverse = np.linspace(0.5, 5.0, 46)
+    alpha, zeta = np.meshgrid(1.0 / inverse[::-1], ZETA, indexing="ij")
+    value = np.repeat(exponent(alpha, zeta).reshape(-1, 1), starts, axis=1)
+    d2 = np.full_like(value, 2.2) if dimension is None else np.repeat(dimension(alpha, zeta).reshape(-1, 1), starts, 1)
+    kind = np.where(value > 0.0, CHAOTIC, PERIODIC).astype(np.int8)
+    nothing = np.zeros_like(value)
+    points = (-inverse[::-1], ZETA)
+    return Atlas(("alpha", "zeta"), ("inverse", "linear"), points, kind, value, nothing, d2, nothing + 0.02)
+
+
+def inversion(levels, made, *, known=None):
+    """An inversion for x0 and zeta of a machine with k0 = 1: alpha = amplitude / x0."""
+    free = (Free("x0", "m", 1.0, 0.4, 2.0), Free("zeta", "1", 0.05, 0.01, 0.1))
+    laws = tuple(
+        {"alpha": Law(math.log(level.amplitude), (-1.0, 0.0), True), "zeta": Law(0.0, (0.0, 1.0))} for level in levels
+    )
+    return Inversion(tuple(levels), (made,), (0,) * len(levels), laws, free)
+
+
+def window(alpha, zeta):
+    """Chaos where 1/alpha lies between 1.5 and 2.5, faster in its middle and with less damping."""
+    return np.where(np.abs(1.0 / alpha - 2.0) < 0.5, 0.2 - 0.2 * (1.0 / alpha - 2.0) ** 2 - zeta, -0.05)
+
+
+def posterior(made, x0, zeta):
+    """The posterior (x0, zeta) on a grid, normalised."""
+    points = np.stack(np.meshgrid(x0, zeta, indexing="ij"), axis=-1).reshape(-1, 2)
+    heights = made.log_likelihoods(points)
+    weights = np.exp(heights - heights.max())
+    return (weights / weights.sum()).reshape(len(x0), len(zeta))
+
+
+def test_kinds_of_motion_alone_bracket_the_gap():
+    amplitudes = (0.3, 0.42, 0.5, 0.6, 0.75)
+    levels = [Level(f"{a}", a, 1.0, "chaotic" if 1.5 < 1.0 / a < 2.5 else "periodic") for a in amplitudes]
+    found = posterior(inversion(levels, atlas(window)), x0 := np.linspace(0.4, 2.0, 161), ZETA)
+    share = found.sum(axis=1)
+    # All of 0.42 ... 0.6 within the window, 0.3 and 0.75 without: x0 from 0.9 to 1.05 and no other.
+    assert share[(x0 > 0.88) & (x0 < 1.07)].sum() > 0.9
+
+
+def test_exponents_find_gap_and_damping():
+    truth, omega = (1.02, 0.04), 3.0
+    levels = []
+    for a in (0.45, 0.5, 0.6):
+        value = omega * float(window(np.array(a / truth[0]), truth[1]))
+        levels.append(Level(f"{a}", a, omega, "chaotic", Measured(value, 0.02 * value)))
+    x0, zeta = np.linspace(0.4, 2.0, 321), np.linspace(0.01, 0.1, 91)
+    found = posterior(inversion(levels, atlas(window)), x0, zeta)
+    best = np.unravel_index(found.argmax(), found.shape)
+    assert x0[best[0]] == pytest.approx(truth[0], abs=0.03)
+    assert zeta[best[1]] == pytest.approx(truth[1], abs=0.012)
+
+
+def test_dimension_tells_two_gaps_of_one_exponent_apart():
+    level = Level("a", 0.5, 1.0, "chaotic", Measured(0.12, 0.003), Measured(2.1, 0.03))
+    made = atlas(lambda a, z: np.full_like(a, 0.12), lambda a, z: np.where(1.0 / a < 2.0, 2.1, 2.5))
+    x0 = np.linspace(0.4, 2.0, 161)
+    with_d2 = posterior(inversion([level], made), x0, ZETA).sum(axis=1)
+    without = posterior(inversion([level], made).without_d2(), x0, ZETA).sum(axis=1)
+    assert without[x0 < 1.0].sum() < 0.45
+    assert with_d2[x0 < 1.0].sum() > 0.9
+
+
+def test_coexisting_attractors_leave_both_motions_possible():
+    made = atlas(window, starts=4)
+    kind = made.kind.copy()
+    kind[:, 0] = PERIODIC
+    mixed = Atlas(made.names, made.spacings, made.points, kind, *(getattr(made, k) for k in
+                  ("exponent", "exponent_sd", "dimension", "dimension_sd")))  # fmt: skip
+    inside = np.flatnonzero((made.kind == CHAOTIC).all(axis=1))
+    seen = {motion: likelihood_of(Level("a", 1.0, 1.0, motion), mixed)[inside] for motion in ("periodic", "chaotic")}
+    assert np.allclose(seen["periodic"] / seen["chaotic"], 1.0 / 3.0, atol=0.15)
+
+
+def test_a_misread_level_is_unlikely_but_not_impossible():
+    levels = [Level("a", 0.5, 1.0, "chaotic"), Level("b", 0.5, 1.0, "periodic")]
+    heights = inversion(levels, atlas(window)).log_likelihoods(np.array([[1.0, 0.05], [2.0, 0.05]]))
+    assert np.isfinite(heights).all()
+
+
+def test_outside_of_the_map_nothing_is_possible():
+    found = inversion([Level("a", 0.5, 1.0, "chaotic")], atlas(window))
+    assert found.log_likelihoods(np.array([[1.0, 0.05], [1.0, 0.2], [4.0, 0.05]])).tolist()[1:] == [-math.inf] * 2
+
+
+def test_blending_is_linear_between_cells_and_mixes_in_the_ring():
+    made = atlas(window)
+    inverse, zeta = -made.points[0], made.points[1]
+    table = (np.repeat(inverse[:, None], len(zeta), axis=1) + 10.0 * zeta).ravel()
+    at = made.places({"alpha": np.array([1.0 / 2.04]), "zeta": np.array([0.055])})
+    # On a plane the mean of the ring is the middle of the square.
+    ring = made.around(table)
+    assert made.blended(table, ring, at)[0] == pytest.approx((1 - RING) * 2.59 + RING * (2.05 + 0.55), abs=1e-9)
+
+
+def test_the_ring_leaves_the_square_out_at_the_edges_too():
+    made = atlas(window)
+    shape, rng = made.shape, np.random.default_rng(0)
+    table = rng.random(shape)
+    ring = made.around(table.ravel()).reshape(shape)
+    for i, j in ((0, 0), (5, 3), (shape[0] - 2, shape[1] - 2), (0, 4)):
+        cells = {(a, b) for a in range(i - 1, i + 3) for b in range(j - 1, j + 3)}
+        inside = {c for c in cells if 0 <= c[0] < shape[0] and 0 <= c[1] < shape[1]}
+        kept = inside - {(i, j), (i + 1, j), (i, j + 1), (i + 1, j + 1)}
+        assert ring[i, j] == pytest.approx(np.mean([table[c] for c in kept]))
+
+
+def test_predictions_are_those_of_the_map():
+    level = Level("a", 0.5, 2.0, "chaotic")
+    found = predicted(inversion([level], atlas(window)), np.tile([1.0, 0.05], (200, 1)), np.random.default_rng(1))[0]
+    assert found.chaotic_share == 1.0
+    assert found.lyapunov.median == pytest.approx(2.0 * 0.15, rel=0.05)
+    told = found.as_dict()
+    assert told["predicted"]["chaotic_share"] == 1.0
+    assert {"low", "median", "high"} <= told["predicted"]["lyapunov"].keys()
+
+
+@pytest.mark.parametrize("name", ["lin_backlash", "robot_joint"])
+def test_powers_are_those_of_the_groups(name):
+    model = default().make("model", name)
+    values = {"m": 2.0, "c": 3.0, "k0": 50.0, "x0": 0.2, "k1": 5.0, "drive.amplitude": 4.0, "drive.omega": 2.0}
+    truth = {"zeta": 0.15, "frequency_ratio": 0.4, "alpha": 0.4 if name == "lin_backlash" else 20.0}
+    for group in model.groups:
+        if group.name in truth:
+            law = law_of(Power.of(group, model), values, ["x0"])
+            assert law(np.log([[0.2]]))[0] == pytest.approx(truth[group.name])
+
+
+def test_ends_of_a_number_over_a_box():
+    assert Law(0.0, (1.0, -2.0)).ends((0.0, 0.0), (math.log(2.0), math.log(3.0))) == pytest.approx((1 / 9, 2.0))
+
+
+def test_levels_of_one_frequency_share_a_map():
+    levels = [Level(str(k), 1.0, omega, "chaotic") for k, omega in enumerate((2.0, 1.0, 1.0005, 2.001))]
+    assert grouped(levels) == [[1, 2], [0, 3]]
+
+
+def test_priors_are_cut_where_a_map_must_end():
+    from lostmotion.workflow.levels import _free
+
+    model = default().make("model", "lin_backlash")
+    half = _free("c", Prior(half_sd=2.0), model)
+    assert 0.0 < half.low < 0.05
+    assert 6.0 < half.high < 8.0
+    log = _free("x0", Prior(median=0.5, sd_log=0.1), model)
+    assert log.log
+    assert math.exp(log.low) == pytest.approx(0.5 * math.exp(-0.329), rel=1e-3)
+
+
+def test_a_parameter_that_is_neither_known_nor_free_is_named():
+    model = default().make("model", "lin_backlash")
+    power = next(Power.of(group, model) for group in model.groups if group.name == "alpha")
+    with pytest.raises(CaseError, match="alpha needs k0"):
+        law_of(power, {"x0": 1.0, "drive.amplitude": 2.0}, [])
+
+
+def test_a_map_without_dimensions_is_refused(tmp_path):
+    from lostmotion.study.map import Map
+    from lostmotion.workflow.mapping import How, Request, make_map, study_of
+
+    request = Request("lin_backlash", ("alpha=0.3:0.6:2", "zeta=0.02:0.05:2"), 100, 20, 1)
+    make_map(study_of(request, default()), tmp_path / "map.nc", How(), lambda _done, _all: None)
+    with pytest.raises(DataError, match="section_dimension"):
+        Atlas.of(Map.open(tmp_path / "map.nc"))
