@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from scipy.linalg import expm
 
-from lostmotion.case import Case, Prior
+from lostmotion.case import Case, Prior, Sensor
 from lostmotion.inference.modes import Tried, distinct, one_hill
 from lostmotion.inference.problem import Free
 from lostmotion.inference.setup import WITHIN, modes, polished, problem_of, search
@@ -37,10 +37,10 @@ def ring(*, push: float, seed: int, samples: int) -> Track:
     return Track("ring", seen, u[:, None], DT, "position", held=True)
 
 
-def problem_for(track: Track):
+def problem_for(*tracks: Track):
     priors = {"c": Prior(0.1, 10.0, "log"), "k": Prior(500.0, 1e4, "log")}
     case = Case("ring", Path(), (), "linear_oscillator", {"m": 1.0}, priors, {}, (), "")
-    return problem_of(System(default().make("model", "linear_oscillator"), ()), case, (track,))
+    return problem_of(System(default().make("model", "linear_oscillator"), ()), case, tracks)
 
 
 def hertz(fit) -> float:
@@ -163,3 +163,13 @@ def test_the_walk_to_a_mode_stays_within_its_bounds() -> None:
     only = modes(narrow, np.random.default_rng(0))
     assert [hertz(f) for f in only] == pytest.approx([TRUE], rel=0.01)
     assert isinstance(only[0].problem.free[0], Free)
+
+
+def test_hills_are_compared_with_the_noise_of_each_recording() -> None:
+    """Both modes of a faint and of a loud ring, with levels of their own in one problem for both of them."""
+    tracks = tuple(replace(ring(push=0.02, seed=s, samples=60), name=n) for s, n in ((0, "faint"), (1, "loud")))
+    loud = replace(tracks[1], z=30.0 * tracks[1].z, inputs=30.0 * tracks[1].inputs)
+    both = modes(problem_for(tracks[0], loud), np.random.default_rng(0), sensor=Sensor(offset=Prior(mean=0.0, sd=0.01)))
+    assert sorted(hertz(f) for f in both) == pytest.approx([TRUE, FOLDED], rel=0.01)
+    assert both[0].problem is both[1].problem
+    assert {"offset[loud]", "log_noise[faint]", "log_random_force[loud]"} < set(both[0].problem.keys)

@@ -13,9 +13,9 @@ from scipy.linalg import expm
 from lostmotion.case import Case, Prior, Sensor
 from lostmotion.contracts import Param
 from lostmotion.inference.free import Free, Route, keys_of, parted
-from lostmotion.inference.noise import LEAST
+from lostmotion.inference.noise import LEAST, own_levels
 from lostmotion.inference.predict import free_runs, observed
-from lostmotion.inference.problem import NOISE, OFFSET, RANDOM, Problem
+from lostmotion.inference.problem import NOISE, OFFSET, RANDOM, Problem, Scales
 from lostmotion.inference.setup import beginnings, free_of, problem_of, search, separated
 from lostmotion.inference.tracks import Track
 from lostmotion.quantities import DAMPING
@@ -127,6 +127,7 @@ def test_levels_of_each_recording_are_found(apart) -> None:
 def test_usual_random_force_is_in_proportion_to_each_drive(apart) -> None:
     low, high = (f for f in apart.problem.free if f.parameter == RANDOM)
     assert high.mean - low.mean == pytest.approx(2.0 * math.log(LOUD["drive"] / QUIET["drive"]), abs=0.05)
+    assert high.high - low.high == pytest.approx(high.mean - low.mean)
     assert (low.low, high.low) == pytest.approx((low.mean + LEAST, high.mean + LEAST))
 
 
@@ -148,6 +149,22 @@ def test_nothing_is_split_where_nothing_is_its_own() -> None:
     assert separated(two, Sensor("shared")) is two
     zeros = separated(two, Sensor("shared", Prior(mean=0.0, sd=1.0))).problem.keys
     assert zeros == ("c", "k", f"offset[{LOW}]", f"offset[{HIGH}]", RANDOM, NOISE)
+
+
+def test_what_is_split_stays_split(apart) -> None:
+    assert separated(apart, Sensor(offset=Prior(mean=0.0, sd=0.1))) is apart
+
+
+def test_a_base_motion_sets_what_is_usual_by_its_own_amplitude() -> None:
+    """Twice the motion of the base, and half the sampling interval: ln(4/2) more, whatever the parameters."""
+    rng = np.random.default_rng(0)
+    base = np.stack([rng.standard_normal(400), np.zeros(400)], axis=1)
+    tracks = (Track("a", base[:, 0], base, DT, "position"), Track("b", base[:, 0], 2.0 * base, DT / 2.0, "position"))
+    system = System(default().make("model", "robot_joint"), ())
+    problem = Problem(system, tracks, Scales(1.0, 1.0, 1.0, usual=-3.0), system.vector({}), ())
+    low, high = (f for f in own_levels(problem, -2.0) if f.parameter == RANDOM)
+    assert (low.mean, low.start) == pytest.approx((-3.0, -2.0))
+    assert (high.mean, high.start) == pytest.approx((-3.0 + math.log(2.0), -2.0 + math.log(2.0)))
 
 
 def test_a_prior_with_each_gives_every_recording_its_own_value() -> None:

@@ -20,26 +20,27 @@ LEAST = 2.0 * math.log(0.3)
 intervals from long recordings become too narrow (over 24 recordings, z rms 1.4 with 0.1 and 1.05 with 0.3)."""
 
 
-def usual_of(problem: Problem, rate: float, index: int | None = None) -> float:
+def usual_of(problem: Problem, rate: float) -> float:
     """Return the log intensity (N^2 s) of the random force that the usual noise of a measured excitation makes.
 
     The noise of a base motion enters through the stiffness of the joint, of which `rate` (1/s) is the fastest motion.
-    It is that of the recording `index`, or one for all of them.
     """
-    system, track = problem.system, problem.tracks[index or 0]
-    size = USUAL * (problem.scales.force if index is None else drive_of(problem, index))
+    system, track = problem.system, problem.tracks[0]
+    size = USUAL * problem.scales.force
     if "force" not in system.model.inputs:
         inertia = problem.known[system.index[system.model.interfaces[0].inertia]]
         size = USUAL * math.sqrt(2.0) * float(np.std(track.inputs[:, 0])) * inertia * rate**2
     return math.log(max(size, 1e-300) ** 2 * track.dt)
 
 
-def drive_of(problem: Problem, index: int) -> float:
-    """Return the amplitude of the driving force of one recording, that of all where it has none of its own."""
+def own_drive(problem: Problem, index: int) -> float:
+    """Return the log intensity of the drive of one recording over that on which what is usual for all rests."""
+    track, first = problem.tracks[index], problem.tracks[0]
+    own = math.sqrt(2.0) * float(np.std(track.inputs[:, 0])) or float(np.abs(track.inputs[:, 0]).max())
+    common = problem.scales.force
     if "force" not in problem.system.model.inputs:
-        return problem.scales.force
-    drive = problem.tracks[index].inputs[:, 0]
-    return math.sqrt(2.0) * float(np.std(drive)) or float(np.abs(drive).max()) or problem.scales.force
+        common = math.sqrt(2.0) * float(np.std(first.inputs[:, 0]))
+    return math.log(((own / common) ** 2 or 1.0) * track.dt / first.dt) if common else 0.0
 
 
 def random_level(tracks: Sequence[Track], scales: Scales, share: float) -> float:
@@ -54,29 +55,26 @@ def noise_frees(tracks: Sequence[Track], scales: Scales) -> tuple[Free, Free]:
     """
     usual = scales.usual
     start = max(random_level(tracks, scales, LEVELS_TRIED[0]), usual + 2.0)
-    return _random(RANDOM, start, usual), _noise(NOISE, float(np.median([t.noise for t in tracks])))
+    random = Free(RANDOM, "1", start, usual + LEAST, start + 6.0, mean=usual, sd=4.0)
+    return random, _noise(NOISE, float(np.median([t.noise for t in tracks])))
 
 
-def own_levels(problem: Problem, rate: float, random: float) -> tuple[Free, ...]:
+def own_levels(problem: Problem, random: float) -> tuple[Free, ...]:
     """Return random force and measurement noise of each recording, where a fit found one `random` for all.
 
     The noise of a measured excitation is in proportion to its amplitude, so that what is usual, where to start and
-    the bounds are those of the drive of each recording.
+    the bounds are those of the drive of each recording. But for the start they do not depend on the fit.
     """
-    tracks, common = problem.tracks, usual_of(problem, rate)
+    tracks, scales = problem.tracks, problem.scales
     names = [track.name for track in tracks]
+    most = max(random_level(tracks, scales, LEVELS_TRIED[0]), scales.usual + 2.0) + 6.0
     frees: list[Free] = []
     for i, (forced, noisy) in enumerate(zip(keys_of(RANDOM, names), keys_of(NOISE, names), strict=True)):
-        usual = usual_of(problem, rate, i)
-        most = math.log((LEVELS_TRIED[0] * drive_of(problem, i)) ** 2 * tracks[i].dt)
-        wide = _random(forced, max(most, usual + 2.0), usual)
-        start = min(max(random + usual - common, wide.low), wide.high)
-        frees += [_random(forced, start, usual, wide.high), _noise(noisy, tracks[i].noise)]
+        more = own_drive(problem, i)
+        usual, high = scales.usual + more, most + more
+        start = min(max(random + more, usual + LEAST), high)
+        frees += [Free(forced, "1", start, usual + LEAST, high, mean=usual, sd=4.0), _noise(noisy, tracks[i].noise)]
     return tuple(frees)
-
-
-def _random(key: str, start: float, usual: float, high: float | None = None) -> Free:
-    return Free(key, "1", start, usual + LEAST, start + 6.0 if high is None else high, mean=usual, sd=4.0)
 
 
 def _noise(key: str, size: float) -> Free:

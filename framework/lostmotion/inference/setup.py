@@ -21,6 +21,8 @@ from lostmotion.inference.tracks import Track
 from lostmotion.system import Slot, System, substeps
 
 HELD_OUT = 0.3
+SHARED = Sensor("shared")
+"""A sensor of which nothing is to be split by recording."""
 BEGINNING, FEWEST = 3000, 400
 """Starting points are compared on so many samples of one recording; of each of many at least on so few."""
 
@@ -212,12 +214,15 @@ def _distinct(fits: list[Fit]) -> list[Fit]:
     return [best]
 
 
-def modes(problem: Problem, rng: np.random.Generator, *, points: int = 96, finalists: int = 8) -> list[Fit]:
+def modes(
+    problem: Problem, rng: np.random.Generator, *, points: int = 96, finalists: int = 8, sensor: Sensor = SHARED
+) -> list[Fit]:
     """Return the distinct maxima of the posterior on all recordings, best first by log evidence.
 
     It looks more widely than `search`, fits each hill that the beginnings leave within `SLACK` of the best on the whole
     recordings, and keeps those within `WITHIN` in log evidence. All are maxima of one problem, which takes as many
-    steps between samples as the stiffest of them asks for.
+    steps between samples as the stiffest of them asks for. What the `sensor` has of its own in each recording is split
+    before the hills are compared: a noise that fits none of the recordings says little of how far hills are apart.
     """
     beginning = beginnings(problem)
     tried = _tried(problem, beginning, rng, points)
@@ -226,7 +231,7 @@ def modes(problem: Problem, rng: np.random.Generator, *, points: int = 96, final
     for fit in short:
         hopeless = max((f.local.log_posterior for f in whole), default=-math.inf) - 2.0 * SLACK
         whole.append(maximise(stepped(problem, fit.theta), warmed(problem, fit.theta, 3.0), hopeless=hopeless))
-    hills = distinct(whole, SLACK) or [maximise(problem)]
+    hills = distinct([separated(fit, sensor) for fit in whole], SLACK) or [maximise(problem)]
     return _together(hills, max((f.problem for f in hills), key=lambda p: p.nsub))
 
 
@@ -241,17 +246,18 @@ def _together(fits: list[Fit], problem: Problem) -> list[Fit]:
 def separated(fit: Fit, sensor: Sensor) -> Fit:
     """Return the fit with what a case says of the sensor: noise levels of each recording's own, and its zero.
 
-    It begins at the fit with shared levels; with one recording and a known zero it is that fit itself.
+    It begins at the fit with shared levels. Where nothing is to be split, or all is split already, it is that fit.
     """
     problem = restarted(fit)
-    own = sensor.noise == "each" and len(problem.tracks) > 1
-    levels = tuple(f for f in problem.free if f.key in (RANDOM, NOISE))
-    if own:
-        levels = own_levels(problem, rate_of(problem, fit.theta), float(fit.theta[problem.keys.index(RANDOM)]))
-    if not own and sensor.offset is None:
+    own = sensor.noise == "each" and len(problem.tracks) > 1 and RANDOM in problem.keys
+    zeros = () if any(f.parameter == OFFSET for f in problem.free) else _offsets(problem, sensor.offset)
+    if not own and not zeros:
         return fit
-    kept = tuple(f for f in problem.free if f.key not in (RANDOM, NOISE))
-    apart = replace(problem, free=(*kept, *_offsets(problem, sensor.offset), *levels))
+    kept = tuple(f for f in problem.free if f.parameter not in (RANDOM, NOISE))
+    levels = tuple(f for f in problem.free if f.parameter in (RANDOM, NOISE))
+    if own:
+        levels = own_levels(problem, float(fit.theta[problem.keys.index(RANDOM)]))
+    apart = replace(problem, free=(*kept, *zeros, *levels))
     return maximise(apart, apart.start)
 
 
