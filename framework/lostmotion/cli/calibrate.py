@@ -52,7 +52,19 @@ from lostmotion.cli._options import on_a_case
     "--term", "terms", metavar="NAME[@PLACE]", multiple=True, help="A term to add to the model that is fitted."
 )
 @click.option(
-    "--route", type=click.Choice(["trajectory"]), default="trajectory", show_default=True, help="To the posterior."
+    "--route",
+    type=click.Choice(["trajectory", "quantifiers"]),
+    default="trajectory",
+    show_default=True,
+    help="To the posterior.",
+)
+@click.option(
+    "--map",
+    "maps",
+    metavar="FILE.nc|FILE.zarr",
+    multiple=True,
+    type=click.Path(path_type=Path),
+    help="A map for the route by quantifiers, of `lostmotion map`; made in DIR if not given.",
 )
 @click.option("--machines", default=200, show_default=True, type=click.IntRange(1), help="How many machines to draw.")
 @click.option("--ess", default=300.0, show_default=True, type=click.FloatRange(100), help="Effective draws of each.")
@@ -73,13 +85,14 @@ def command(ctx: click.Context, /, case: Path, out: Path, drives: tuple[str, ...
     from lostmotion.stages.identify import Plan
     from lostmotion.workflow.calibrate import run_calibration
     from lostmotion.workflow.machines import Bench
-    from lostmotion.workflow.trials import Design
+    from lostmotion.workflow.workshop import Design
 
     bench = Bench(drives, given["duration"], given["rate"], given["noise"], given["excitation_noise"])
     plan = Plan(ess=given["ess"], max_steps=given["max_steps"])
     plugins = tuple(str(Path(file).absolute()) for file in ctx.find_root().params.get("plugin") or ())
+    maps = tuple(path.absolute() for path in given["maps"])
     chosen = {key: given[key] for key in ("hide", "terms", "route", "seed")}
-    design = Design(case.absolute(), bench, plan=plan, plugins=plugins, **chosen)
+    design = Design(case.absolute(), bench, plan=plan, plugins=plugins, maps=maps, **chosen)
     with _bar(given["machines"], quiet=given["quiet"]) as say:
         options = {key: given[key] for key in ("machines", "jobs", "fresh")}
         content = run_calibration(design, out, say=say, **options)

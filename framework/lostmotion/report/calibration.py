@@ -18,7 +18,7 @@ from lostmotion.report import style
 from lostmotion.report.calibration_figures import CAPTIONS, Found, ecdf, histograms, intervals
 from lostmotion.report.pages import template
 from lostmotion.report.posteriors import words_of
-from lostmotion.report.words import DASH, figures, pretty, readable, sentence
+from lostmotion.report.words import DASH, figures, pretty, readable, sentence, spoken
 
 FILES = ("calibration.json", "machines.csv")
 
@@ -51,7 +51,13 @@ class Calibration:
 
     def _found(self, name: str, row: Mapping[str, Any]) -> Found:
         columns = {key: self.columns[f"{name}.{key}"] for key in ("truth", "low", "median", "high", "sd")}
-        return Found(words_of(name), row, columns)
+        return Found(_words(name), row, columns)
+
+
+def _words(name: str) -> str:
+    """Return the name of a parameter as a reader meets it; the recording it belongs to stays behind it."""
+    own, bracket, rest = name.partition("[")
+    return (words_of(own) if "." in own else spoken(own)) + bracket + rest
 
 
 def write_calibration(folder: Path) -> Path:
@@ -116,7 +122,7 @@ def _embedded(figure: Figure, name: str) -> Markup:
 
 def _facts(calibration: Calibration) -> list[str]:
     facts = calibration.facts
-    hidden = ", ".join(f"{words_of(name)} = {figures(value)}" for name, value in facts["hidden"].items())
+    hidden = ", ".join(f"{_words(name)} = {figures(value)}" for name, value in facts["hidden"].items())
     told = [
         f"{facts['machines']} machines, by the {facts['route']} route.",
         f"Machines are moved by {facts['moved_by']}.",
@@ -131,7 +137,7 @@ def _shares(calibration: Calibration) -> list[str]:
 
 def _head(calibration: Calibration) -> list[str]:
     wide = [f"In {share} %" for share in _shares(calibration)]
-    return ["Parameter", *wide, "χ² p", "ECDF p", "z mean", "z rms", "Relative sd"]
+    return ["Parameter", "Of", *wide, "χ² p", "ECDF p", "z mean", "z rms", "Relative sd"]
 
 
 def _row(name: str, row: Mapping[str, Any]) -> list[tuple[str, bool]]:
@@ -139,12 +145,13 @@ def _row(name: str, row: Mapping[str, Any]) -> list[tuple[str, bool]]:
     covered = [_covered(one, drawn=row["drawn"]) for one in row["coverage"].values()]
     tests = [(figures(row[key], 2), False) for key in ("chi2_p", "ecdf_p")]
     numbers = [(figures(row[key], 3), False) for key in ("mean_z", "rms_z", "median_relative_sd")]
-    return [(words_of(name), False), *covered, *tests, *numbers]
+    count = str(next(iter(row["coverage"].values()))["of"])
+    return [(_words(name), False), (count, False), *covered, *tests, *numbers]
 
 
 def _covered(one: Mapping[str, int], *, drawn: bool) -> tuple[str, bool]:
     """Return how many truths an interval holds, with the limits of that number."""
-    text = f"{one['inside']} of {one['of']} ({one['low']}–{one['high']})"
+    text = f"{one['inside']} ({one['low']}–{one['high']})"
     return text, drawn and not one["low"] <= one["inside"] <= one["high"]
 
 
@@ -153,7 +160,7 @@ def _hard(one: Mapping[str, Any]) -> list[str]:
     truth, median = (
         f"{figures(scale.factor * one[key], 6)} {pretty(scale.unit)}".rstrip() for key in ("truth", "median")
     )
-    return [str(one["machine"]), words_of(one["parameter"]), truth, median, figures(one["z"]) or DASH]
+    return [str(one["machine"]), _words(one["parameter"]), truth, median, figures(one["z"]) or DASH]
 
 
 def _lost(facts: Mapping[str, Any]) -> Iterator[str]:

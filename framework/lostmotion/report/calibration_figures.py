@@ -64,7 +64,9 @@ def histograms(found: Sequence[Found], band: Mapping[str, float]) -> Figure:
         edges = np.linspace(0.0, 100.0, len(counts) + 1)
         axes.axhspan(band["low"], band["high"], color=style.SHADE, zorder=0)
         axes.axhline(band["expected"], color="#555555", linewidth=0.8, linestyle=(0, (3, 2)))
-        axes.stairs(counts, edges, fill=True, color=style.AFTER, alpha=0.45)
+        axes.stairs(counts, edges, fill=True, color=style.AFTER, alpha=0.25)
+        for end in (band["low"], band["high"]):
+            axes.axhline(end, color=style.QUIET, linewidth=0.7)
         axes.stairs(counts, edges, color=style.AFTER, linewidth=1.1)
         axes.set_xlim(0, 100)
         axes.set_ylim(0, 1.08 * max(counts.max(), band["high"]))

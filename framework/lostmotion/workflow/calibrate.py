@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -15,10 +15,11 @@ import numpy as np
 from lostmotion.inference import ranks
 from lostmotion.provenance import provenance
 from lostmotion.report.calibration import write_calibration
-from lostmotion.storage import save_json, whole
+from lostmotion.storage import folder_for, save_json, whole
 from lostmotion.workflow.calibrate_words import says_of
 from lostmotion.workflow.campaign import Campaign, Say
-from lostmotion.workflow.trials import Design, trial, workshop
+from lostmotion.workflow.trials import maps_for, trial
+from lostmotion.workflow.workshop import Design, workshop
 
 LEVEL = 0.01
 """The level of the tests, for all drawn parameters together."""
@@ -40,6 +41,8 @@ def run_calibration(
     The trials are kept in `out`/trials, and a campaign that was killed goes on with those that are missing.
     """
     shop = workshop(design)
+    if design.route == "quantifiers" and not design.maps:
+        design = replace(design, maps=maps_for(shop, folder_for(out), jobs))
     origin = provenance("calibrate", _settings(design), design.seed, design.inputs)
     rows = Campaign(partial(trial, design), machines, origin).run(out, jobs, say, fresh=fresh)
     content = {

@@ -8,179 +8,29 @@ from __future__ import annotations
 import tempfile
 import tomllib
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
-from functools import lru_cache
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
-from lostmotion.case import Case, Prior, dump_case, load_case
-from lostmotion.contracts import Array, Model, Term
+from lostmotion.case import dump_case
+from lostmotion.case.levels import Level
+from lostmotion.contracts import Array
 from lostmotion.errors import CaseError, LostMotionError
 from lostmotion.inference.ranks import rank_of
-from lostmotion.inference.setup import known_of
-from lostmotion.provenance import digest
 from lostmotion.quantities import ANGULAR, SI
-from lostmotion.registry import Registry
-from lostmotion.stages.identify import Identification, Plan
+from lostmotion.stages.identify import Identification, identify
 from lostmotion.storage import save_table
-from lostmotion.system import Slot, System, key_of
-from lostmotion.workflow.machines import Bench, Seen, moved_by, recorded
-from lostmotion.workflow.prepare import prepare
-from lostmotion.workflow.simulate import assembly_of
+from lostmotion.workflow.drives import Options, pairs
+from lostmotion.workflow.levels import Survey, inversion_of, quantifier_task
+from lostmotion.workflow.machines import Seen
+from lostmotion.workflow.prepare import case_of, prepare
+from lostmotion.workflow.rehearsal import unit_of
 from lostmotion.workflow.trajectory import chosen_terms, sampled
+from lostmotion.workflow.workshop import Design, Machine, Workshop, workshop
 
-TRIES = 1000
-"""Draws from a prior until one is a machine that can be: a normal prior may reach below zero."""
 REPLACED = ("recordings", "levels", "truth", "plugins")
 """What of the case a machine brings itself, or what the registry holds already."""
-
-
-@dataclass(frozen=True)
-class Design:
-    """What is drawn and how it is identified: the case with its priors, the bench, what is hidden, the terms fitted.
-
-    `hide` are terms with their values, `NAME[@PLACE]:param=value`, which act in every machine whether fitted or not.
-    `plugins` are files that bring models or terms, beside those that the case names.
-    """
-
-    case: Path
-    bench: Bench
-    hide: tuple[str, ...] = ()
-    terms: tuple[str, ...] = ()
-    route: str = "trajectory"
-    plan: Plan = field(default_factory=lambda: Plan(ess=300.0))
-    seed: int = 0
-    plugins: tuple[str, ...] = ()
-
-    @property
-    def labels(self) -> tuple[str, ...]:
-        """The names of the recordings."""
-        return tuple(f"drive{k}" for k in range(1, len(self.bench.drives) + 1))
-
-    @property
-    def inputs(self) -> dict[str, str]:
-        """The digests of what goes in, by file name."""
-        case = load_case(self.case)
-        files = (*map(Path, self.plugins), *(case.folder / name for name in case.plugins))
-        return {"case": case.digest, **{file.name: digest(file) for file in files}}
-
-
-class Machine(NamedTuple):
-    """A machine: its parameters in each recording, the offsets of the sensor, and what of it is to be found again.
-
-    `truth` has the names of the results. What is in `drawn` comes from the priors; the rest is as it is.
-    """
-
-    fulls: tuple[Array, ...]
-    offsets: tuple[float, ...]
-    truth: Mapping[str, float]
-    drawn: frozenset[str]
-
-
-@dataclass(frozen=True)
-class Workshop:
-    """What a design stands for once it has been read and found good: the case, and the system of every machine."""
-
-    design: Design
-    registry: Registry
-    case: Case
-    system: System
-    hidden: Mapping[str, float]
-
-    @property
-    def moved_by(self) -> str:
-        """What moves the machines, in words."""
-        return moved_by(self.system)
-
-    def draw(self, rng: np.random.Generator) -> Machine:
-        """Return a machine drawn from the priors of the case."""
-        labels = self.design.labels
-        truth, drawn = dict(self.hidden), set[str]()
-        fulls = [known_of(self.system, self.case) for _ in labels]
-        for full in fulls:
-            for key, value in self.hidden.items():
-                full[self.system.index[key]] = value
-        for name, prior in self.case.estimate.items():
-            slot = self.system.slot(name)
-            for full, (told, value) in zip(fulls, self._values(slot, prior, rng), strict=True):
-                full[self.system.index[slot.key]] = truth[told] = value
-                drawn.add(told)
-        offsets = self._offsets(rng)
-        truth |= offsets
-        return Machine(
-            tuple(fulls), tuple(offsets.values()) or (0.0,) * len(labels), truth, frozenset({*drawn, *offsets})
-        )
-
-    def _values(self, slot: Slot, prior: Prior, rng: np.random.Generator) -> list[tuple[str, float]]:
-        """Return the name and the value of a parameter in each recording."""
-        labels = self.design.labels
-        if prior.each and len(labels) > 1:
-            return [(f"{slot.key}[{label}]", _possible(slot, prior, rng)) for label in labels]
-        return [(slot.key, _possible(slot, prior, rng))] * len(labels)
-
-    def _offsets(self, rng: np.random.Generator) -> dict[str, float]:
-        prior, labels = self.case.sensor.offset, self.design.labels
-        if prior is None:
-            return {}
-        names = [f"offset[{label}]" for label in labels] if len(labels) > 1 else ["offset"]
-        return {name: prior.quantile(rng.uniform()) for name in names}
-
-    def record(self, machine: Machine, rng: np.random.Generator) -> list[Seen]:
-        """Return what the sensors show of a machine under each drive."""
-        bench, streams = self.design.bench, rng.spawn(len(self.design.labels))
-        both = zip(machine.fulls, bench.drives, streams, strict=True)
-        return [recorded(self.system, full, bench, drive, stream) for full, drive, stream in both]
-
-
-@lru_cache(maxsize=4)
-def workshop(design: Design) -> Workshop:
-    """Return the workshop of a design; whatever cannot be meant is refused here."""
-    design.bench.check()
-    if design.route not in ROUTES:
-        raise CaseError(f"there is no route {design.route!r}: the routes are {', '.join(ROUTES)}")
-    case = load_case(design.case)
-    registry = Registry.discover()
-    for file in (*map(Path, design.plugins), *(case.folder / name for name in case.plugins)):
-        registry.add_file(file)
-    if not case.estimate:
-        raise CaseError(f"{design.case.name} estimates nothing: give priors in [model.estimate]")
-    model: Model = registry.make("model", case.model)
-    hidden, values = assembly_of(registry, case.model, design.hide)
-    assembly_of(registry, case.model, design.terms)
-    terms = _terms(hidden.terms, model, case, registry)
-    system = System(model, terms)
-    known_of(system, case)
-    if lacking := [
-        slot.key for slot in system.slots if slot.term is not None and slot.key not in _given(system, case, values)
-    ]:
-        raise CaseError(f"{lacking[0]} has no value: add it to --hide, or to the case")
-    return Workshop(design, registry, case, system, values)
-
-
-def _terms(hidden: tuple[Term, ...], model: Model, case: Case, registry: Registry) -> tuple[Term, ...]:
-    """Return the terms that act in every machine: those that are hidden, and those whose parameters the case names."""
-    found = {key_of(term): term for term in hidden}
-    for key in (name.rpartition(".")[0] for name in (*case.known, *case.estimate) if "." in name):
-        if key in {key_of(term) for term in hidden}:
-            raise CaseError(f"{key} is hidden and stands in the case: keep one of them")
-        (term,) = assembly_of(registry, model.name, [key])[0].terms
-        found[key_of(term)] = term
-    return tuple(found.values())
-
-
-def _given(system: System, case: Case, values: Mapping[str, float]) -> set[str]:
-    return {system.slot(name).key for name in (*case.known, *case.estimate)} | set(values)
-
-
-def _possible(slot: Slot, prior: Prior, rng: np.random.Generator) -> float:
-    """Return a draw from a prior that lies within the bounds of the parameter, as that of the fit does."""
-    for _ in range(TRIES):
-        value = prior.quantile(rng.uniform())
-        if slot.param.low <= value <= slot.param.high:
-            return value
-    raise CaseError(f"the prior of {slot.key} lies outside of {slot.param.low:g} to {slot.param.high:g}: correct it")
 
 
 def trial(design: Design, number: int) -> dict[str, Any]:
@@ -190,7 +40,7 @@ def trial(design: Design, number: int) -> dict[str, Any]:
     machine = shop.draw(of_truth)
     unknown = {name: {"truth": value, "drawn": name in machine.drawn} for name, value in machine.truth.items()}
     try:
-        result, also = ROUTES[design.route](shop, machine, of_motion, int(of_fit.integers(2**32)))
+        result, also = WAYS[design.route](shop, machine, of_motion, int(of_fit.integers(2**32)))
     except (LostMotionError, ArithmeticError, ValueError) as err:
         return {"machine": number, "status": "failed", "says": " ".join(str(err).split()), "parameters": unknown}
     if not result.converged:
@@ -246,6 +96,38 @@ def by_trajectory(
     return result, {name: one.noise for name, one in zip(names, seen, strict=True)}
 
 
+def by_quantifiers(
+    shop: Workshop, machine: Machine, rng: np.random.Generator, seed: int
+) -> tuple[Identification, dict[str, float]]:
+    """Return the posterior from what the recordings are read as, one level of the drive each."""
+    seen, design = shop.record(machine, rng), shop.design
+    fit = np.random.default_rng(seed)
+    with tempfile.TemporaryDirectory() as folder:
+        case = case_of(_write(shop, machine, seen, Path(folder)), shop.registry)
+        task = quantifier_task(case, shop.registry, Path(folder), fit, Survey(maps=design.maps, jobs=1))
+    return identify(task, rng=fit, plan=design.plan), {}
+
+
+def maps_for(shop: Workshop, out: Path, jobs: int) -> tuple[Path, ...]:
+    """Return the maps in which every machine is looked up, made in the folder `out` unless they are there."""
+    unit = unit_of(shop.system.model)
+    both = zip(shop.design.labels, shop.design.bench.drives, strict=True)
+    levels = tuple(Level(label, *_harmonic(drive), unit=unit) for label, drive in both)
+    inversion_of(shop.case, levels, shop.registry, out, Survey(jobs=jobs))
+    return tuple(sorted(out.glob("map-*.nc")))
+
+
+def _harmonic(drive: str) -> tuple[float, float]:
+    """Return amplitude and angular frequency (rad/s) of a drive, which must be a plain sine."""
+    kind, _, rest = drive.partition(":")
+    options = Options(kind, {"harmonics": "", **pairs(rest, f"drive {drive!r}")})
+    if kind != "harmonic" or options.shares():
+        raise CaseError(
+            f"the drive {drive!r} is no sine: the route by quantifiers wants harmonic:amplitude=...,omega=..."
+        )
+    return options.number("amplitude"), options.omega()
+
+
 def _write(shop: Workshop, machine: Machine, seen: list[Seen], folder: Path) -> Path:
     """Return the case of a machine, written with its recordings into a folder."""
     design, model = shop.design, shop.system.model
@@ -270,5 +152,5 @@ def _write(shop: Workshop, machine: Machine, seen: list[Seen], folder: Path) -> 
     return folder / design.case.name
 
 
-ROUTES: Mapping[str, Route] = {"trajectory": by_trajectory}
+WAYS: Mapping[str, Route] = {"trajectory": by_trajectory, "quantifiers": by_quantifiers}
 """The ways to a posterior."""
