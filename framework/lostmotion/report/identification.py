@@ -17,6 +17,9 @@ from lostmotion.report.identification_facts import Sampled, read_sampled
 from lostmotion.report.pages import template
 from lostmotion.report.words import DASH, Scale, figures, interval, pretty, readable
 
+LEADING = 3
+"""Parameters that are told in the headline."""
+
 
 class Drawn(NamedTuple):
     """A figure as the template takes it."""
@@ -43,13 +46,29 @@ def render(sampled: Sampled) -> str:
         title=str(facts.get("title") or "Identification"),
         model=str(facts.get("model") or ""),
         converged=sampled.converged,
-        answer=[str(part) for part in facts.get("says") or []],
+        answer=_answer(sampled),
         head=_head(sampled),
-        rows=[_row(sampled, name) for name in sampled.rows],
+        rows=[*(_row(sampled, name) for name in sampled.rows), *_derived(sampled)],
         figures=drawn,
         notes=[str(note) for note in facts.get("notes") or []],
         provenance=json.dumps(facts.get("provenance") or {}, indent=2, ensure_ascii=False),
     )
+
+
+def _answer(sampled: Sampled) -> list[str]:
+    """Return the sentences that the page opens with: the parameters first, if the chain may be believed."""
+    says = [str(part) for part in sampled.facts.get("says") or []]
+    rows = dict(list(sampled.facts["parameters"].items())[:LEADING])
+    if not (sampled.converged and rows):
+        return says
+    return [", ".join(f"{sampled.word(name)} = {interval(row)}" for name, row in rows.items()), " ".join(says)]
+
+
+def _derived(sampled: Sampled) -> list[list[str]]:
+    """Return the rows of what follows from the parameters."""
+    known = [DASH, DASH] if sampled.facts.get("truth") else []
+    rows = sampled.facts.get("derived") or {}
+    return [[f"{name} (follows)", interval(row), *known, DASH, DASH] for name, row in rows.items()]
 
 
 def _figures(sampled: Sampled) -> list[Drawn]:

@@ -31,16 +31,19 @@ def draw(levels: Sequence[Level]) -> Figure:
     for axes, key in zip(panels, shown, strict=False):
         _draw_quantity(axes, levels, key)
     _draw_share(panels[-1], levels)
-    panels[-1].set_xticks(range(len(levels)), [_amplitude(level) for level in levels])
+    ticks, unit = _amplitudes(levels)
+    panels[-1].set_xticks(range(len(levels)), ticks)
     panels[-1].set_xlim(-0.6, len(levels) - 0.4)
-    panels[-1].set_xlabel("amplitude of the drive")
+    panels[-1].set_xlabel(with_unit("amplitude of the drive", unit))
     style.legend_above(figure, panels[0])
     return figure
 
 
-def _amplitude(level: Level) -> str:
-    scale = readable(float(level["amplitude"]), str(level["unit"]))
-    return f"{scale.factor * float(level['amplitude']):.4g} {scale.unit}"
+def _amplitudes(levels: Sequence[Level]) -> tuple[list[str], str]:
+    """Return the amplitudes as numbers in one unit, and that unit."""
+    sizes = [float(level["amplitude"]) for level in levels]
+    scale = readable(max(sizes), str(levels[0]["unit"]))
+    return [f"{scale.factor * size:.4g}" for size in sizes], scale.unit
 
 
 def _draw_quantity(axes: Axes, levels: Sequence[Level], key: str) -> None:
