@@ -16,25 +16,35 @@ import json
 import math
 import sys
 import time
+from collections.abc import Mapping
 from concurrent.futures import ProcessPoolExecutor
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from scipy.optimize import minimize
 
+from lostmotion.case import Case, Prior
+from lostmotion.case.levels import Level, Measured
 from lostmotion.contracts import Array, Flow
 from lostmotion.flow import Harmonic, flow_of
 from lostmotion.kernels.threads import cores
 from lostmotion.registry import default
+from lostmotion.reproduce.joint import DAMPING, FREQUENCY, HALF, LEVELS, PAPER, RATIO
+from lostmotion.stages.identify import identify
 from lostmotion.study.cells import period_of
-from lostmotion.study.inversion import TAIL
+from lostmotion.study.inversion import TAIL, WEAK, Inversion, predicted
+from lostmotion.workflow.levels import Survey, inversion_of, quantifier_task
 from lostmotion.workflow.reading import read_level
-from lostmotion.workflow.rehearsal import Bench, rehearsed
+from lostmotion.workflow.rehearsal import Bench, rehearsed, rehearsed_levels
 
+OMEGA = 40.0
+SD_PAPER = 0.2
+"""Standard deviation (bit/s) that is put to the exponents of Table 2, which come without an error."""
+TRUE_GAP, TWO_GAPS, SEED, NEAR = {"x0": 0.005, "zeta": 0.02}, (60.0, 100.0), 1, 0.12
+CAREFUL = Bench(periods=400, looks=60, noise=0.002)
 LONG = 6000
-WEAK = 0.5
-"""Exponents (nat per period of the drive) below which chaos is called weak."""
 
 
 def one(seed: int) -> dict[str, Any]:
@@ -129,14 +139,99 @@ def chaotic(rows: list[dict[str, Any]]) -> list[dict[str, Any]]:
     return [r for r in rows if not r["period"] and r["lyapunov_true"] > 3.0 * r["lyapunov_true_sd"]]
 
 
+def machine(folder: Path) -> None:
+    """Find a simulated machine again from recordings at eight levels."""
+    case = oscillator({"x0": Prior(low=0.002, high=0.012), "zeta": Prior(low=0.01, high=0.06)})
+    truth, rng = {"x0": 0.0052, "zeta": 0.023}, np.random.default_rng(8)
+    drives = [(a, OMEGA) for a in (40.0, 50.0, 62.0, 77.0, 95.0, 117.0, 145.0, 180.0)]
+    begin = time.perf_counter()
+    reads = rehearsed_levels(case, default(), truth, drives, rng)
+    print(f"eight recordings simulated and read in {time.perf_counter() - begin:.1f} s")
+    sampled(replace(case, levels=tuple(read.level for read in reads)), truth, folder)
+
+
+def table2(folder: Path) -> None:
+    """Invert Table 2 of the paper: a robot joint whose stiffness and inertia are those of `reproduce/joint.py`."""
+    omega, log2 = 2.0 * math.pi * FREQUENCY, math.log(2.0)
+    levels = []
+    for degrees, bits in zip(LEVELS, PAPER, strict=True):
+        seen = None if math.isnan(bits) else Measured(bits * log2, SD_PAPER * log2)
+        motion = "chaotic" if seen else "periodic"
+        levels.append(Level(f"{degrees:g} deg", math.radians(degrees), omega, motion, seen, None, "rad"))
+    estimate = {"x0": Prior(low=math.radians(0.3), high=math.radians(1.5)), "zeta": Prior(low=0.01, high=0.12)}
+    known = {"m": 1.0, "k0": (omega / RATIO) ** 2}
+    case = Case("Table 2", Path(), (), "robot_joint", known, estimate, {}, (), "none", levels=tuple(levels))
+    sampled(case, {"x0": math.radians(HALF), "zeta": 0.5 * DAMPING}, folder)
+
+
+def sampled(case: Case, truth: Mapping[str, float], folder: Path) -> None:
+    """Print the posterior of a case beside the truth, and what it expects at each level."""
+    rng, begin = np.random.default_rng(0), time.perf_counter()
+    task = quantifier_task(case, default(), folder, rng, say=progress)
+    made = time.perf_counter()
+    found = identify(task, rng=rng)
+    print(f"map and proposal {made - begin:.0f} s, chain {time.perf_counter() - made:.1f} s")
+    print(f"ESS {found.quality.ess.min():.0f}, R-hat {found.quality.rhat.max():.3f}, {found.evaluations} evaluations")
+    for key, unit, draws in zip(found.keys, found.units, found.draws.T, strict=True):
+        low, median, high = np.quantile(draws, [0.025, 0.5, 0.975])
+        print(f"  {key}: {median:.5g} {unit} [{low:.5g}, {high:.5g}], truth {truth[key]:.5g}")
+    posterior = task.posterior
+    assert isinstance(posterior, Inversion)
+    for one in predicted(posterior, found.draws[::10], rng):
+        seen, band = one.level.lyapunov, one.lyapunov
+        told = f"{seen.value:.3g} +- {seen.sd:.2g} 1/s" if seen else ""
+        expected = f"{band.median:.3g} [{band.low:.3g}, {band.high:.3g}] 1/s" if band else ""
+        print(f"  {one.level.name:>10}: {one.level.motion or 'undecided':<10}{told:<24}"
+              f"chaos expected {one.chaotic_share:4.0%}  {expected}")  # fmt: skip
+
+
+def oscillator(estimate: Mapping[str, Prior]) -> Case:
+    """Return a case of Lin's oscillator, Case 1 of the paper, whose stiffness and mass are known."""
+    known = {"m": 1.0, "k0": 4e4, "k1": 0.0}
+    return Case("oscillator", Path(), (), "lin_backlash", known, dict(estimate), {}, (), "none")
+
+
+def decide(folder: Path) -> None:
+    """Show levels of a machine whose exponents fit two gaps, and what the dimensions make of that."""
+    case = oscillator({"x0": Prior(low=0.002, high=0.012), "zeta": Prior(low=0.01, high=0.06)})
+    drives = [(a, OMEGA) for a in TWO_GAPS]
+    reads = rehearsed_levels(case, default(), TRUE_GAP, drives, np.random.default_rng(SEED), bench=CAREFUL)
+    levels = tuple(read.level for read in reads)
+    for level in levels:
+        print(" ", level)
+    both = inversion_of(case, levels, default(), folder, Survey(), say=progress)
+    gaps, points = grid_of(both)
+    for name, posterior in (("exponents alone", both.without_d2()), ("with dimensions", both)):
+        heights = posterior.log_likelihoods(points)
+        share = np.exp(heights - heights.max()).reshape(len(gaps), -1).sum(axis=1)
+        share /= share.sum()
+        right = share[np.abs(gaps / TRUE_GAP["x0"] - 1.0) < NEAR].sum()
+        print(f"{name}: {right:.2f} within {NEAR:.0%} of the true gap {TRUE_GAP['x0']:g} m, {1 - right:.2f} elsewhere")
+
+
+def grid_of(posterior: Inversion) -> tuple[Array, Array]:
+    """Return the gaps of a grid over the prior, and its points."""
+    ends = [np.linspace(f.low, f.high, n) for f, n in zip(posterior.free, (400, 100), strict=True)]
+    return ends[0], np.stack(np.meshgrid(*ends, indexing="ij"), axis=-1).reshape(-1, 2)
+
+
+def progress(done: int, cells: int) -> None:
+    """Say on the terminal how far the map is."""
+    print(f"\rmap: {done} of {cells} cells", end="\n" if done == cells else "", file=sys.stderr, flush=True)
+
+
 def main() -> None:
     """Run what is asked for."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("what", choices=("errors",))
-    parser.add_argument("--machines", type=int, default=60)
+    parser.add_argument("what", choices=("errors", "machine", "decide", "table2"))
+    parser.add_argument("--machines", type=int, default=240, help="recordings for `errors`")
     parser.add_argument("--keep", type=Path, help="file for the rows of `errors`")
+    parser.add_argument("--folder", type=Path, default=Path("levels"), help="where the maps are kept")
     args = parser.parse_args()
-    errors(args.machines, args.keep)
+    if args.what == "errors":
+        errors(args.machines, args.keep)
+        return
+    {"machine": machine, "decide": decide, "table2": table2}[args.what](args.folder)
 
 
 if __name__ == "__main__":

@@ -1,19 +1,23 @@
 """Levels inverted through a map whose answer is known: what is looked up where, and what counts for what."""
 
 import math
+from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 
-from lostmotion.case import Prior
+from lostmotion.case import Case, Prior
 from lostmotion.case.levels import Level, Measured
 from lostmotion.errors import CaseError, DataError
 from lostmotion.inference.free import Free
 from lostmotion.registry import default
 from lostmotion.study.atlas import CHAOTIC, PERIODIC, Atlas
-from lostmotion.study.inversion import Inversion, grouped, likelihood_of, predicted
-from lostmotion.study.map import RING
+from lostmotion.study.inversion import WEAK, Inversion, grouped, likelihood_of, predicted
+from lostmotion.study.map import RING, Map
 from lostmotion.study.numbers import Law, Power, law_of
+from lostmotion.workflow.levels import Survey, _free, inversion_of, wanted_of
+from lostmotion.workflow.mapping import How, Request, make_map, study_of
 
 ALPHA, ZETA = np.linspace(0.2, 2.0, 37), np.linspace(0.01, 0.1, 10)
 
@@ -90,7 +94,7 @@ def test_coexisting_attractors_leave_both_motions_possible():
     kind[:, 0] = PERIODIC
     mixed = Atlas(made.names, made.spacings, made.points, kind, *(getattr(made, k) for k in
                   ("exponent", "exponent_sd", "dimension", "dimension_sd")))  # fmt: skip
-    inside = np.flatnonzero((made.kind == CHAOTIC).all(axis=1))
+    inside = np.flatnonzero((2.0 * math.pi * made.exponent > WEAK).all(axis=1))
     seen = {motion: likelihood_of(Level("a", 1.0, 1.0, motion), mixed)[inside] for motion in ("periodic", "chaotic")}
     assert np.allclose(seen["periodic"] / seen["chaotic"], 1.0 / 3.0, atol=0.15)
 
@@ -159,8 +163,6 @@ def test_levels_of_one_frequency_share_a_map():
 
 
 def test_priors_are_cut_where_a_map_must_end():
-    from lostmotion.workflow.levels import _free
-
     model = default().make("model", "lin_backlash")
     half = _free("c", Prior(half_sd=2.0), model)
     assert 0.0 < half.low < 0.05
@@ -178,10 +180,47 @@ def test_a_parameter_that_is_neither_known_nor_free_is_named():
 
 
 def test_a_map_without_dimensions_is_refused(tmp_path):
-    from lostmotion.study.map import Map
-    from lostmotion.workflow.mapping import How, Request, make_map, study_of
-
     request = Request("lin_backlash", ("alpha=0.3:0.6:2", "zeta=0.02:0.05:2"), 100, 20, 1)
     make_map(study_of(request, default()), tmp_path / "map.nc", How(), lambda _done, _all: None)
     with pytest.raises(DataError, match="section_dimension"):
         Atlas.of(Map.open(tmp_path / "map.nc"))
+
+
+def test_an_open_stiffness_adds_the_frequency_ratio_to_the_map(tmp_path):
+    levels = (Level("a", 0.5, 0.2, "chaotic", unit="N"), Level("b", 0.4, 0.2, "periodic", unit="N"))
+    estimate = {"x0": Prior(low=0.8, high=1.3), "c": Prior(low=0.03, high=0.06), "k0": Prior(median=1.0, sd_log=0.02)}
+    case = Case("open", Path(), (), "lin_backlash", {"m": 1.0}, estimate, {}, (), "none", levels=levels)
+    survey = Survey(alpha=16, zeta=4, ratios=3, periods=100, transient=60, starts=1)
+    made = inversion_of(case, levels, default(), tmp_path, survey)
+    assert made.atlases[0].names == ("alpha", "zeta", "frequency_ratio")
+    assert made.atlases[0].shape == (8, 2, 3)
+    inside = made.log_likelihoods(np.array([[1.0, 0.04, 0.0], [0.8, 0.03, made.free[2].low]]))
+    assert np.isfinite(inside).all()
+    assert set(made.numbers(np.array([[1.0, 0.04, 0.0]]))) == {"zeta"}
+    again = inversion_of(case, levels, default(), tmp_path, Survey(maps=tuple(tmp_path.glob("*.nc"))))
+    assert np.array_equal(again.log_likelihoods(np.array([[1.0, 0.04, 0.0]])), inside[:1])
+    wide = replace(case, estimate={**estimate, "x0": Prior(low=0.5, high=1.3)})
+    with pytest.raises(DataError, match="priors ask for"):
+        inversion_of(wide, levels, default(), tmp_path, Survey(maps=tuple(tmp_path.glob("*.nc"))))
+
+
+@pytest.mark.parametrize(
+    ("known", "estimate", "unit", "says"),
+    [
+        ({"m": 1.0, "k0": 1.0, "c": 0.1}, {"x0": Prior(low=0.5, high=1.0), "k1": Prior(low=0.1, high=0.2)}, "N", "k1"),
+        ({"m": 1.0, "k0": 1.0, "c": 0.1}, {"x0": Prior(low=0.5, high=1.0)}, "rad", "is in N"),
+        ({"m": 1.0, "c": 0.1}, {"x0": Prior(low=0.5, high=1.0)}, "N", "needs k0"),
+        ({"m": 1.0, "k0": 1.0, "c": 0.1}, {"x0": Prior(low=-2.0, high=-1.0)}, "N", "positive values"),
+        (
+            {"m": 1.0, "k0": 1.0, "c": 0.1},
+            {"x0": Prior(low=0.5, high=1.0), "zeta": Prior(low=0.1, high=0.2)},
+            "N",
+            "both c and zeta",
+        ),
+    ],
+)
+def test_cases_that_cannot_be_inverted_are_refused_in_a_sentence(known, estimate, unit, says):
+    levels = (Level("a", 0.5, 0.2, "chaotic", unit=unit),)
+    case = Case("bad", Path(), (), "lin_backlash", known, estimate, {}, (), "none", levels=levels)
+    with pytest.raises(CaseError, match=says):
+        wanted_of(case, levels, default())

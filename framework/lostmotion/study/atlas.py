@@ -29,7 +29,8 @@ SURE = 2.0
 """Standard errors by which an exponent must lie above zero."""
 DIMENSION = "section_dimension"
 RATIO = "frequency_ratio"
-_EDGE = 1e-9
+_EDGE = 5e-3
+"""Share of an axis by which a point may lie beyond its end: an amplitude that was read is not quite the nominal one."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,7 +98,7 @@ class Atlas:
         return np.hypot(np.nan_to_num(self.dimension_sd), ROUGH * self._rough(self.dimension)[:, None])
 
     def _rough(self, values: Array) -> Array:
-        """Return how far the mean over chaotic starts of each cell (cells,) lies off the line through its neighbours."""
+        """Return how far the mean over chaotic starts of each cell (cells,) lies off the line through those around."""
         kept = (self.kind == CHAOTIC) & np.isfinite(values)
         many = kept.sum(axis=1)
         mean = np.where(many > 0, np.where(kept, values, 0.0).sum(axis=1) / np.maximum(many, 1), np.nan)
@@ -111,12 +112,15 @@ class Atlas:
         usual = float(np.median(total[known])) if known.any() else 0.0
         return np.where(known, total, usual).ravel()
 
-    def places(self, numbers: Mapping[str, Array]) -> Places:
-        """Return where points with these `numbers` (n,), one array for each axis, lie."""
+    def places(self, numbers: Mapping[str, Array], sheet: NDArray[np.intp] | int = 0) -> Places:
+        """Return where points with these `numbers` (n,), one array for each axis, lie.
+
+        Tables may be stacked one behind the other: `sheet` (n,) says in which of them each point is looked up.
+        """
         lower, shares, inside = [], [], np.ones(1, dtype=bool)
         for name, spacing, points in zip(self.names, self.spacings, self.points, strict=True):
             here = _turned(warped(np.asarray(numbers[name], dtype=float), spacing), spacing)
-            slack = _EDGE * (abs(points[0]) + abs(points[-1]))
+            slack = _EDGE * (points[-1] - points[0]) + 1e-9 * abs(points[0])
             inside = inside & (here >= points[0] - slack) & (here <= points[-1] + slack)
             i = np.clip(np.searchsorted(points, here, side="right") - 1, 0, max(len(points) - 2, 0))
             step = points[i + 1] - points[i] if len(points) > 1 else np.ones(len(here))
@@ -127,8 +131,9 @@ class Atlas:
             at = [np.minimum(i + c, n - 1) for i, c, n in zip(lower, corner, self.shape, strict=True)]
             cells.append(np.ravel_multi_index(at, self.shape))
             weights.append(np.prod([s if c else 1.0 - s for s, c in zip(shares, corner, strict=True)], axis=0))
-        square = np.ravel_multi_index(lower, self.shape)
-        return Places(np.array(cells), np.array(weights), square, np.broadcast_to(inside, square.shape))
+        behind = np.asarray(sheet) * len(self.kind)
+        square = behind + np.ravel_multi_index(lower, self.shape)
+        return Places(behind + np.array(cells), np.array(weights), square, np.broadcast_to(inside, square.shape))
 
     def around(self, table: Array) -> Array:
         """Return the mean (cells,) of a table over the ring about the square that begins at each cell."""

@@ -23,16 +23,21 @@ import numpy as np
 from lostmotion.case.levels import Level, Measured
 from lostmotion.contracts import Array
 from lostmotion.inference.free import Free
-from lostmotion.study.atlas import CHAOTIC, MISSING, PERIODIC, UNSURE, Atlas, Places
+from lostmotion.study.atlas import CHAOTIC, MISSING, PERIODIC, Atlas, Places
 from lostmotion.study.numbers import Law
 
 SEEN = ("periodic", "chaotic", None)
-MISREAD = {PERIODIC: (0.94, 0.02, 0.04), CHAOTIC: (0.03, 0.87, 0.10), UNSURE: (0.40, 0.20, 0.40)}
+WEAK = 0.5
+"""Exponents (nat per period of the drive) below which chaos is weak: a recording may show nothing of it."""
+MISREAD = {
+    "periodic": (0.98, 0.01, 0.01),
+    "chaotic": (0.01, 0.96, 0.03),
+    "weak": (0.20, 0.60, 0.20),
+    "unsure": (0.45, 0.35, 0.20),
+}
 """How often a motion of each kind is seen as periodic, as chaotic, or as neither: `benchmarks/levels.py errors`."""
 TAIL = 5.0
 """Degrees of freedom of the errors of exponents and dimensions (Student's t): some readings are far off."""
-OWN = (0.07, 0.04)
-"""Errors of a reading that no interval holds: of an exponent as a share of its value, and of a dimension."""
 BROAD = 0.5
 """Density of the dimension of a motion that is misread: evenly from 1 to 3."""
 
@@ -56,21 +61,23 @@ class Inversion:
 
     def log_likelihoods(self, points: Array) -> Array:
         """Return the log-likelihoods (count,) at coordinates (count, parameters); -inf outside of the maps."""
-        total = np.zeros(len(points))
+        logs, total = self._logs(points), np.zeros(len(points))
         with np.errstate(divide="ignore"):
-            for k in range(len(self.levels)):
-                total += np.log(self.likelihood(k, self.places(k, points)))
+            for i, (numbers, table, ring) in enumerate(self._tables):
+                places = self._places(i, numbers, logs)
+                found = self.atlases[i].blended(table, ring, places)
+                total += np.log(np.where(places.inside, found, 0.0)).reshape(len(numbers), -1).sum(axis=0)
         return total
-
-    def likelihood(self, k: int, places: Places) -> Array:
-        """Return the likelihood (count,) of level k at places in its map."""
-        blended = self.atlases[self.which[k]].blended(*self._tables[k], places)
-        return np.where(places.inside, blended, 0.0)
 
     def places(self, k: int, points: Array) -> Places:
         """Return where coordinates (count, parameters) lie in the map of level k."""
-        logs = self._logs(np.atleast_2d(points))
-        return self.atlases[self.which[k]].places({name: law(logs) for name, law in self.laws[k].items()})
+        return self._places(self.which[k], [k], self._logs(np.atleast_2d(points)))
+
+    def _places(self, i: int, levels: Sequence[int], logs: Array) -> Places:
+        """Return where logarithms (parameters, count) lie at some levels in map i, one level after the other."""
+        names, atlas = self.atlases[i].names, self.atlases[i]
+        numbers = {name: np.concatenate([self.laws[k][name](logs) for k in levels]) for name in names}
+        return atlas.places(numbers, np.repeat(np.arange(len(levels)), logs.shape[1]))
 
     def _logs(self, points: Array) -> Array:
         """Return the logarithms (parameters, count) of the parameters at coordinates."""
@@ -78,10 +85,14 @@ class Inversion:
             return np.stack([points[:, i] if f.log else np.log(points[:, i]) for i, f in enumerate(self.free)])
 
     @cached_property
-    def _tables(self) -> tuple[tuple[Array, Array], ...]:
-        """The likelihood of each level in each cell, and its mean over the ring around each square."""
-        tables = [likelihood_of(level, self.atlases[i]) for level, i in zip(self.levels, self.which, strict=True)]
-        return tuple((t, self.atlases[i].around(t)) for t, i in zip(tables, self.which, strict=True))
+    def _tables(self) -> tuple[tuple[list[int], Array, Array], ...]:
+        """For each map the levels that are looked up there, their likelihood in each cell, and in the rings around."""
+        found = []
+        for i, atlas in enumerate(self.atlases):
+            levels = [k for k, at in enumerate(self.which) if at == i]
+            tables = [likelihood_of(self.levels[k], atlas) for k in levels]
+            found.append((levels, np.concatenate(tables), np.concatenate([atlas.around(t) for t in tables])))
+        return tuple(found)
 
     def numbers(self, points: Array) -> dict[str, Array]:
         """Return the dimensionless numbers (count,) of the machine at coordinates; those of the drive left out."""
@@ -96,9 +107,12 @@ class Inversion:
 def likelihood_of(level: Level, atlas: Atlas) -> Array:
     """Return the likelihood (cells,) of what was seen at a level: the mean over the starts of each cell."""
     column = SEEN.index(_motion(level))
-    seen = np.zeros(atlas.kind.shape)
-    for kind, shares in MISREAD.items():
-        seen[atlas.kind == kind] = shares[column]
+    chaotic = atlas.kind == CHAOTIC
+    weak = chaotic & (2.0 * math.pi * atlas.exponent < WEAK)
+    kinds = {"periodic": atlas.kind == PERIODIC, "chaotic": chaotic & ~weak, "weak": weak}
+    seen = np.full(atlas.kind.shape, MISREAD["unsure"][column])
+    for name, where in kinds.items():
+        seen[where] = MISREAD[name][column]
     if level.lyapunov is not None or level.d2 is not None:
         seen *= _measured(level, atlas)
     known = atlas.kind != MISSING
@@ -120,10 +134,10 @@ def _measured(level: Level, atlas: Atlas) -> Array:
     if level.lyapunov is not None:
         usual = float(np.nanmedian(np.where(chaotic, atlas.exponent, np.nan))) if chaotic.any() else 0.1
         own = Measured(level.lyapunov.value / level.omega, level.lyapunov.sd / level.omega)
-        near = _density(own, atlas.exponent, np.hypot(atlas.exponent_error, OWN[0] * np.abs(atlas.exponent)))
+        near = _density(own, atlas.exponent, atlas.exponent_error)
         density *= np.where(chaotic, near, 0.5 / max(usual, 1e-9))
     if level.d2 is not None:
-        near = _density(level.d2, atlas.dimension, np.hypot(atlas.dimension_error, OWN[1]))
+        near = _density(level.d2, atlas.dimension, atlas.dimension_error)
         density *= np.where(chaotic & np.isfinite(near), near, BROAD)
     return density
 

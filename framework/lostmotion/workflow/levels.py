@@ -34,8 +34,8 @@ TAILS = 5e-4
 """Share of a prior that is cut off at either end, since a map has ends."""
 SMALLEST = 5e-3
 """Where a prior begins at zero: the least value, as a share of the largest."""
-ROOM = 1e-3
-"""The maps go so far beyond what the priors ask for."""
+STEP = 0.01
+"""The ends of a map are rounded outwards by steps of this share, so that levels read again find it again."""
 ALIKE = 2e-3
 """Share by which the frequency ratio of a map that is given may differ from that of the case."""
 FIRST = 4000
@@ -240,14 +240,19 @@ def request_for(wanted: Wanted, group: Sequence[int], survey: Survey) -> Request
             axes.append(f"{name}={low!r}:{low!r}:1")
             continue
         spacing = ":inverse" if name == "alpha" else ""
-        axes.append(f"{name}={low / (1 + ROOM)!r}:{high * (1 + ROOM)!r}:{survey.points(name, RATIO in names)}{spacing}")
+        ends = f"{_outward(low, math.floor)!r}:{_outward(high, math.ceil)!r}"
+        axes.append(f"{name}={ends}:{survey.points(name, RATIO in names)}{spacing}")
     fixed = {key: value for key, value in wanted.fixed.items() if " " not in key and value}
     if RATIO not in names:
-        fixed[RATIO] = float(np.mean([wanted.fixed[f"{RATIO} {k}"] for k in group]))
+        fixed[RATIO] = float(f"{np.mean([wanted.fixed[f'{RATIO} {k}'] for k in group]):.5g}")
     return Request(
         wanted.model.name, tuple(axes), survey.periods, survey.transient, survey.starts,
         sets=tuple(f"{key}={value!r}" for key, value in fixed.items()), quantities=(DIMENSION,), seed=survey.seed,
     )  # fmt: skip
+
+
+def _outward(end: float, rounded: Callable[[float], int]) -> float:
+    return float(f"{math.exp(STEP * rounded(math.log(end) / STEP)):.6g}")
 
 
 def _given(wanted: Wanted, group: Sequence[int], survey: Survey) -> Map:
@@ -273,7 +278,7 @@ def _unfit(found: Map, wanted: Wanted, group: Sequence[int]) -> str:
     for name in names:
         low, high = wanted.span(group, name)
         ends = found.dataset[name].to_numpy()
-        if not (ends[0] <= low * (1 + ROOM) and ends[-1] * (1 + ROOM) >= high):
+        if not (ends[0] <= low * (1.0 + ALIKE) and ends[-1] * (1.0 + ALIKE) >= high):
             return f"goes from {name} = {ends[0]:.4g} to {ends[-1]:.4g}, and the priors ask for {low:.4g} to {high:.4g}"
     if RATIO not in names:
         ratio = wanted.fixed[f"{RATIO} {group[0]}"]

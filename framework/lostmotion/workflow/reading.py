@@ -26,9 +26,9 @@ from lostmotion.workflow.motion import LOUDEST, returned
 EMBEDDER, EXPONENT, DIMENSION, METER = "ami_cao", "lyapunov_kantz", "correlation_dimension", "noise_level"
 PAIRS = 8_000_000
 """Pairs of points for a dimension: a fifth of the time of `analyse`, and an interval that is hardly wider."""
-SCALE = {"lyapunov": 1.0, "d2": 1.0}
-"""What the standard deviations that the two estimators claim are multiplied by: see `benchmarks/levels.py errors`."""
-
+ERRORS = {"lyapunov": (0.05, 0.45, 0.07), "d2": (0.01, 0.75, 0.033)}
+"""Of each estimator: how much too large it is as a share of its value; by what the standard deviation that it claims is
+to be multiplied; and an error beside that, as a share of the value. See `benchmarks/levels.py errors`."""
 HARMONIC = 0.1
 """Share of the excitation (standard deviation) that may be no sine of one frequency: its noise and small harmonics."""
 
@@ -90,8 +90,8 @@ def read_level(signals: Signals, registry: Registry, rng: np.random.Generator) -
     if exponent.status not in ("ok", "uncertain") or exponent.low <= 0.0:
         return Read(level, exponent)
     dimension = measured(DIMENSION, pairs=PAIRS)
-    found = _measured(dimension, SCALE["d2"]) if dimension.ok else None
-    level = replace(level, motion="chaotic", lyapunov=_measured(exponent, SCALE["lyapunov"]), d2=found)
+    found = corrected("d2", dimension) if dimension.ok else None
+    level = replace(level, motion="chaotic", lyapunov=corrected("lyapunov", exponent), d2=found)
     return Read(level, exponent, dimension)
 
 
@@ -100,8 +100,11 @@ def _loudness(noise: Estimate) -> float:
     return min(noise.high, LOUDEST) if math.isfinite(noise.high) else 0.0
 
 
-def _measured(estimate: Estimate, scale: float) -> Measured:
-    return Measured(estimate.value, max(scale * (estimate.high - estimate.low) / 3.92, 1e-9))
+def corrected(name: str, estimate: Estimate) -> Measured:
+    """Return an estimate without its bias, and with the standard deviation that it has been found to have."""
+    bias, scale, share = ERRORS[name]
+    value, claimed = estimate.value / (1.0 + bias), (estimate.high - estimate.low) / 3.92
+    return Measured(value, math.hypot(scale * claimed, share * estimate.value))
 
 
 def harmonic_of(signals: Signals) -> tuple[float, float]:

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from lostmotion.case import Case
 from lostmotion.contracts import Array, Model
 from lostmotion.flow import Harmonic, flow_of
 from lostmotion.registry import Registry
@@ -47,17 +48,23 @@ def rehearsed(
 
 
 def rehearsed_levels(
+    case: Case,
     registry: Registry,
-    machine: tuple[str, Mapping[str, float]],
+    truth: Mapping[str, float],
     drives: Sequence[tuple[float, float]],
-    bench: Bench,
     rng: np.random.Generator,
+    *,
+    bench: Bench | None = None,
 ) -> tuple[Read, ...]:
-    """Return levels read from recordings of a machine (model, true parameters) at drives (amplitude, omega)."""
-    model: Model = registry.make("model", machine[0])
+    """Return levels read from recordings of a case's machine with true parameters at drives (amplitude, omega).
+
+    `truth` holds values of what the case estimates, the damping ratio `zeta` among them if that is free.
+    """
+    model: Model = registry.make("model", case.model)
+    values = true_values(model, {**case.known, **truth})
     found = []
     for (amplitude, omega), own in zip(drives, rng.spawn(len(drives)), strict=True):
-        signals, _ = rehearsed(model, machine[1], Harmonic(amplitude, omega), bench, own)
+        signals, _ = rehearsed(model, values, Harmonic(amplitude, omega), bench or Bench(), own)
         found.append(read_level(signals, registry, own))
     return tuple(found)
 
