@@ -85,7 +85,9 @@ def test_base_moves_with_its_exact_velocity():
     t = table.columns["time"]
     np.testing.assert_allclose(table.columns["base_position"], 0.05 * np.cos(10.0 * t), atol=1e-15)
     np.testing.assert_allclose(table.columns["base_velocity"], -0.5 * np.sin(10.0 * t), atol=1e-15)
-    assert list(table.columns) == ["time", "base_position", "base_velocity", "position", "velocity", "acceleration"]
+    seen = ["position", "velocity", "acceleration", "force"]
+    assert list(table.columns) == ["time", "base_position", "base_velocity", *seen]
+    np.testing.assert_allclose(table.columns["force"], 0.05 * table.columns["acceleration"], atol=1e-12)
     assert table.units["base_velocity"] == "rad/s"
 
 

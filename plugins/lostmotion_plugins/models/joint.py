@@ -26,9 +26,10 @@ class RobotJoint(Model):
     """J q'' + c (q' - qb') + F(q - qb) + mgl sin q = 0: a link q moved by a base motion qb through a gap.
 
     The contact F is zero inside the gap |q - qb| < x0 and k0 (|q - qb| - x0) beyond. Encoder 1 reads qb (the input),
-    encoder 2 reads q (the channel "position"). The angle is measured from where the link hangs straight down; mgl = 0
-    for a link that turns in the horizontal plane. The dimensionless numbers are those of such a link: weight acts on
-    the angle itself and not on its ratio to the gap.
+    encoder 2 reads q (the channel "position"), a torque sensor what goes through contact and damper (the channel
+    "force"; a term at the place "base" is not part of it). The angle is measured from where the link hangs straight
+    down; mgl = 0 for a link that turns in the horizontal plane. The dimensionless numbers are those of such a link:
+    weight acts on the angle itself and not on its ratio to the gap.
     """
 
     name: ClassVar[str] = "robot_joint"
@@ -36,7 +37,7 @@ class RobotJoint(Model):
     motion = "rotation"
     states = ("position", "velocity")
     inputs = ("base_position", "base_velocity")
-    channels = ("position", "velocity", "acceleration")
+    channels = ("position", "velocity", "acceleration", "force")
     params = (
         Param("m", "moment of inertia of the link", INERTIA, low=0.0, scale="log", aliases=("J", "inertia")),
         Param("c", "viscous damping in the joint", DAMPING, low=0.0, scale="log", aliases=("damping",)),
@@ -70,9 +71,16 @@ class RobotJoint(Model):
 
     @staticmethod
     def observe(t: float, y: Array, dydt: Array, u: Array, p: Array, seen: Array) -> None:
+        gap = u[0] - y[0]
+        contact = 0.0
+        if gap > p[3]:
+            contact = p[2] * (gap - p[3])
+        elif gap < -p[3]:
+            contact = p[2] * (gap + p[3])
         seen[0] = y[0]
         seen[1] = y[1]
         seen[2] = dydt[1]
+        seen[3] = p[1] * (u[1] - y[1]) + contact
 
     @classmethod
     def exact(cls, values: Mapping[str, float], drive: Drive, start: Array | None) -> Flow | None:
