@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -67,11 +68,22 @@ def task_of(fits: Sequence[Fit], digest: str = "") -> Task:
     highest = max(found, key=lambda f: f.local.log_posterior)
     cloud = Cloud.of_modes(
         np.array([f.theta for f in found]),
-        [f.local.covariance for f in found],
+        [within(f.local.covariance, problem.free) for f in found],
         mode_weights(np.array([f.log_evidence for f in found])),
         problem.free,
     )
     return Task(problem, cloud, tuple(_shown(f, problem) for f in problem.free), highest.theta, digest)
+
+
+def within(covariance: Array, free: tuple[Free, ...]) -> Array:
+    """Return the covariance with no deviation wider than that of a uniform density between the bounds.
+
+    The data may be silent about a parameter, as about a measurement noise far below the random force: its variance
+    would come out as good as infinite, and no draw would fall between the bounds.
+    """
+    widest = np.array([f.high - f.low for f in free]) / math.sqrt(12.0)
+    shrink = np.minimum(1.0, widest / np.sqrt(np.maximum(np.diag(covariance), 1e-300)))
+    return np.asarray(covariance * np.outer(shrink, shrink))
 
 
 def mode_weights(log_evidence: Array) -> Array:
