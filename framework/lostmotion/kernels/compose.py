@@ -24,6 +24,7 @@ import numba
 import numpy as np
 
 from lostmotion.errors import ContractError
+from lostmotion.kernels.stack import slow_square, slow_vector, square, vector
 from lostmotion.kernels.views import slow_view, view
 
 BARE: dict[str, Any] = {"error_model": "numpy", "nogil": True, "_nrt": False}
@@ -111,6 +112,7 @@ def _text(plan: Blueprint, template: str = "template.txt") -> str:
     values = {
         "@N@": str(plan.n),
         "@CHANNELS@": str(plan.channels),
+        "@WIDE@": str(max(plan.n, plan.channels)),
         "@NOISY@": str(plan.n - 1 if plan.latent else first.row),
         "@NOISE_INERTIA@": "1.0" if plan.latent else f"p[{first.inertia}]",
         "@LAWS@": "\n".join(laws),
@@ -163,13 +165,13 @@ def _cached(text: str, parts: dict[str, Callable[..., Any]]) -> Path:
 def build(plan: Blueprint, compiled: bool = True) -> Compiled:
     """Return the kernel of `plan`, compiled, or as the plain Python twin of the same text."""
     text = _text(plan)
-    space, n, wide = _defined(plan, text, compiled), plan.n, max(plan.n, plan.channels)
+    space = _defined(plan, text, compiled)
 
     def track(*args: Any) -> int:
-        return int(space["track"](*args, np.zeros((13, wide)), np.zeros((5, n, n))))
+        return int(space["track"](*args))
 
     def run(*args: Any) -> int:
-        return int(space["run"](*args, np.zeros((6, n))))
+        return int(space["run"](*args))
 
     def derivative(*args: Any) -> None:
         space["derivative"](*args)
@@ -192,11 +194,13 @@ def _defined(plan: Blueprint, text: str, compiled: bool) -> dict[str, Any]:
     """Return the functions that `text` defines, compiled or plain."""
     parts = _parts(plan)
     if not compiled:
-        return _module(text, "<slow twin>", {**parts, "jit": lambda f: f, "view": slow_view})
+        slow = {"jit": lambda f: f, "view": slow_view, "vector": slow_vector, "square": slow_square}
+        return _module(text, "<slow twin>", {**parts, **slow})
     path = _cached(text, parts)
     part = numba.njit(**BARE)
     whole = numba.njit(**BARE, cache=True)
-    return _module(text, str(path), {**{name: part(f) for name, f in parts.items()}, "jit": whole, "view": view})
+    fast = {"jit": whole, "view": view, "vector": vector, "square": square}
+    return _module(text, str(path), {**{name: part(f) for name, f in parts.items()}, **fast})
 
 
 def _module(text: str, path: str, parts: dict[str, Any]) -> dict[str, Any]:
