@@ -13,9 +13,8 @@ from lostmotion.contracts import Term
 from lostmotion.errors import CaseError, nearest
 from lostmotion.inference.candidates import fit_with, screen, slopes_of
 from lostmotion.inference.fit import Fit, maximise, restarted
-from lostmotion.inference.modes import distinct
 from lostmotion.inference.selection import significant_random_force
-from lostmotion.inference.setup import SLACK, WITHIN, frees_for, modes, polish, problem_of, separated
+from lostmotion.inference.setup import SHARED, frees_for, modes, polished, problem_of, separated
 from lostmotion.registry import Registry
 from lostmotion.stages.diagnose import SIGNIFICANT
 from lostmotion.stages.identify import Identification, Plan, Task, identify, task_of
@@ -72,24 +71,18 @@ def best_fits(prepared: Prepared, terms: tuple[Term, ...], rng: np.random.Genera
     """
     case = prepared.case
     bare = replace(case, estimate={k: v for k, v in case.estimate.items() if "." not in k})
-    found = modes(problem_of(System(prepared.model, terms), bare, prepared.tracks, jobs=jobs), rng)
-    done = [_finished(fit, terms, case) for fit in found]
-    if len(done) == 1:
-        return done
-    finest = max((fit.problem for fit in done), key=lambda p: p.nsub)
-    again = [f if f.problem.nsub == finest.nsub else maximise(finest, f.theta) for f in done]
-    hills = distinct(again, SLACK) or again[:1]
-    top = max(f.log_evidence for f in hills)
-    return sorted((f for f in hills if f.log_evidence >= top - WITHIN), key=lambda f: -f.log_evidence)
+    problem = problem_of(System(prepared.model, terms), bare, prepared.tracks, jobs=jobs)
+    found = modes(problem, rng, sensor=SHARED if terms else case.sensor)
+    return polished([_with_terms(fit, terms, case) for fit in found])
 
 
-def _finished(fit: Fit, terms: tuple[Term, ...], case: Case) -> Fit:
-    """Return the fit with the terms, the priors and the sensor of the case, in fine integration steps."""
+def _with_terms(fit: Fit, terms: tuple[Term, ...], case: Case) -> Fit:
+    """Return the fit with the terms, and with the priors and the sensor that the case gives."""
     for term in terms:
         fit = fit_with(fit, screen(fit, slopes_of(fit), key_of(term)))
     if any("." in key for key in (*case.known, *case.estimate)):
         fit = _as_the_case_says(fit, case)
-    return polish(separated(fit, case.sensor))
+    return separated(fit, case.sensor)
 
 
 def _as_the_case_says(fit: Fit, case: Case) -> Fit:
