@@ -191,7 +191,13 @@ def test_page_shows_what_was_found(tmp_path):
     save_json(tmp_path / "calibration.json", {**head, **summary(found), "provenance": {}})
     _save_csv(tmp_path / "machines.csv", found)
     page = write_calibration(tmp_path).read_text(encoding="utf-8")
-    for words in ("T &amp; co", "Calibrated", "Are the ranks uniform?", "Hardest machines", "The &lt;motion&gt; left"):
+    for words in (
+        "T &amp; co",
+        "No fault found",
+        "Are the ranks uniform?",
+        "Hardest machines",
+        "The &lt;motion&gt; left",
+    ):
         assert words in page
     assert "<script" not in page
     assert len((tmp_path / "machines.csv").read_text().splitlines()) == 62

@@ -94,6 +94,7 @@ def render(calibration: Calibration) -> str:
         title=str(facts["title"]),
         model=str(facts["model"]),
         passes=bool(facts["passes"]),
+        badge=_badge(facts),
         answer=[str(part) for part in facts["says"]],
         facts=_facts(calibration),
         head=_head(calibration),
@@ -103,6 +104,13 @@ def render(calibration: Calibration) -> str:
         lost=list(_lost(facts)),
         provenance=json.dumps(facts["provenance"], indent=2, ensure_ascii=False),
     )
+
+
+def _badge(facts: Mapping[str, Any]) -> str:
+    """Return the verdict in two words; of few machines nothing better can be said than that no fault was found."""
+    if not facts["passes"]:
+        return "Not calibrated"
+    return "No fault found" if facts["few"] else "Calibrated"
 
 
 def _figures(calibration: Calibration) -> Iterator[tuple[str, str, Figure, str]]:

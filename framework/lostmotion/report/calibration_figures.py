@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
 from lostmotion.report import style
 from lostmotion.report.words import readable, with_unit
@@ -71,6 +72,7 @@ def histograms(found: Sequence[Found], band: Mapping[str, float]) -> Figure:
         axes.set_xlim(0, 100)
         axes.set_ylim(0, 1.08 * max(counts.max(), band["high"]))
         style.few_ticks(axes, 5, 4)
+        axes.yaxis.set_major_locator(MaxNLocator(4, integer=True))
         axes.set_xlabel("rank of the truth")
     panels[0].set_ylabel("machines")
     return figure

@@ -26,6 +26,8 @@ def _opening(told: Row, wrong: Sequence[str], *, passes: bool) -> list[str]:
     count = told["machines"] - len(told["unconverged"]) - len(told["failed"])
     if not count:
         return ["Not one machine has a posterior."]
+    if passes and count < FEW:
+        return [f"Nothing speaks against the intervals, over {count} machines."]
     if passes:
         return [f"The intervals hold what they promise, over {count} machines: ranks are uniform, and intervals cover."]
     if not wrong:
