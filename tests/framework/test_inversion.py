@@ -16,7 +16,7 @@ from lostmotion.study.atlas import CHAOTIC, PERIODIC, Atlas
 from lostmotion.study.inversion import WEAK, Inversion, grouped, likelihood_of, predicted
 from lostmotion.study.map import RING, Map
 from lostmotion.study.numbers import Law, Power, law_of
-from lostmotion.workflow.levels import Survey, _free, inversion_of, wanted_of
+from lostmotion.workflow.levels import Survey, _free, derived, inversion_of, quantifier_task, wanted_of
 from lostmotion.workflow.mapping import How, Request, make_map, study_of
 
 ALPHA, ZETA = np.linspace(0.2, 2.0, 37), np.linspace(0.01, 0.1, 10)
@@ -202,6 +202,30 @@ def test_an_open_stiffness_adds_the_frequency_ratio_to_the_map(tmp_path):
     wide = replace(case, estimate={**estimate, "x0": Prior(low=0.5, high=1.3)})
     with pytest.raises(DataError, match="priors ask for"):
         inversion_of(wide, levels, default(), tmp_path, Survey(maps=tuple(tmp_path.glob("*.nc"))))
+
+
+def test_a_task_is_ready_to_be_sampled_and_changes_with_what_was_seen(tmp_path):
+    levels = (Level("a", 0.5, 0.2, "chaotic", unit="N"), Level("b", 0.39, 0.2, "periodic", unit="N"))
+    estimate = {"x0": Prior(low=0.8, high=1.3, scale="log"), "zeta": Prior(low=0.015, high=0.03)}
+    case = Case("task", Path(), (), "lin_backlash", {"m": 1.0, "k0": 1.0}, estimate, {}, (), "none", levels=levels)
+    survey = Survey(alpha=16, zeta=4, periods=100, transient=60, starts=1)
+    told = []
+    task = quantifier_task(case, default(), tmp_path, np.random.default_rng(1), survey, say=lambda *x: told.append(x))
+    assert told[-1] == (64, 64)
+    assert [(s.name, s.unit, s.power) for s in task.shown] == [("x0", "m", 1.0), ("zeta", "1", 0.0)]
+    assert np.isfinite(task.posterior.log_likelihoods(task.maximum[None])).all()
+    assert np.allclose(derived(task.posterior, task.maximum[None]).get("zeta", 0.0), 0.0)
+    other = replace(case, levels=(levels[0],))
+    again = quantifier_task(
+        other, default(), tmp_path, np.random.default_rng(1), Survey(maps=(*tmp_path.glob("*.nc"),))
+    )
+    assert again.digest != task.digest
+
+
+def test_a_case_without_levels_is_told_what_is_wanted(tmp_path):
+    case = Case("none", Path(), (), "lin_backlash", {}, {}, {}, (), "none")
+    with pytest.raises(CaseError, match=r"neither \[\[levels\]\] nor"):
+        quantifier_task(case, default(), tmp_path, np.random.default_rng(1))
 
 
 @pytest.mark.parametrize(

@@ -154,6 +154,24 @@ def test_gap_and_damping_of_a_simulated_machine(tmp_path):
 
 
 @pytest.mark.slow
+def test_dimension_decides_between_two_gaps_that_the_exponents_leave(tmp_path):
+    """The levels are those read from recordings of a machine with x0 = 3.1 mm: `benchmarks/levels.py decide`."""
+    case = oscillator(x0=Prior(low=0.002, high=0.012), zeta=Prior(low=0.01, high=0.06))
+    levels = (
+        Level("60 N", 60.0, OMEGA, "chaotic", Measured(6.08, 0.48), Measured(2.34, 0.09)),
+        Level("75 N", 75.0, OMEGA, "chaotic", Measured(6.20, 0.48), Measured(2.38, 0.08)),
+        Level("100 N", 100.0, OMEGA, "periodic"),
+    )
+    inversion = inversion_of(case, levels, REGISTRY, tmp_path, Survey(alpha=90, zeta=10, **QUICK))
+    small = {}
+    for name, posterior in (("alone", inversion.without_d2()), ("with", inversion)):
+        points, weights = grid_of(posterior, (400, 60))
+        small[name] = weights[points[:, 0] < 0.005].sum()
+    assert 0.15 < small["alone"] < 0.55
+    assert small["with"] > 0.7
+
+
+@pytest.mark.slow
 def test_table_2_of_the_paper_holds_the_joint_that_was_searched_for(tmp_path):
     """Half gap 0.7589 degrees and 2 zeta = 0.1116 (`reproduce/joint.py`), of a machine that no one has seen."""
     from lostmotion.reproduce.joint import DAMPING, FREQUENCY, HALF, LEVELS, PAPER, RATIO

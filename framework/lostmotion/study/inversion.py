@@ -30,12 +30,16 @@ SEEN = ("periodic", "chaotic", None)
 WEAK = 0.5
 """Exponents (nat per period of the drive) below which chaos is weak: a recording may show nothing of it."""
 MISREAD = {
-    "periodic": (0.98, 0.01, 0.01),
-    "chaotic": (0.01, 0.96, 0.03),
-    "weak": (0.20, 0.60, 0.20),
+    "periodic": (0.985, 0.01, 0.005),
+    "chaotic": (0.01, 0.97, 0.02),
+    "weak": (0.35, 0.50, 0.15),
     "unsure": (0.45, 0.35, 0.20),
 }
-"""How often a motion of each kind is seen as periodic, as chaotic, or as neither: `benchmarks/levels.py errors`."""
+"""How often a motion of each kind is seen as periodic, as chaotic, or as neither: `benchmarks/levels.py errors`.
+
+Of 240 recordings all 148 periodic ones and all 80 of strong chaos were seen as such, and 6 of 10 of weak chaos. Half an
+event, and a percent for what no benchmark holds, is given to what was never seen. That of motions of which the map
+itself cannot tell (long transients) is a guess."""
 TAIL = 5.0
 """Degrees of freedom of the errors of exponents and dimensions (Student's t): some readings are far off."""
 BROAD = 0.5
