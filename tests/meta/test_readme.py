@@ -98,9 +98,8 @@ def test_recording_and_case_of_the_readme_belong_together(tmp_path):
 
     (command,) = (block.split() for block in blocks("sh") if "lostmotion simulate" in block)
     subprocess.run([sys.executable, "-m", *command], cwd=tmp_path, capture_output=True, check=True, env=os.environ)
-    (case,) = blocks("toml")
     path = tmp_path / "case.toml"
-    path.write_text(case, encoding="utf-8")
+    path.write_text(blocks("toml")[0], encoding="utf-8")
     assert load_case(path).model == "lin_backlash"
     (track,) = prepare(path, Registry.discover()).tracks
     assert track.samples == 3200
@@ -108,6 +107,13 @@ def test_recording_and_case_of_the_readme_belong_together(tmp_path):
     done = subprocess.run([sys.executable, "-c", steps], cwd=tmp_path, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     assert len(done.stdout.split()) == 6
+
+
+def test_levels_of_the_readme_make_a_case(tmp_path):
+    (tmp_path / "levels.toml").write_text(blocks("toml")[1], encoding="utf-8")
+    periodic, chaotic = load_case(tmp_path / "levels.toml").levels
+    assert periodic.motion == "periodic"
+    assert chaotic.lyapunov.value == pytest.approx(1.42 * 0.693147, rel=1e-5)
 
 
 def test_commands_of_the_readme_exist():
