@@ -16,7 +16,8 @@ GROUPS = 4
 LONG = 50.0
 """A chain is long enough at this many autocorrelation times, of a step at least: shorter ones do not know their own."""
 STEADY = 0.02
-"""The longest autocorrelation time has settled when it changes by less than this share between two checks."""
+"""The longest autocorrelation time has settled when it grows by less than this share from one check to the next: in a
+chain that is too short it comes out too short, and grows with the chain."""
 AGREED = 1.01
 """Largest R-hat that is believed: Vehtari et al., Bayesian Analysis 16 (2021) 667-718."""
 
@@ -42,7 +43,7 @@ class Quality:
             f"{self.steps} steps are less than {LONG:g} autocorrelation times of {max(self.slowest, 1.0):.3g}": not (
                 self.steps >= LONG * max(self.slowest, 1.0)
             ),
-            "the autocorrelation time has not settled yet": not abs(self.slowest - before) < STEADY * self.slowest,
+            "the autocorrelation time still grows": not self.slowest - before < STEADY * self.slowest,
             f"the effective sample size is {self.ess.min():.0f}, and {ess:g} is wanted": not self.ess.min() >= ess,
             f"R-hat is {self.rhat.max():.3f}, and {AGREED:g} at most is wanted": not self.rhat.max() <= AGREED,
         }

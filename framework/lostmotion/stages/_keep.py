@@ -12,26 +12,30 @@ import numpy as np
 
 from lostmotion.errors import DataError
 from lostmotion.stages._cloud import Cloud
+from lostmotion.stages._scores import Scores
 from lostmotion.storage import whole
 
 EMCEE = "mcmc"
 """The group that emcee reads."""
 OURS = "lostmotion"
 """The group with what else is needed to go on."""
-_CLOUD = ("weights", "centres", "roots", "low", "high")
+_CLOUD = ("weights", "centres", "roots")
+_SCALE = ("low", "high", "middle", "breadth")
 
 
 @dataclass(frozen=True)
 class Kept:
     """A chain as emcee's `backend` holds it, and what else its next step depends on: the cloud, and where it began.
 
-    `evaluations` counts the runs of the likelihood up to when it was read or begun.
+    `evaluations` counts the runs of the likelihood up to when it was read or begun, `fits` how often the cloud was
+    fitted to an earlier chain.
     """
 
     backend: Any
     cloud: Cloud
     start: Any
     evaluations: int
+    fits: int
 
     @property
     def state(self) -> Any:
@@ -55,9 +59,11 @@ def save(path: Path, digest: str, keys: tuple[str, ...], kept: Kept, evaluations
     with whole(path) as spare, h5py.File(spare, "w") as file:
         _write_chain(file.create_group(EMCEE), kept.backend, kept.state.random_state)
         ours = file.create_group(OURS)
-        ours.attrs.update(digest=digest, keys=list(keys), evaluations=evaluations)
+        ours.attrs.update(digest=digest, keys=list(keys), evaluations=evaluations, fits=kept.fits)
         for name in _CLOUD:
             ours[f"cloud/{name}"] = getattr(kept.cloud, name)
+        for name in _SCALE:
+            ours[f"scale/{name}"] = getattr(kept.cloud.scale, name)
         ours["start/coords"], ours["start/log_prob"] = kept.start.coords, kept.start.log_prob
         _write_random(ours["start"], kept.start.random_state)
 
@@ -91,9 +97,11 @@ def load(path: Path, digest: str) -> Kept | None:
             ours = file[OURS]
             if ours.attrs["digest"] != digest:
                 return None
-            cloud = Cloud(*(ours[f"cloud/{name}"][...] for name in _CLOUD))
+            scale = Scores(*(ours[f"scale/{name}"][...] for name in _SCALE))
+            cloud = Cloud(**{name: ours[f"cloud/{name}"][...] for name in _CLOUD}, scale=scale)
             backend = _read_chain(file[EMCEE])
-            return Kept(backend, cloud, _read_start(ours["start"]), int(ours.attrs["evaluations"]))
+            counts = (int(ours.attrs[name]) for name in ("evaluations", "fits"))
+            return Kept(backend, cloud, _read_start(ours["start"]), *counts)
     except (OSError, KeyError) as err:
         raise DataError(f"{path} is no chain of an identification that can be read: give another place") from err
 

@@ -7,23 +7,34 @@ in Cornuet et al., Scandinavian J. Statistics 39 (2012) 798-812.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from typing import Any, Protocol
 
 import numpy as np
 
 from lostmotion.contracts import Array
-from lostmotion.stages._cloud import Cloud
+from lostmotion.stages._cloud import Cloud, root_of
+from lostmotion.stages._scores import Scores
 
-ROUNDS = 8
-GOOD = 0.75
+ROUNDS = 12
+GOOD = 0.82
 """The rounds end when this share of the draws of a round is effective."""
 FAIR = 0.15
-"""From this share on the kernels are where the posterior is, and each is split to follow its shape."""
-PARTS = 3
-GUARD = 0.05
-"""The share of a kernel that is wider than all others together: what a fit overlooked can still be proposed."""
+"""From this share on the kernels are where the posterior is, and can follow its shape."""
+LATE, ENOUGH = 5, 0.6
+"""After so many rounds this share is good enough."""
+MANY = 20
+"""With more kernels than that a cloud has been fitted before, and that share is good enough at once."""
+WAIT = 2
+"""After so many rounds a shape that is still not matched gets further kernels."""
+NEW = 2
+"""Kernels that are added in a round."""
+TIMES = 4
+"""Times that kernels are added to a cloud that is fitted to a chain."""
+GUARD, WIDER = 0.05, 4.0
+"""The share of a kernel with so many times the covariance of all others together: what a fit overlooked can still be
+proposed."""
 
 
 class Source(Protocol):
@@ -109,24 +120,69 @@ def _scaled(log_weights: Array, power: float) -> Array:
     return np.asarray(weights / weights.sum())
 
 
-def adapted(
-    cloud: Cloud, population: Population, rng: np.random.Generator, watch: Callable[[int, str], None]
-) -> tuple[Cloud, float]:
-    """Return the cloud fitted to the posterior, and the effective share of the draws that it was last fitted to."""
-    divided, share = False, 0.0
-    count, least = 24 * (cloud.size + 1), 4.0 * (cloud.size + 1)
-    for _ in range(ROUNDS):
+def adapted(cloud: Cloud, population: Population, rng: np.random.Generator, watch: Callable[[int, str], None]) -> Cloud:
+    """Return the cloud fitted to the posterior by rounds of draws, of which `watch` is told."""
+    count, least = max(24 * (cloud.size + 1), 8 * cloud.kernels), 4.0 * (cloud.size + 1)
+    for turn in range(ROUNDS):
         share = population.grow(guarded(cloud), count, rng)
+        watch(0, f"pilot draws, {share:.0%} effective")
+        if share > ENOUGH and cloud.kernels > MANY:
+            break
         shares = population.shares(least)
         cloud = cloud.fitted(population.points, shares)
-        if not divided and share > FAIR and effective(shares) > 10.0 * PARTS * cloud.size:
-            cloud, divided = cloud.split(PARTS, rng).fitted(population.points, shares), True
-        watch(0, f"pilot draws, {share:.0%} effective")
-        if share > GOOD:
+        if share > (GOOD if turn < LATE else ENOUGH):
             break
-    return guarded(cloud), share
+        room = effective(shares) / (5.0 * (cloud.size + 1)) - cloud.kernels
+        if turn >= WAIT and FAIR < share < ENOUGH and room >= NEW:
+            cloud = with_new(cloud, population).fitted(population.points, shares)
+    return guarded(cloud)
+
+
+def with_new(cloud: Cloud, population: Population) -> Cloud:
+    """Return the cloud with further kernels at draws whose weights say that the cloud is too thin there."""
+    missing = tempered(population.heights - cloud.log_density(population.points), 1.0)
+    return thickened(cloud, population.points, missing)
+
+
+def thickened(cloud: Cloud, points: Array, missing: Array) -> Cloud:
+    """Return the cloud with further kernels at the points where most is `missing`, which adds up to one."""
+    wide = cloud.widened(1.0).roots[0]
+    near = max(4 * (cloud.size + 1), len(points) // 20)
+    for one in list(new_kernels(cloud.scale, np.sqrt(np.sum(wide**2, axis=1)), points, missing, (NEW, near))):
+        cloud = cloud.beside(one, 1.0 / (cloud.kernels + 1.0))
+    return cloud
+
+
+def refitted(cloud: Cloud, points: Array, heights: Array) -> Cloud:
+    """Return a cloud fitted to draws of the posterior itself, such as those of a chain that mixes badly."""
+    points, which, counts = np.unique(points, axis=0, return_index=True, return_counts=True)
+    heights, shares = heights[which], counts / counts.sum()
+    cloud = cloud.fitted(points, shares)
+    for _ in range(TIMES):
+        missing = tempered(heights - cloud.log_density(points), 1.0)
+        cloud = thickened(cloud, points, missing).fitted(points, shares)
+    return guarded(cloud)
 
 
 def guarded(cloud: Cloud) -> Cloud:
     """Return the cloud with a little of a kernel that is wider than all of it."""
-    return cloud.beside(cloud.widened(2.0), GUARD)
+    return cloud.beside(cloud.widened(WIDER), GUARD)
+
+
+def new_kernels(scale: Scores, unit: Array, points: Array, shares: Array, limits: tuple[int, int]) -> Iterator[Cloud]:
+    """Yield kernels at the points of largest weight, at most `limits[0]`, each as wide as `limits[1]` points about it.
+
+    Distances between scores are measured in `unit`. Raftery, Bao, Biometrics 66 (2010) 1162-1173.
+    """
+    scores, left = scale.of(points), shares.copy()
+    evenly = 1.0 / len(shares)
+    for _ in range(limits[0]):
+        top = int(np.argmax(left))
+        if left[top] < 3.0 * evenly:
+            return
+        off = scores - scores[top]
+        near = np.argsort(np.sum((off / unit) ** 2, axis=1), kind="stable")[: limits[1]]
+        weights = shares[near] + evenly
+        covariance = (weights[:, None] * off[near]).T @ off[near] / weights.sum()
+        left[near] = 0.0
+        yield Cloud(np.ones(1), scores[top][None], root_of(covariance)[None], scale)

@@ -12,8 +12,8 @@ from lostmotion.contracts import Array
 from lostmotion.inference.problem import Free
 from lostmotion.stages._cloud import Cloud
 
-JUMPS = 0.9
-"""The share of jumps; the rest are walks, which also mix where the density of the jumps fits badly."""
+JUMPS, FEWER = 0.95, 0.5
+"""The share of jumps, and that in a chain that mixed badly with so many. The rest are walks, which need no cloud."""
 
 
 class Posterior(Protocol):
@@ -53,7 +53,7 @@ def _log_likelihoods(posterior: Any, points: Array) -> Array:
     return np.array([one.log_likelihood for one in posterior.many(list(points))])
 
 
-def moves(cloud: Cloud) -> list[tuple[Any, float]]:
+def moves(cloud: Cloud, jumps: float = JUMPS) -> list[tuple[Any, float]]:
     """Return emcee's moves with their weights: independent jumps, differential evolution, and snooker steps."""
     from emcee.moves import DEMove, DESnookerMove, RedBlueMove
 
@@ -64,14 +64,14 @@ def moves(cloud: Cloud) -> list[tuple[Any, float]]:
             points = cloud.draw(len(sample), random)
             return points, cloud.log_density(sample) - cloud.log_density(points)
 
-    return [(Jump(), JUMPS), (DEMove(), 0.75 * (1.0 - JUMPS)), (DESnookerMove(), 0.25 * (1.0 - JUMPS))]
+    return [(Jump(), jumps), (DEMove(), 0.75 * (1.0 - jumps)), (DESnookerMove(), 0.25 * (1.0 - jumps))]
 
 
-def sampler_of(cloud: Cloud, density: Callable[[Array], Array], walkers: int, backend: Any = None) -> Any:
+def sampler_of(moves: list[tuple[Any, float]], density: Callable[[Array], Array], backend: Any) -> Any:
     """Return an emcee sampler over the coordinates, which hands over half of the walkers at a time."""
     import emcee
 
-    return emcee.EnsembleSampler(walkers, cloud.size, density, moves=moves(cloud), vectorize=True, backend=backend)
+    return emcee.EnsembleSampler(*backend.shape, density, moves=moves, vectorize=True, backend=backend)
 
 
 def state_of(points: Array, heights: Array, rng: np.random.Generator) -> Any:

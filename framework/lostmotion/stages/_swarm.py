@@ -7,7 +7,6 @@ fits all kernels together.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -16,8 +15,8 @@ from scipy.stats import qmc
 
 from lostmotion.contracts import Array
 from lostmotion.inference.problem import Free
-from lostmotion.stages._cloud import Cloud, root_of
-from lostmotion.stages._population import Population
+from lostmotion.stages._cloud import Cloud
+from lostmotion.stages._population import Population, new_kernels
 from lostmotion.stages._sampling import Density, Posterior
 
 FIRST = 4096
@@ -72,8 +71,9 @@ def swarm(posterior: Posterior, rng: np.random.Generator) -> Cloud:
 def _spread(whole: Cloud, population: Population, rng: np.random.Generator) -> Cloud:
     """Return the kernels that were put, turn by turn, where draws were too few."""
     found: list[Cloud] = []
+    unit = np.diag(whole.roots[0])
     for _ in range(TURNS):
-        fresh = list(_new_kernels(whole, population))
+        fresh = list(new_kernels(whole.scale, unit, population.points, population.shares(SURE), (NEW, NEAR)))
         if not fresh:
             break
         for kernel in fresh:
@@ -82,30 +82,11 @@ def _spread(whole: Cloud, population: Population, rng: np.random.Generator) -> C
     return _joined(found or [whole])
 
 
-def _new_kernels(whole: Cloud, population: Population) -> Iterator[Cloud]:
-    """Yield kernels at the draws of largest weight, each with the scale of the draws around it."""
-    shares = population.shares(SURE)
-    logits = whole.logits(population.points)
-    evenly = 1.0 / len(shares)
-    unit = np.diag(whole.roots[0])
-    left = shares.copy()
-    for _ in range(NEW):
-        top = int(np.argmax(left))
-        if left[top] < 3.0 * evenly:
-            return
-        off = logits - logits[top]
-        near = np.argsort(np.sum((off / unit) ** 2, axis=1), kind="stable")[:NEAR]
-        weights = shares[near] + evenly
-        covariance = (weights[:, None] * off[near]).T @ off[near] / weights.sum()
-        left[near] = 0.0
-        yield Cloud(np.ones(1), logits[top][None], root_of(covariance)[None], whole.low, whole.high)
-
-
 def _joined(clouds: list[Cloud]) -> Cloud:
     """Return all kernels as one cloud, with equal weights."""
     count = len(clouds)
     centres, roots = (np.concatenate([getattr(c, name) for c in clouds]) for name in ("centres", "roots"))
-    return Cloud(np.full(count, 1.0 / count), centres, roots, clouds[0].low, clouds[0].high)
+    return Cloud(np.full(count, 1.0 / count), centres, roots, clouds[0].scale)
 
 
 def _fitted(cloud: Cloud, population: Population) -> Cloud:

@@ -18,19 +18,18 @@ from lostmotion.results import Interval
 from lostmotion.stages._chains import Quality, autocorrelation, inference_data, quality_of
 from lostmotion.stages._cloud import Cloud
 from lostmotion.stages._keep import Kept, cleared, fingerprint, load, save
-from lostmotion.stages._population import Population, adapted
-from lostmotion.stages._sampling import Density, sampler_of, state_of
+from lostmotion.stages._population import Population, adapted, refitted
+from lostmotion.stages._sampling import FEWER, JUMPS, Density, moves, sampler_of, state_of
 from lostmotion.stages._task import NOISES, Shown, Task, task_of
 
 __all__ = ["NOISES", "Cloud", "Identification", "Plan", "Shown", "Task", "Watch", "identify", "task_of"]
 
 WALKERS = 16
-POOR = 0.1
-"""With a smaller effective share of the pilot draws, pilot walks are taken too, which find their way more surely."""
-PILOT = 32
-PILOTS = 4
-ACCEPTED = 0.3
-"""Pilot walks end when this share of the proposals is accepted."""
+TRIAL = 60
+"""Steps after which it is seen whether the cloud is good; also after twice as many, four times and so on."""
+STICKY = 8.0
+"""With a longer autocorrelation time the cloud is fitted to the chain, which begins anew, up to `FITS` times."""
+FITS = 4
 BLOCK = 10
 GROWTH = 0.05
 """Convergence is checked after each block, and in a long chain after this share of it."""
@@ -139,54 +138,61 @@ class _Course:
         """Return the posterior, converged or not."""
         there = keep is not None and keep.exists()
         found = load(keep, self.digest) if keep and there else None
-        kept = found or self._begun()
-        self.density.evaluations = kept.evaluations
-        sampler = sampler_of(kept.cloud, self.density, self.walkers, kept.backend)
-        self.watch(sampler.iteration, "a kept chain is continued" if found else "the chain begins")
-        lacks = self._chain(sampler, _Shelf(keep, self, kept))
-        return self._result(sampler, lacks, resumed=found is not None, replaced=there and found is None)
+        shelf = _Shelf(keep, self, found or self._begun())
+        self.watch(shelf.kept.backend.iteration, "a kept chain is continued" if found else "the chain begins")
+        while True:
+            kept = shelf.kept
+            sampler = sampler_of(moves(kept.cloud, FEWER if kept.fits else JUMPS), self.density, kept.backend)
+            lacks = self._chain(sampler, shelf)
+            if lacks is not None:
+                return self._result(sampler, lacks, resumed=found is not None, replaced=there and found is None)
+            shelf.change(self._fitted(sampler, kept))
 
     @property
     def digest(self) -> str:
         """The digest of all that the chain depends on, its length left out."""
         task, cloud = self.task, self.task.cloud
-        arrays = (task.maximum, cloud.weights, cloud.centres, cloud.roots)
+        arrays = (task.maximum, cloud.weights, cloud.centres, cloud.roots, cloud.scale.middle, cloud.scale.breadth)
         versions = provenance("identify", {}, self.seed, {})["versions"]
         texts = (versions, task.digest, task.posterior.free, task.shown, self.seed, self.walkers)
         return fingerprint([*texts, self.height, *arrays])
 
     def _begun(self) -> Kept:
         """Return a chain without a step: the cloud that the pilots fit, and walkers where it is probable."""
-        from emcee.backends import Backend
-
         rng = np.random.default_rng(self.seed)
         population = Population.empty(self.density, self.task.cloud.size)
-        cloud, share = adapted(self.task.cloud, population, rng, self.watch)
+        cloud = adapted(self.task.cloud, population, rng, self.watch)
         start = state_of(*population.chosen(self.walkers, rng), rng)
-        if share < POOR:
-            cloud, start = self._pilot_walks(cloud, start, rng)
+        return Kept(self._blank(), cloud, start, self.density.evaluations, 0)
+
+    def _blank(self) -> Any:
+        """Return emcee's backend without a step."""
+        from emcee.backends import Backend
+
         backend = Backend()
-        backend.reset(self.walkers, cloud.size)
-        return Kept(backend, cloud, start, self.density.evaluations)
+        backend.reset(self.walkers, self.task.cloud.size)
+        return backend
 
-    def _pilot_walks(self, cloud: Cloud, start: Any, rng: np.random.Generator) -> tuple[Cloud, Any]:
-        """Return a cloud fitted to short chains, and where their walkers stand."""
-        for _ in range(PILOTS):
-            sampler = sampler_of(cloud, self.density, self.walkers)
-            start = sampler.run_mcmc(start, PILOT, skip_initial_state_check=True)
-            late = sampler.get_chain(flat=True, discard=PILOT // 3)
-            cloud = cloud.fitted(late, np.full(len(late), 1.0 / len(late)))
-            accepted = float(np.mean(sampler.acceptance_fraction))
-            self.watch(0, f"pilot walks, {accepted:.0%} accepted")
-            if accepted > ACCEPTED:
-                break
-        return cloud, state_of(start.coords, start.log_prob, rng)
+    def _fitted(self, sampler: Any, kept: Kept) -> Kept:
+        """Return a chain without a step, whose cloud is fitted to a chain that mixed badly."""
+        half = sampler.iteration // 2
+        points, heights = sampler.get_chain(flat=True, discard=half), sampler.get_log_prob(flat=True, discard=half)
+        cloud = refitted(kept.cloud, points, heights)
+        last = sampler.get_last_sample()
+        start = state_of(last.coords, last.log_prob, np.random.default_rng([self.seed, kept.fits + 1]))
+        self.watch(0, "the chain mixes badly: it begins anew, with proposals fitted to it")
+        return Kept(self._blank(), cloud, start, self.density.evaluations, kept.fits + 1)
 
-    def _chain(self, sampler: Any, shelf: _Shelf) -> tuple[str, ...]:
-        """Let the walkers walk until the chain may be believed or its time is up; return what it lacks."""
+    def _chain(self, sampler: Any, shelf: _Shelf) -> tuple[str, ...] | None:
+        """Let the walkers walk until the chain may be believed or its time is up; return what it lacks.
+
+        Returns None when the chain mixes so badly that its cloud had better be fitted again.
+        """
         state, says = shelf.kept.state, "no check yet"
         while True:
             done, check = sampler.iteration, _next_check(sampler.iteration - 1)
+            if self._sticks(sampler, shelf.kept.fits):
+                return None
             if done and (done == check or done >= self.plan.max_steps):
                 lacks, says = self._judged(sampler)
                 self.watch(0, says)
@@ -197,6 +203,13 @@ class _Course:
             state = sampler.run_mcmc(state, size, skip_initial_state_check=True)
             self.watch(size, says)
             shelf.put(EVERY)
+
+    def _sticks(self, sampler: Any, fits: int) -> bool:
+        """Return whether the chain has just come to a step where its cloud is tried, and shows that it is not good."""
+        trials = [_next_check(TRIAL * 2**i - 1) for i in range(6)]
+        if fits >= FITS or sampler.iteration not in trials:
+            return False
+        return not float(np.max(autocorrelation(_kept(sampler, sampler.iteration)[0]))) < STICKY
 
     def _judged(self, sampler: Any) -> tuple[tuple[str, ...], str]:
         """Return what the chain lacks, and how it stands; this depends on the chain and on nothing else."""
@@ -229,11 +242,16 @@ class _Shelf:
     """Where a chain is kept, if anywhere, and when it was put there last."""
 
     def __init__(self, path: Path | None, course: _Course, kept: Kept) -> None:
-        self.path, self.course, self.kept = path, course, kept
-        self.last = -math.inf
+        self.path, self.course = path, course
         if path is not None:
             cleared(path)
-            self.put()
+        self.change(kept)
+
+    def change(self, kept: Kept) -> None:
+        """Take another chain, and keep it at once."""
+        self.kept, self.last = kept, -math.inf
+        self.course.density.evaluations = kept.evaluations
+        self.put()
 
     def put(self, every: float = 0.0) -> None:
         """Keep the chain as it is now, unless that was done less than `every` seconds ago."""
