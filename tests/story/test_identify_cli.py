@@ -12,8 +12,8 @@ from click.testing import CliRunner
 from lostmotion.cli import main
 from lostmotion.registry import default
 from lostmotion.stages._chains import quiet_arviz
-from lostmotion.workflow.trajectory import best_fits, chosen_terms
 from lostmotion.workflow.prepare import prepare
+from lostmotion.workflow.trajectory import best_fits, chosen_terms
 
 CASE = """
 title = "Small Lin"
