@@ -45,29 +45,34 @@ def quick_task(digest="", size=2, at=0.0):
     return replace(task_at(toy, [np.zeros(size)], [np.eye(size)]), digest=digest)
 
 
+def steps_in(path):
+    """Return how many steps the kept chain has, or -1 while there is none."""
+    if not path.exists():
+        return -1
+    with h5py.File(path) as file:
+        return int(file["mcmc"].attrs["iteration"])
+
+
 @pytest.mark.slow
 def test_killed_at_any_moment_it_ends_with_the_same_bytes(tmp_path):
-    """Undisturbed, and killed again and again at moments that a generator chooses, until one run gets to its end."""
-    here = str(Path(__file__).parent)
-    begin = [sys.executable, "-c", SCRIPT.format(here=here)]
+    """Killed as soon as it is kept, and a little after so many steps, at whatever it then does; then left alone."""
+    begin = [sys.executable, "-c", SCRIPT.format(here=str(Path(__file__).parent))]
     environment = {**os.environ, "OMP_NUM_THREADS": "1"}
-    start = time.perf_counter()
-    subprocess.run([*begin, str(tmp_path / "a.h5"), str(tmp_path / "a.npy")], check=True, env=environment)
-    whole = time.perf_counter() - start
-    kills, rng = 0, np.random.default_rng(9)
-    while not (tmp_path / "b.npy").exists():
-        child = subprocess.Popen([*begin, str(tmp_path / "b.h5"), str(tmp_path / "b.npy")], env=environment)
-        try:
-            child.wait(timeout=whole * rng.uniform(0.8, 0.98) if kills < 3 else None)
-        except subprocess.TimeoutExpired:
-            child.send_signal(signal.SIGKILL)
-            child.wait()
-            kills += 1
-    assert kills >= 1
+    one, other, rng = tmp_path / "a.h5", tmp_path / "b.h5", np.random.default_rng(9)
+    subprocess.run([*begin, str(one), str(tmp_path / "a.npy")], check=True, env=environment)
+    for target in (0, 10, 30, 40):
+        child = subprocess.Popen([*begin, str(other), str(tmp_path / "b.npy")], env=environment)
+        while steps_in(other) < target and child.poll() is None:
+            time.sleep(0.002)
+        time.sleep(rng.uniform(0.0, 0.1))
+        child.send_signal(signal.SIGKILL)
+        assert child.wait() == -signal.SIGKILL
+        assert target <= steps_in(other) < steps_in(one)
+    subprocess.run([*begin, str(other), str(tmp_path / "b.npy")], check=True, env=environment)
     assert np.load(tmp_path / "a.npy").tobytes() == np.load(tmp_path / "b.npy").tobytes()
-    with h5py.File(tmp_path / "a.h5") as one, h5py.File(tmp_path / "b.h5") as other:
-        assert one["mcmc/chain"][...].tobytes() == other["mcmc/chain"][...].tobytes()
-        assert one["lostmotion"].attrs["evaluations"] == other["lostmotion"].attrs["evaluations"]
+    with h5py.File(one) as a, h5py.File(other) as b:
+        assert a["mcmc/chain"][...].tobytes() == b["mcmc/chain"][...].tobytes()
+        assert a["lostmotion"].attrs["evaluations"] == b["lostmotion"].attrs["evaluations"]
     assert not [p.name for p in tmp_path.iterdir() if p.name.startswith(".")]
 
 

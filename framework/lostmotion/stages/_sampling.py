@@ -42,15 +42,9 @@ class Density:
         heights = np.array([self.posterior.log_prior(p) for p in points])
         inside = np.flatnonzero(np.isfinite(heights))
         if len(inside):
-            heights[inside] += _log_likelihoods(self.posterior, points[inside])
+            heights[inside] += self.posterior.log_likelihoods(points[inside])
         self.evaluations += len(inside)
         return np.where(np.isfinite(heights), heights, -np.inf)
-
-
-def _log_likelihoods(posterior: Any, points: Array) -> Array:
-    if hasattr(posterior, "log_likelihoods"):
-        return np.asarray(posterior.log_likelihoods(points))
-    return np.array([one.log_likelihood for one in posterior.many(list(points))])
 
 
 def moves(cloud: Cloud, jumps: float = JUMPS) -> list[tuple[Any, float]]:
