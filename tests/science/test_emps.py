@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from machines import CARRIAGE, EMPS, EMPS_FILES, PUBLISHED
 
 from lostmotion.registry import default
 from lostmotion.stages.diagnose import diagnose
@@ -12,28 +13,7 @@ from lostmotion.workflow.diagnose import judged
 from lostmotion.workflow.prepare import prepare
 from lostmotion.workflow.verdict import intervals
 
-RECORDING = """
-[[recordings]]
-file = "{file}"
-time = "t"
-hold = "step"
-excitation = {{ column = "vir", quantity = "force", unit = "N", factor = 35.15065 }}
-response = {{ column = "qm", quantity = "position", unit = "m" }}
-"""
-MODEL = """
-[model]
-name = "rigid_drive"
-[model.estimate]
-m = { low = 10.0, high = 1000.0, scale = "log" }
-c = { low = 1.0, high = 10000.0, scale = "log" }
-"""
-PUBLISHED = {
-    "m": (95.1089, 0.03),
-    "c": (203.5034, 0.03),
-    "coulomb_friction.force": (20.3935, 0.03),
-    "offset_force.force": (3.1648, 0.10),
-}
-"""Value and relative tolerance: Janot, Gautier, Brunot, Nonlinear System Identification Benchmarks (2019)."""
+TOLERANCE = {"m": 0.03, "c": 0.03, "coulomb_friction.force": 0.03, "offset_force.force": 0.10}
 
 pytestmark = [pytest.mark.real, pytest.mark.slow]
 
@@ -45,8 +25,8 @@ def outcome(shared, tmp_path_factory):
     if not data.is_dir():
         pytest.skip(f"no EMPS recordings: {data} is absent")
     case = tmp_path_factory.mktemp("emps") / "case.toml"
-    files = [data / "DATA_EMPS.mat", data / "DATA_EMPS_PULSES.mat"]
-    case.write_text("".join(RECORDING.format(file=file.resolve()) for file in files) + MODEL)
+    files = [(data / f"{name}.mat").resolve() for name in EMPS_FILES]
+    case.write_text("".join(EMPS.format(file=file) for file in files) + CARRIAGE)
     prepared, rng = prepare(case, default()), np.random.default_rng(0)
     found = diagnose(prepared.case, prepared.tracks, System(prepared.model, prepared.terms), rng=rng)
     return judged(found, prepared, rng)
@@ -60,8 +40,8 @@ def test_friction_and_offset_are_found(outcome):
 def test_values_are_the_published_ones(outcome):
     """Within 3 % (offset 10 %), and the published values inside our intervals. One real recording: no chance."""
     ours = intervals(outcome.diagnosis.after, outcome.draws_after)
-    for key, (value, tolerance) in PUBLISHED.items():
-        assert ours[key].median == pytest.approx(value, rel=tolerance), key
+    for key, (value, _) in PUBLISHED.items():
+        assert ours[key].median == pytest.approx(value, rel=TOLERANCE[key]), key
         assert ours[key].low <= value <= ours[key].high, key
 
 

@@ -1,0 +1,172 @@
+"""Two real machines as cases: the EMPS carriage, and the friction damper with backlash; used by tests and benchmarks.
+
+The damper's recordings are thinned from 1024 Hz to 32 Hz behind a low-pass filter. While it slides, the band sings at
+40 to 50 Hz, which no law of friction here foretells, and close to where it opens its contact is rounded. In the
+recording as it is, one-step errors are about nothing else, and a random force of 12 kN explains them better than the
+gap does. At 32 Hz what is left over is nearly white, and the loop of force over travel is what is fitted.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+from scipy.signal import decimate
+
+from lostmotion.inference.fit import Fit, maximise, robust_covariance
+from lostmotion.inference.modes import distinct
+from lostmotion.inference.predict import filtered, free_run, observed
+from lostmotion.inference.problem import NOISE, RANDOM, Problem
+from lostmotion.inference.setup import problem_of, separated, stepped
+from lostmotion.registry import default
+from lostmotion.stages.identify import Identification, Plan, identify
+from lostmotion.system import System
+from lostmotion.workflow.prepare import prepare
+from lostmotion.workflow.trajectory import Sampled, chosen_terms, sampled, task_for
+
+EMPS_FILES = ("DATA_EMPS", "DATA_EMPS_PULSES")
+EMPS = """
+[[recordings]]
+file = "{file}"
+time = "t"
+hold = "step"
+excitation = {{ column = "vir", quantity = "force", unit = "N", factor = 35.15065 }}
+response = {{ column = "qm", quantity = "position", unit = "m" }}
+"""
+CARRIAGE = """
+[model]
+name = "rigid_drive"
+[model.estimate]
+m = { low = 10.0, high = 1000.0, scale = "log" }
+c = { low = 1.0, high = 10000.0, scale = "log" }
+"""
+FRICTION, OFFSET = "coulomb_friction.force", "offset_force.force"
+PUBLISHED = {"m": (95.1089, 0.1085), "c": (203.5034, 1.1460), FRICTION: (20.3935, 0.1012), OFFSET: (3.1648, 0.0444)}
+"""Value and standard deviation: Janot, Gautier, Brunot, Nonlinear System Identification Benchmarks (2019), IDIM-LS. The
+sign of the offset is that of our term, a force on the carriage and not a resistance."""
+
+STARTS = 6
+DAMPER = """
+[[recordings]]
+file = "{name}.npz"
+name = "{name}"
+rate = 32.0
+t_start = {start}
+t_end = {end}
+excitation = {{ column = "displacement", quantity = "base_position", unit = "inch" }}
+response = {{ column = "force", quantity = "force", unit = "kip" }}
+"""
+BAND = """
+[model]
+name = "backlash_slider"
+[model.known]
+"lugre_friction.deflection" = 1e-4
+[model.estimate]
+m = {{ median = 150.0, sd_log = 1.0 }}
+c = {{ low = 1e3, high = 1e5, scale = "log" }}
+k0 = {{ median = 5e6, sd_log = 1.0 }}
+x0 = {{ median = 2e-3, sd_log = 0.7 }}
+"lugre_friction.force" = {{ median = 1e4, sd_log = 0.7{each} }}
+"offset_force.force" = {{ mean = 0.0, sd = 2000.0{each} }}
+"""
+"""Priors by order of magnitude, as read off a loop of force over travel; a mass of 60 kg on that contact would sing at
+45 Hz. The bristles are given as far stiffer than the contact, 100 MN/m, so that the band sticks."""
+LEVEL = 4448.22 * 0.5 * (2.25 + 1.99)
+"""The plateau (N) of the damper at 30 lb: mean size of the medians in either direction, at 1 Hz and 1 inch."""
+SPANS = {0.25: (4.6, 24.0), 0.5: (2.3, 12.0), 1.0: (1.15, 6.0)}
+"""From when to when (s), by frequency (Hz): it begins while the band slides, so that the gap is shut."""
+
+
+@dataclass(frozen=True)
+class Found:
+    """A posterior, the fit it was drawn around, and how the fit does when it runs free from the first sample."""
+
+    result: Identification
+    fit: Fit
+    free_error: float
+
+    def index(self, key: str) -> int:
+        """Return which coordinate a parameter is."""
+        return self.fit.problem.keys.index(key)
+
+    def deviations(self, key: str) -> tuple[float, float]:
+        """Return the standard deviation of a coordinate by the likelihood, and by its scores over blocks (sandwich).
+
+        The second allows for leftovers with a memory, and is never the smaller one.
+        """
+        i = self.index(key)
+        usual, robust = (float(np.sqrt(c[i, i])) for c in (self.fit.local.covariance, robust_covariance(self.fit)))
+        return usual, robust
+
+
+def emps(folder: Path, data: Path, files: Iterable[str] = EMPS_FILES, plan: Plan | None = None) -> Found:
+    """Return what is found of the EMPS carriage in one recording or in several together; `data` is where they lie."""
+    case = folder / "emps.toml"
+    texts = [EMPS.format(file=(data / f"{name}.mat").resolve()) for name in files]
+    case.write_text("".join(texts) + CARRIAGE)
+    registry = default()
+    prepared = prepare(case, registry)
+    terms = chosen_terms(prepared, ("coulomb_friction", "offset_force"), registry)
+    return found(sampled(prepared, terms, plan or Plan(), rng=np.random.default_rng(0), jobs=2))
+
+
+def damper(folder: Path, data: Path, names: tuple[str, ...], plan: Plan | None = None) -> Found:
+    """Return what is found of the damper in one recording, or in several that share gap, contact and damping."""
+    texts, several = [thinned(folder, data, name) for name in names], len(names) > 1
+    case = folder / "damper.toml"
+    case.write_text("".join(texts) + BAND.format(each=", each = true" if several else ""))
+    registry = default()
+    prepared = prepare(case, registry)
+    terms = chosen_terms(prepared, (), registry)
+    rng, system = np.random.default_rng(0), System(prepared.model, terms)
+    problem = replace(problem_of(system, prepared.case, prepared.tracks), active=frozenset(system.keys))
+    fits = [separated(fit, prepared.case.sensor) for fit in hills(problem, rng)]
+    return found(Sampled(identify(task_for(prepared, fits, terms), rng=rng, plan=plan), tuple(fits)))
+
+
+def hills(problem: Problem, rng: np.random.Generator) -> list[Fit]:
+    """Return the distinct maxima that are reached from draws of the priors, best first; what is wrong starts as noise.
+
+    The search of `identify` starts with a large random force, which is right for chaos. Here it would end on a hill
+    where that force explains everything, of log evidence lower by a hundred. So the measurement noise starts at 5 % of
+    the response, the random force at what is usual, and the rest within a third of the priors' widths.
+    """
+    starts = np.repeat(problem.start[None], STARTS, axis=0)
+    for i, free in enumerate(problem.free):
+        if free.key == NOISE:
+            starts[:, i] = np.log(0.05 * problem.scales.force)
+        elif free.key == RANDOM:
+            starts[:, i] = problem.scales.usual
+        else:
+            starts[1:, i] = [free.quantile(share) for share in rng.uniform(1 / 3, 2 / 3, STARTS - 1)]
+    fits = [maximise(stepped(problem, start), start) for start in problem.clip(starts)]
+    best = max((fit.problem for fit in fits), key=lambda p: p.nsub)
+    return distinct([f if f.problem.nsub == best.nsub else maximise(best, f.theta) for f in fits], 20.0)
+
+
+def thinned(folder: Path, data: Path, name: str) -> str:
+    """Write a recording of the damper at 32 Hz, and return what the case says of it."""
+    columns = np.load(data / f"{name}.npz")["data"][:, 1:3]
+    for step in (4, 8):
+        columns = decimate(columns, step, axis=0, zero_phase=True)
+    np.savez(folder / f"{name}.npz", displacement=columns[:, 0], force=columns[:, 1])
+    start, end = SPANS[float(name.split("_")[1].removesuffix("Hz"))]
+    return DAMPER.format(name=name, start=start, end=end)
+
+
+def found(sample: Sampled) -> Found:
+    """Return a posterior with the free run of its best fit, its error (rms) a share of the scatter of the response."""
+    fit = sample.fits[0]
+    problem, theta = fit.problem, fit.theta
+    track = problem.tracks[0]
+    states = free_run(problem, theta, filtered(problem, theta).states[0], 0, track.samples)
+    error = observed(problem, theta, states) - track.z
+    return Found(sample.result, fit, float(np.sqrt(np.nanmean(error**2)) / np.nanstd(track.z)))
+
+
+def travel(seen: Found, name: str = "") -> np.ndarray:
+    """Return draws of the travel (m) from a reversal to half of the plateau: contact opens, gap, contact to half."""
+    draws = dict(zip(seen.result.keys, seen.result.draws.T, strict=True))
+    return 2.0 * draws["x0"] + 1.5 * draws["lugre_friction.force" + name] / draws["k0"]
