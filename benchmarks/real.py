@@ -7,17 +7,21 @@ much wider an interval is that allows for leftovers with a memory (the sandwich 
 from __future__ import annotations
 
 import argparse
+import sys
 import tempfile
 import time
 from pathlib import Path
 
 import numpy as np
-from machines import EMPS_FILES, PUBLISHED, Found, damper, emps, travel
 
 from first_light import show
 from lostmotion.stages.identify import Plan
 from lostmotion.workflow.trajectory import doubts
-from studies import ROOT
+
+ROOT = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(ROOT / "tests" / "science"))
+
+from machines import EMPS_FILES, PUBLISHED, Found, damper, emps, travel  # noqa: E402 - they lie beside the tests
 
 DAMPERS = (
     "d2_0.25Hz_30lb_1in",
