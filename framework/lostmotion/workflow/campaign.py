@@ -38,11 +38,15 @@ Say = Callable[[int, int], None]
 
 @dataclass(frozen=True)
 class Campaign:
-    """Trials 0 to `count` - 1 and what makes them: `identity`, plain as JSON knows it, without the number of trials."""
+    """Trials 0 to `count` - 1 and what makes them: `identity`, plain as JSON knows it, without the number of trials.
+
+    With `apart` no trial is made in this process, even if a single one is left.
+    """
 
     trial: Trial
     count: int
     identity: Mapping[str, Any]
+    apart: bool = False
 
     def run(self, folder: Path, jobs: int, say: Say = lambda _done, _of: None, *, fresh: bool = False) -> list[Any]:
         """Return the outcome of every trial in order; those that `folder` already holds are not made again.
@@ -77,7 +81,7 @@ class Campaign:
     def _made(self, folder: Path, missing: list[int], jobs: int) -> Generator[int, None, None]:
         """Yield the number of each trial that was made and kept."""
         make = partial(_kept, self.trial, folder)
-        if jobs == 1 or len(missing) < 2:
+        if not missing or (not self.apart and (jobs == 1 or len(missing) < 2)):
             return (make(k) for k in missing)
         return _spread(make, missing, min(jobs, len(missing)))
 
