@@ -1,0 +1,145 @@
+"""A body with almost anything hidden in it, moved by leapfrog: what a blind trial conceals, written without the terms.
+
+All is in absolute coordinates. Dry friction is set-valued: the impulse of a step is whatever holds the parts together,
+up to its bound, so the body truly sticks (Moreau's time stepping; Acary, Brogliato, Numerical Methods for Nonsmooth
+Dynamical Systems (2008)). A place is 0 for the ground and 1 for the base.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numba
+import numpy as np
+
+DAHL, LUGRE, BOUC_WEN = 1.0, 2.0, 3.0
+"""The kinds of a force that remembers."""
+
+
+class Body(NamedTuple):
+    """What the model knows of, in SI units: m, c and k0 with the gap x0 act towards the base, k towards the ground."""
+
+    m: float
+    c: float
+    k: float
+    k0: float
+    x0: float
+
+
+class Hidden(NamedTuple):
+    """What the model does not know of, in SI units; nothing of it when all is as it stands here."""
+
+    friction: float = 0.0
+    excess: float = 0.0
+    velocity: float = 1.0
+    friction_place: float = 0.0
+    rough: float = 0.0
+    rough_length: float = 1.0
+    drag: float = 0.0
+    drag_place: float = 0.0
+    square: float = 0.0
+    square_place: float = 0.0
+    contact_drag: float = 0.0
+    spring: float = 0.0
+    spring_place: float = 0.0
+    cube: float = 0.0
+    cube_place: float = 0.0
+    shift: float = 0.0
+    push: float = 0.0
+    memory: float = 0.0
+    memory_force: float = 0.0
+    memory_excess: float = 0.0
+    memory_velocity: float = 1.0
+    memory_travel: float = 1.0
+    memory_place: float = 0.0
+    depth: float = 0.0
+    pace: float = 0.0
+    phase: float = 0.0
+    drift: float = 0.0
+    ripple: float = 0.0
+    ripple_length: float = 1.0
+    bump: float = 0.0
+    bump_middle: float = 0.0
+    bump_width: float = 1.0
+    mixed: float = 0.0
+
+
+@numba.njit(cache=True, nogil=True)
+def _springs(t, x, gap, body, h):  # type: ignore[no-untyped-def]
+    """Return the force (N) of everything that depends on position and time."""
+    wave = 1.0 + h.depth * math.cos(h.pace * t + h.phase)
+    soft = wave if body.k0 == 0.0 else 1.0
+    half = body.x0 + h.drift * max(t, 0.0)
+    pressed = gap - h.shift
+    pressed -= min(max(pressed, -half), half)
+    force = h.push - body.k * soft * x
+    if body.k0 > 0.0:
+        force -= body.k0 * wave * pressed
+    force -= h.spring * (x if h.spring_place == 0.0 else gap)
+    force -= h.cube * (x if h.cube_place == 0.0 else gap) ** 3
+    if h.ripple != 0.0:
+        force += h.ripple * math.sin(2.0 * math.pi * x / h.ripple_length)
+    if h.bump != 0.0:
+        force += h.bump * math.exp(-(((x - h.bump_middle) / h.bump_width) ** 2))
+    return force
+
+
+@numba.njit(cache=True, nogil=True)
+def _drags(x, v, gap, slide, body, h):  # type: ignore[no-untyped-def]
+    """Return the force (N) of every drag but the viscous one of the model and dry friction."""
+    square = v if h.square_place == 0.0 else slide
+    force = -h.drag * (v if h.drag_place == 0.0 else slide) - h.square * square * abs(square)
+    if abs(gap) > body.x0:
+        force -= h.contact_drag * slide
+    return force - h.mixed * x * x * v
+
+
+@numba.njit(cache=True, nogil=True)
+def _remembered(z, v, step, h):  # type: ignore[no-untyped-def]
+    """Return the state of a force that remembers after one step at the velocity `v`: the force (N), or its share."""
+    if h.memory == BOUC_WEN:
+        middle = z + 0.5 * step * (v - 0.5 * (abs(v) * abs(z) * z + v * z * z)) / h.memory_travel
+        return z + step * (v - 0.5 * (abs(v) * abs(middle) * middle + v * middle * middle)) / h.memory_travel
+    level = h.memory_force
+    if h.memory == LUGRE:
+        level += h.memory_excess * math.exp(-((v / h.memory_velocity) ** 2))
+    level = level if v > 0.0 else -level
+    return level + (z - level) * math.exp(-abs(v) * step / h.memory_travel)
+
+
+@numba.njit(cache=True, nogil=True)
+def move(force, base, body, hidden, state, clock, every):  # type: ignore[no-untyped-def]
+    """Return the position (samples,) before every `every` steps; `state` moves on to the end.
+
+    `force` (steps,) acts at the middle of each step; `base` (3, steps) is the position of the base at the middle and
+    its velocity at the middle and at the end; `clock` is the time at the beginning and the step, in s. `state` holds
+    position, velocity, acceleration and what is remembered.
+    """
+    begin, step = clock
+    x, v, a, z = state
+    h, m = hidden, body.m
+    loss = 0.5 * step * body.c / m
+    seen = np.zeros(len(force) // every)
+    for k in range(len(seen) * every):
+        if k % every == 0:
+            seen[k // every] = x
+        middle, fast = x + 0.5 * step * v, v + 0.5 * step * a
+        gap, slide = middle - base[0, k], fast - base[1, k]
+        pull = force[k] + _springs(begin + (k + 0.5) * step, middle, gap, body, h)
+        pull += _drags(middle, fast, gap, slide, body, h)
+        if h.memory > 0.0:
+            new = _remembered(z, slide if h.memory_place == 1.0 else fast, step, h)
+            pull -= 0.5 * (z + new) * (h.memory_force if h.memory == BOUC_WEN else 1.0)
+            z = new
+        rub = slide if h.friction_place == 1.0 else fast
+        place = gap if h.friction_place == 1.0 else middle
+        level = h.friction + h.excess * math.exp(-((rub / h.velocity) ** 2)) + h.rough * (place / h.rough_length) ** 2
+        still = base[2, k] * h.friction_place
+        slip = (v * (1.0 - loss) + step * pull / m + 2.0 * loss * base[1, k]) / (1.0 + loss) - still
+        bound = step * level / m
+        after = still + slip - min(max(slip, -bound), bound)
+        a, v = (after - v) / step, after
+        x = middle + 0.5 * step * v
+    state[0], state[1], state[2], state[3] = x, v, a, z
+    return seen

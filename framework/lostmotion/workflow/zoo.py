@@ -1,0 +1,205 @@
+"""Machines for a blind trial: drawn at random in size and excitation, and recorded by an integrator of their own."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from lostmotion.contracts import Array
+from lostmotion.errors import DataError
+from lostmotion.kernels.independent_zoo import Body, Hidden, move
+
+FINE = 0.0015
+"""Steps times the fastest rate: a tenth of those of a final fit."""
+FEWEST, MOST = 10, 6000
+PIECE = 500
+"""Samples that are computed at a time."""
+SETTLE = 40
+"""Periods of the drive that pass before a recording begins."""
+ACROSS = 12.0
+"""Samples to a cycle of the contact at the least."""
+USUAL = 1e-3
+"""Noise of the measured excitation over its amplitude."""
+GAPPED = ("lin_backlash", "robot_joint")
+
+
+@dataclass(frozen=True)
+class Signal:
+    """A drive of `tones` (amplitude, angular frequency in rad/s, phase), the first the strongest.
+
+    With `sweep` (rad/s^2) its frequency rises from the beginning of the recording on.
+    """
+
+    tones: tuple[tuple[float, float, float], ...]
+    sweep: float = 0.0
+
+    @property
+    def omega(self) -> float:
+        """The angular frequency of the strongest tone, in rad/s."""
+        return self.tones[0][1]
+
+    @property
+    def amplitude(self) -> float:
+        """sqrt(2) standard deviations over a long time."""
+        return math.sqrt(sum(a**2 for a, _, _ in self.tones))
+
+    def value(self, t: Array) -> Array:
+        """Return the drive at the times `t` (s)."""
+        more = 0.5 * self.sweep * np.maximum(t, 0.0) ** 2
+        return np.asarray(sum(a * np.cos(w * t + p + more) for a, w, p in self.tones), dtype=float)
+
+    def slope(self, t: Array) -> Array:
+        """Return its time derivative."""
+        late = np.maximum(t, 0.0)
+        more = 0.5 * self.sweep * late**2
+        slopes = (-a * (w + self.sweep * late) * np.sin(w * t + p + more) for a, w, p in self.tones)
+        return np.asarray(sum(slopes), dtype=float)
+
+
+@dataclass(frozen=True)
+class Meddling:
+    """What a machine does to its drive, its sensors and itself that stands in no equation of motion; SI units."""
+
+    excitation_delay: float = 0.0
+    excitation_gain: float = 0.0
+    harmonic: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    sensor_delay: float = 0.0
+    sensor_gain: float = 0.0
+    step: float = 0.0
+    rms: float = 0.0
+
+    def drive(self, signal: Signal, t: Array) -> tuple[Array, Array]:
+        """Return the true drive and its slope at the times `t` (s) where the recording will show `signal`."""
+        amplitude, pace, phase = self.harmonic
+        late, gain = t - self.excitation_delay, 1.0 + self.excitation_gain
+        value = gain * signal.value(late) + amplitude * np.cos(pace * t + phase)
+        return value, gain * signal.slope(late) - amplitude * pace * np.sin(pace * t + phase)
+
+
+@dataclass(frozen=True)
+class Rig:
+    """A machine, its drive and how it is recorded: `rate` in Hz, `noise` over the deviation of its own motion.
+
+    `known` and `priors` are what the case will say of the parameters; `values` are the true ones, in SI units.
+    """
+
+    model: str
+    values: Mapping[str, float]
+    estimated: tuple[str, ...]
+    signal: Signal
+    rate: float
+    samples: int
+    noise: float
+    priors: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
+
+    @property
+    def body(self) -> Body:
+        """The parameters as the integrator takes them."""
+        v = self.values
+        return Body(v["m"], v["c"], v.get("k", v.get("k1", 0.0)), v.get("k0", 0.0), v.get("x0", 0.0))
+
+    @property
+    def based(self) -> bool:
+        """Whether it is driven by the motion of its base."""
+        return self.model == "robot_joint"
+
+    @property
+    def places(self) -> tuple[str, ...]:
+        """Where a force may act."""
+        return ("ground", "base") if self.based else ("ground",)
+
+    @property
+    def time(self) -> Array:
+        """The time of each sample (samples,), in s."""
+        return np.asarray(np.arange(self.samples) / self.rate)
+
+
+def moved(rig: Rig, hidden: Hidden, meddling: Meddling, rng: np.random.Generator) -> Array:
+    """Return the true position (samples,) that a sensor without noise shows, after the machine has settled."""
+    fastest = math.sqrt((rig.body.k + rig.body.k0) / rig.body.m) + rig.body.c / rig.body.m + rig.signal.omega
+    every = int(min(max(math.ceil(fastest / rig.rate / FINE), FEWEST), MOST))
+    settle = math.ceil(SETTLE * 2.0 * math.pi / rig.signal.omega * rig.rate)
+    step = 1.0 / (rig.rate * every)
+    kicks = meddling.rms * rng.standard_normal(settle + rig.samples)
+    state, seen = np.zeros(4), []
+    state[0] = rig.signal.value(np.array([-settle / rig.rate]))[0] if rig.based else 0.0
+    for first in range(-settle, rig.samples, PIECE):
+        count = min(PIECE, rig.samples - first)
+        begin = first / rig.rate - meddling.sensor_delay
+        edges = np.asarray(begin + np.arange(count * every + 1) * step, dtype=float)
+        value, slope = meddling.drive(rig.signal, edges[:-1] + 0.5 * step)
+        kick = np.repeat(kicks[settle + first : settle + first + count], every)
+        base = np.zeros((3, len(value)))
+        if rig.based:
+            base[0], base[1], base[2] = value, slope, meddling.drive(rig.signal, edges[1:])[1]
+        force = kick if rig.based else kick + value
+        seen.append(move(force, base, rig.body, hidden, state, (begin, step), every))
+    position = np.concatenate(seen)[settle:]
+    if not np.isfinite(position).all():
+        raise DataError("the simulated motion left all bounds")
+    return (1.0 + meddling.sensor_gain) * position
+
+
+def draw_rig(rng: np.random.Generator, most: int) -> Rig:
+    """Return a machine of random size under a random drive, with recordings of `most` samples at most."""
+    model = str(
+        rng.choice(["lin_backlash", "robot_joint", "linear_oscillator", "rigid_drive"], p=[0.5, 0.3, 0.15, 0.05])
+    )
+    natural, mass = _log(rng, 5.0, 300.0), _log(rng, 0.05, 50.0)
+    ratio = _log(rng, *((0.12, 0.5) if model == "robot_joint" else (0.2, 1.2)))
+    values, amplitude = _sized(model, mass, natural, rng)
+    signal = _signal(amplitude, ratio * natural, rng, single=model in GAPPED)
+    top = max(w for _, w, _ in signal.tones)
+    samples = round(_log(rng, min(3000, most), most))
+    period = max(_log(rng, 20.0, 200.0), ACROSS / ratio, ACROSS * top / signal.omega)
+    rate = period * signal.omega / (2.0 * math.pi)
+    if rng.random() < 0.15:
+        signal = Signal(signal.tones[:1], float(rng.uniform(0.3, 1.0)) * signal.omega * rate / samples)
+    estimated = {"linear_oscillator": ("c", "k"), "rigid_drive": ("m", "c")}.get(model, ("c", "x0"))
+    priors = {name: _prior(values[name], rng) for name in estimated}
+    return Rig(model, values, estimated, signal, rate, samples, _log(rng, 0.003, 0.1), priors)
+
+
+def _log(rng: np.random.Generator, low: float, high: float) -> float:
+    """Return a number whose logarithm is uniform."""
+    return float(math.exp(rng.uniform(math.log(low), math.log(high))))
+
+
+def _sized(model: str, mass: float, natural: float, rng: np.random.Generator) -> tuple[dict[str, float], float]:
+    """Return the parameters of a machine and the amplitude of its drive, in SI units."""
+    stiff, zeta = mass * natural**2, _log(rng, 0.01, 0.1)
+    damping = 2.0 * zeta * mass * natural
+    if model == "robot_joint":
+        values = {"m": mass / 100.0, "c": damping / 100.0, "k0": stiff / 100.0, "x0": _log(rng, 2e-3, 3e-2), "mgl": 0.0}
+        return values, _log(rng, 1.5, 8.0) * values["x0"]
+    length = _log(rng, 1e-5, 1e-2)
+    if model == "lin_backlash":
+        values = {"m": mass, "c": damping, "k1": 0.0, "k0": stiff, "x0": length}
+        return values, _log(rng, 0.15, 2.0) * stiff * length
+    if model == "linear_oscillator":
+        return {"m": mass, "c": damping, "k": stiff}, stiff * length
+    return {"m": mass, "c": 10.0 * damping}, stiff * length
+
+
+def _signal(amplitude: float, omega: float, rng: np.random.Generator, *, single: bool) -> Signal:
+    """Return one tone, or several that do not repeat; a machine without a gap needs several to tell anything."""
+    tones = [(amplitude, omega, float(rng.uniform(0.0, 2.0 * math.pi)))]
+    if not single or rng.random() < 0.3:
+        for low, high in ((0.3, 0.7), (1.4, 2.2)):
+            share, pace, phase = rng.uniform(0.2, 0.6), rng.uniform(low, high), rng.uniform(0.0, 2.0 * math.pi)
+            tones.append((float(share) * amplitude, float(pace) * omega, float(phase)))
+    return Signal(tuple(tones))
+
+
+def _prior(value: float, rng: np.random.Generator) -> dict[str, Any]:
+    """Return a wide prior that holds a value, anywhere but near its ends."""
+    below, above = 10.0 ** rng.uniform(0.4, 1.2, 2)
+    return {"low": _figures(value / below), "high": _figures(value * above), "scale": "log"}
+
+
+def _figures(value: float) -> float:
+    return float(f"{value:.3g}")
