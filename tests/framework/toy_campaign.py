@@ -1,5 +1,6 @@
 """A campaign whose posterior is known in closed form; it imports little, so that processes begin soon."""
 
+import os
 import time
 from functools import partial
 
@@ -18,6 +19,11 @@ def toy(pause, number):
     truth = rng.standard_normal()
     seen = truth + rng.standard_normal()
     return placed(number, truth, rng.normal(0.5 * seen, 0.5**0.5, (4, 250)))
+
+
+def whoami(number):
+    """Return a trial that tells in which process it was made."""
+    return {"number": number, "process": os.getpid()}
 
 
 def placed(number, truth, chain):

@@ -22,6 +22,7 @@ class _Commands(LazyGroup):
         "diagnose": ("lostmotion.cli.diagnose:command", "Find the physics that the model of a case leaves out."),
         "identify": ("lostmotion.cli.identify:command", "Estimate the parameters of a case, with their intervals."),
         "map": ("lostmotion.cli.map:command", "Map an exponent, or anything else, over parameters."),
+        "prove": ("lostmotion.cli.prove:command", "Hide effects from it in a blind trial, and score what it finds."),
         "reproduce": ("lostmotion.cli.reproduce:command", "Redo the paper of 2007: its figures and tables."),
         "simulate": ("lostmotion.cli.simulate:command", "Simulate a machine with or without extra terms."),
         "plugins": ("lostmotion.cli.plugins:command", "List, show and check the models, terms and methods."),

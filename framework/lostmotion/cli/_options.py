@@ -1,4 +1,4 @@
-"""What the commands that work on a case have in common: the case, where the results go, seed, cores, silence."""
+"""What commands have in common: the case, where the results go, seed, cores, silence."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ import click
 
 Command = Callable[..., Any]
 
+_CASE = click.argument("case", metavar="CASE.toml", type=click.Path(path_type=Path))
 _COMMON = (
-    click.argument("case", metavar="CASE.toml", type=click.Path(path_type=Path)),
     click.option(
         "--out",
         required=True,
@@ -27,6 +27,11 @@ _COMMON = (
 
 def on_a_case(command: Command) -> Command:
     """Return the command with the argument CASE.toml and the options --out, --seed, --jobs and --quiet."""
+    return on_a_trial(_CASE(command))
+
+
+def on_a_trial(command: Command) -> Command:
+    """Return the command with the options --out, --seed, --jobs and --quiet."""
     for option in reversed(_COMMON):
         command = option(command)
     return command

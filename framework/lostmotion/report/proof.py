@@ -1,0 +1,177 @@
+"""The page of a blind trial: targets, detection, probabilities, intervals, confusions, and every miss with its case."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from markupsafe import Markup
+from matplotlib.figure import Figure
+
+from lostmotion.errors import DataError
+from lostmotion.report import style
+from lostmotion.report.pages import template
+from lostmotion.report.proof_figures import CAPTIONS, detection, heldout, reliability
+from lostmotion.report.words import DASH, figures, percent, sentence, spoken
+
+Facts = Mapping[str, Any]
+
+
+class Drawn(NamedTuple):
+    """A figure as the template takes it."""
+
+    name: str
+    title: str
+    markup: Markup
+    caption: str
+
+
+class Listed(NamedTuple):
+    """A table as the template takes it: each cell with whether it is out of what was wanted."""
+
+    title: str
+    head: list[str]
+    rows: list[list[tuple[str, bool]]]
+    note: str
+
+
+def write_proof(folder: Path) -> Path:
+    """Return the path of `report.html`, written from `proof.json` in the folder."""
+    source = folder / "proof.json"
+    if not source.is_file():
+        raise DataError(f"no proof.json in {folder}: run `lostmotion prove --out {folder}` first")
+    page = folder / "report.html"
+    page.write_text(render(json.loads(source.read_text(encoding="utf-8"))), encoding="utf-8")
+    return page
+
+
+def render(facts: Facts) -> str:
+    """Return the page as one self-contained HTML text."""
+    with style.applied():
+        drawn = [Drawn(name, title, _embedded(figure, name), CAPTIONS[name]) for name, title, figure in _figures(facts)]
+    states = [row["state"] for row in facts["targets"]]
+    return template("proof.html.j2").render(
+        title=str(facts["title"]),
+        badge=_badge(states),
+        passes="missed" not in states and "met" in states,
+        answer=[str(part) for part in facts["says"]],
+        figures=drawn,
+        targets=_targets(facts),
+        tables=[table for table in _tables(facts) if table.rows],
+        lists=[(title, lines) for title, lines in _lists(facts) if lines],
+        provenance=json.dumps(facts["provenance"], indent=2, ensure_ascii=False),
+    )
+
+
+def _badge(states: list[str]) -> str:
+    if "missed" in states:
+        return "Targets missed"
+    tried = [state for state in states if state != "not tried"]
+    return "Targets met" if tried and set(tried) == {"met"} else "Not decided"
+
+
+def _figures(facts: Facts) -> Iterator[tuple[str, str, Figure]]:
+    """Yield name, heading and drawing of each figure that has something to show."""
+    if facts["sizes"]:
+        yield "detection", "How small may an effect be?", detection(facts)
+    if any(row["of"] for row in facts["reliability"]):
+        yield "reliability", "Are stated probabilities right?", reliability(facts)
+    if facts["heldout"]["ratios"]:
+        yield "heldout", "Is the found model as good as the true one?", heldout(facts)
+
+
+def _embedded(figure: Figure, name: str) -> Markup:
+    # The markup is drawn by matplotlib, which escapes the words it is given.
+    return Markup(style.embedded(figure, name))  # noqa: S704
+
+
+def _plain(*cells: str) -> list[tuple[str, bool]]:
+    return [(cell, False) for cell in cells]
+
+
+def _rate(row: Facts) -> list[str]:
+    """Return a share as two cells: the counts, and the share with its band."""
+    if not row["of"]:
+        return ["0", DASH]
+    return [f"{row['hits']} of {row['of']}", f"{percent(row['share'])} [{percent(row['low'])}, {percent(row['high'])}]"]
+
+
+def _targets(facts: Facts) -> Listed:
+    rows = []
+    for row in facts["targets"]:
+        wanted = f"≥ {percent(row['at_least'])}" if row["at_most"] == 1.0 else _between(row)
+        rows.append([*_plain(sentence(row["what"]), wanted, *_rate(row)), (row["state"], row["state"] == "missed")])
+    return Listed("", ["Target", "Wanted", "Found", "Share, 95 % band", ""], rows, "")
+
+
+def _between(row: Facts) -> str:
+    if row["at_least"] == 0.0:
+        return f"≤ {percent(row['at_most'])}"
+    return f"{percent(row['at_least'])} to {percent(row['at_most'])}"
+
+
+def _tables(facts: Facts) -> Iterator[Listed]:
+    """Yield the tables below the figures."""
+    outcomes = ["Named", "Confused", "Noticed", "Misnamed", "Missed"]
+    note = (
+        "Confused: the diagnosis lists the truth among what it cannot tell from what it named. Noticed: called unknown,"
+        " or a random force. Misnamed: something else was named and nothing of these. Without a term in the library an"
+        " effect has no gain."
+    )
+    rows = [_plain(_size(row), *_rate(row), *_outcomes(row)) for row in facts["detection"] if row["of"]]
+    yield Listed("By size", ["Gain", "Named", "Share, 95 % band", *outcomes], rows, note)
+    head = ["Mechanism", "Median gain", "Named", "Share, 95 % band", *outcomes, "True model"]
+    rows = [
+        _plain(spoken(row["mechanism"]), figures(row["median_gain"]), *_rate(row), *_outcomes(row), row["oracle"])
+        for row in facts["mechanisms"]
+    ]
+    yield Listed("By mechanism", head, rows, "")
+    rows = [_plain(row["noise"], *_rate(row)) for row in facts["alarms"] if row["of"]]
+    yield Listed("False alarms on clean cases", ["Measurement noise", "Cases", "Share, 95 % band"], rows, "")
+    rows = [
+        _plain(_words(row["name"]), *_rate(row), percent(row["median_relative_error"]))
+        for row in facts["coverage"]
+        if row["of"]
+    ]
+    head = ["Parameter", "Truths inside", "Share, 95 % band", "Median error"]
+    yield Listed("Do 95 % intervals hold the truth?", head, rows, "Of what was named exactly.")
+    rows = [_plain(spoken(row["truth"]), spoken(row["answer"]), str(row["cases"])) for row in facts["confusion"]]
+    yield Listed("What was taken for what", ["Truth", "Answer", "Times"], rows, "")
+
+
+def _size(row: Facts) -> str:
+    return (
+        f"{figures(row['from'])} to {figures(row['to'])}" if row["to"] is not None else f"over {figures(row['from'])}"
+    )
+
+
+def _outcomes(row: Facts) -> list[str]:
+    return [str(count) for count in row["outcomes"].values()]
+
+
+def _words(name: str) -> str:
+    mechanism, dot, parameter = name.partition(".")
+    return f"{spoken(mechanism)}, {parameter}" if dot else name
+
+
+def _lists(facts: Facts) -> Iterator[tuple[str, list[str]]]:
+    """Yield the lists of single cases at the end of the page."""
+    yield "Every effect that was not named", [_missed(one) for one in facts["misses"]]
+    yield "Everything that was named and is not there", [_alarm(one) for one in facts["false_alarms"]]
+    yield "Cases without a diagnosis", [f"{one['case']}: {sentence(one['says'])}" for one in facts["failed"]]
+    yield "Cases without a true model", [f"{one['case']}: {sentence(one['says'])}" for one in facts["unmeasured"]]
+
+
+def _missed(one: Facts) -> str:
+    what = one["what"] or spoken(one["mechanism"])
+    at = f" at the {one['at']}" if one["at"] else ""
+    gain = one["status"] if one["gain"] is None else f"gain {figures(one['gain'])}"
+    named = ", ".join(map(spoken, one["named"])) or "nothing"
+    return f"{one['folder']}: {what}{at} ({gain}), {one['outcome']}; named was {named}."
+
+
+def _alarm(one: Facts) -> str:
+    truth = ", ".join(map(spoken, one["truth"])) or "nothing"
+    return f"{one['folder']}: {', '.join(map(spoken, one['named']))}; hidden was {truth}."

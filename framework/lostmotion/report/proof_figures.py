@@ -1,0 +1,103 @@
+"""Figures of a blind trial: detection against effect size, stated probabilities, and held-out errors."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from lostmotion.report import style
+
+Row = Mapping[str, Any]
+EDGE = "#555555"
+SMALLEST, LARGEST = 0.5, 2000.0
+"""Gains beyond these are drawn at the rim."""
+CAPTIONS = {
+    "detection": (
+        "Share of hidden effects that were named, over what their true terms gain in log-likelihood, with exact 95 %"
+        " bands. Small marks: single effects, named above and not named below. Lines: the likelihood-ratio test at 2 %"
+        " false alarms, told what to look for (dashed), and looking for one of as many candidates (dotted); no test"
+        " does better than the first. Open squares: the targets."
+    ),
+    "reliability": (
+        "How often a mechanism was at work, over the probability that was stated of it, with exact 95 % bands. Right"
+        " probabilities lie on the line."
+    ),
+    "heldout": (
+        "Errors of the found model on held-out data, over those of the true model in the same free runs. Shaded: within"
+        " 5 %."
+    ),
+}
+
+
+def detection(facts: Mapping[str, Any]) -> Figure:
+    """Return the share of effects that were named, over their size, with what is possible at all."""
+    figure = style.blank(3.6)
+    axes = figure.subplots()
+    limit = facts["limit"]
+    axes.plot(limit["gain"], limit["told"], color=EDGE, linestyle=(0, (5, 3)), label="likelihood-ratio limit")
+    many = f"the same, one of {limit['candidates']} candidates"
+    axes.plot(limit["gain"], limit["one_of_many"], color=EDGE, linestyle=(0, (1, 2)), label=many)
+    bins = [row for row in facts["detection"] if row["of"]]
+    centres = np.array([_centre(row, facts["sizes"]) for row in bins])
+    _banded(axes, centres, bins)
+    sizes = np.clip(np.array(facts["sizes"], dtype=float).reshape(-1, 2), SMALLEST, None)
+    hit = np.array([one[1] for one in facts["sizes"]], dtype=bool)
+    for chosen, at, colour in ((hit, 1.06, style.AFTER), (~hit, -0.06, style.BEFORE)):
+        axes.plot(np.minimum(sizes[chosen, 0], LARGEST), np.full(int(chosen.sum()), at), "|", color=colour, alpha=0.7)
+    axes.plot([27.0, 150.0], [0.80, 0.95], "s", color=EDGE, markerfacecolor="none", markersize=7, label="targets")
+    axes.set_xscale("log")
+    axes.set_xlim(SMALLEST, LARGEST)
+    axes.set_ylim(-0.12, 1.12)
+    style.log_ticks(axes.xaxis)
+    axes.set_xlabel("gain of the true terms in log-likelihood")
+    axes.set_ylabel("share named")
+    style.legend_above(figure, axes)
+    return figure
+
+
+def _centre(row: Row, sizes: Any) -> float:
+    """Return the middle of the gains in a bin, on a logarithmic axis."""
+    high = np.inf if row["to"] is None else row["to"]
+    own = [max(gain, SMALLEST) for gain, _ in sizes if row["from"] <= gain < high]
+    return float(np.clip(np.exp(np.mean(np.log(own))), SMALLEST, LARGEST))
+
+
+def _banded(axes: Axes, places: Any, rows: list[Row]) -> None:
+    """Draw shares with their bands."""
+    share, low, high = (np.array([row[key] for row in rows], dtype=float) for key in ("share", "low", "high"))
+    axes.vlines(places, low, high, color=style.AFTER, linewidth=5, alpha=0.25)
+    axes.plot(places, share, "o", color=style.AFTER, label="named, with 95 % band")
+    for x, y, row in zip(places, share, rows, strict=True):
+        axes.annotate(f"{row['hits']}/{row['of']}", (x, y), (6, -3), textcoords="offset points", fontsize=8)
+
+
+def reliability(facts: Mapping[str, Any]) -> Figure:
+    """Return how often a mechanism was at work, over the probability that was stated."""
+    figure = style.blank(3.4, 5.2)
+    axes = figure.subplots()
+    rows = [row for row in facts["reliability"] if row["of"]]
+    axes.plot([0.0, 1.0], [0.0, 1.0], color=EDGE, linewidth=0.8, linestyle=(0, (3, 2)))
+    _banded(axes, np.array([row["stated"] for row in rows]), rows)
+    axes.set_xlim(-0.04, 1.12)
+    axes.set_ylim(-0.04, 1.04)
+    axes.set_xlabel("stated probability")
+    axes.set_ylabel("share at work")
+    return figure
+
+
+def heldout(facts: Mapping[str, Any]) -> Figure:
+    """Return the errors of found models over those of the true ones, in order."""
+    figure = style.blank(2.6)
+    axes = figure.subplots()
+    ratios = np.array(facts["heldout"]["ratios"], dtype=float)
+    axes.axhspan(1.0 / 1.05, 1.05, color=style.SHADE, zorder=0)
+    axes.plot(np.arange(1, len(ratios) + 1), ratios, "o", color=style.AFTER, markersize=3.5)
+    axes.set_yscale("log")
+    style.log_ticks(axes.yaxis)
+    axes.set_xlabel("case, in order")
+    axes.set_ylabel("error, found / true")
+    return figure

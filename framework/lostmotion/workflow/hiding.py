@@ -1,0 +1,73 @@
+"""What is hidden in a machine, in the terms of the integrator that moves it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+from lostmotion.kernels.independent_zoo import BOUC_WEN, DAHL, LUGRE, Hidden
+from lostmotion.workflow.mechanisms import Effect
+from lostmotion.workflow.zoo import Meddling, Rig
+
+Numbers = Mapping[str, float]
+
+
+def _memory(kind: float, p: Numbers, place: float) -> dict[str, float]:
+    return {
+        "memory": kind,
+        "memory_force": p["force"],
+        "memory_excess": p.get("excess", 0.0),
+        "memory_velocity": p.get("velocity", 1.0),
+        "memory_travel": p["deflection"] if "deflection" in p else p["travel"],
+        "memory_place": place,
+    }
+
+
+_INSIDE: Mapping[str, Callable[[Numbers, float, float], dict[str, float]]] = {
+    "coulomb_friction": lambda p, place, _w: {"friction": p["force"], "friction_place": place},
+    "stribeck_friction": lambda p, place, _w: {
+        "friction": p["force"], "excess": p["excess"], "velocity": p["velocity"], "friction_place": place,
+    },
+    "dahl_friction": lambda p, place, _w: _memory(DAHL, p, place),
+    "lugre_friction": lambda p, place, _w: _memory(LUGRE, p, place),
+    "bouc_wen_hysteresis": lambda p, place, _w: _memory(BOUC_WEN, p, place),
+    "viscous_damping": lambda p, place, _w: {"drag": p["coefficient"], "drag_place": place},
+    "quadratic_damping": lambda p, place, _w: {"square": p["coefficient"], "square_place": place},
+    "contact_damping": lambda p, _place, _w: {"contact_drag": p["coefficient"]},
+    "linear_stiffness": lambda p, place, _w: {"spring": p["coefficient"], "spring_place": place},
+    "cubic_stiffness": lambda p, place, _w: {"cube": p["coefficient"], "cube_place": place},
+    "asymmetric_gap": lambda p, _place, _w: {"shift": p["shift"]},
+    "gap_drift": lambda p, _place, _w: {"drift": p["rate"]},
+    "offset_force": lambda p, _place, _w: {"push": p["force"]},
+    "parametric_stiffness": lambda p, _place, w: {"depth": p["depth"], "pace": p["ratio"] * w, "phase": p["phase"]},
+    "ripple over position": lambda p, _place, _w: {"ripple": p["force"], "ripple_length": p["length"]},
+    "friction that depends on position": lambda p, place, _w: {
+        "rough": p["force"], "rough_length": p["length"], "friction_place": place,
+    },
+    "bump at one position": lambda p, _place, _w: {
+        "bump": p["force"], "bump_middle": p["middle"], "bump_width": p["width"],
+    },
+    "drag that grows with position": lambda p, _place, _w: {"mixed": p["coefficient"]},
+}  # fmt: skip
+_OUTSIDE: Mapping[str, Callable[[Numbers, float], dict[str, Any]]] = {
+    "excitation_harmonic": lambda p, w: {"harmonic": (p["amplitude"], p["ratio"] * w, p["phase"])},
+    "excitation_delay": lambda p, _w: {"excitation_delay": p["delay"]},
+    "excitation_gain": lambda p, _w: {"excitation_gain": p["error"]},
+    "sensor_delay": lambda p, _w: {"sensor_delay": p["delay"]},
+    "sensor_gain": lambda p, _w: {"sensor_gain": p["error"]},
+    "sensor_quantisation": lambda p, _w: {"step": p["step"]},
+    "random_force": lambda p, _w: {"rms": p["rms"]},
+}
+
+
+def hidden_in(rig: Rig, effects: Sequence[Effect]) -> tuple[Hidden, Meddling]:
+    """Return what the integrator is told of the effects: what acts on the body, and what meddles around it."""
+    inside: dict[str, float] = {}
+    outside: dict[str, Any] = {}
+    for effect in effects:
+        name, omega = effect.what or effect.mechanism, rig.signal.omega
+        if name in _INSIDE:
+            inside.update(_INSIDE[name](effect.parameters, float(effect.at == "base"), omega))
+        else:
+            outside.update(_OUTSIDE[name](effect.parameters, omega))
+    return Hidden(**inside), Meddling(**outside)

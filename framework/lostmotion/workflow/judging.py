@@ -1,0 +1,159 @@
+"""The last step of a blind trial: what a diagnosis said of a case, held against the truth once that is unsealed."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from lostmotion.errors import LostMotionError
+from lostmotion.registry import Registry
+from lostmotion.workflow.oracle import Yardstick, alike, covered, yardstick
+from lostmotion.workflow.prepare import prepare
+from lostmotion.workflow.sealing import label, unsealed
+
+Row = Mapping[str, Any]
+HIT, CONFUSED, NOTICED, MISNAMED, MISSED = "hit", "confused", "noticed", "misnamed", "missed"
+OUTCOMES = (HIT, CONFUSED, NOTICED, MISNAMED, MISSED)
+"""What may become of an effect: named; named as one that the diagnosis says it cannot tell from it; called unknown;
+called something else; not noticed."""
+VAGUE = ("unknown", "random_force")
+TURNING = {"phase": ("depth", "amplitude")}
+"""Angles, and the amplitudes whose sign turns them by half a turn."""
+
+
+def judged(out: Path, registry: Registry, number: int) -> dict[str, Any]:
+    """Return what became of a case: each effect with its outcome, what was named in error, parameters, held-out errors.
+
+    Raises `DataError` when case or truth are not those that were sealed.
+    """
+    truth, case = unsealed(out, number), label(number)
+    told = {"case": case, "model": truth["machine"]["model"], "variant": truth["variant"]}
+    place = out / "cases" / case
+    path = place / "diagnosis" / "diagnosis.json"
+    diagnosis = json.loads(path.read_text(encoding="utf-8")) if path.exists() else None
+    try:
+        prepared = prepare(place / "case.toml", registry)
+        best = yardstick(prepared, truth, diagnosis)
+        places = len(prepared.model.interfaces)
+    except (LostMotionError, ArithmeticError, ValueError) as err:
+        best = Yardstick((None,) * len(truth["effects"]), ("failed",) * len(truth["effects"]), None)
+        told["oracle"], places = " ".join(str(err).split()), 2 if truth["machine"]["model"] == "robot_joint" else 1
+    effects = [
+        {**effect, "gain": gain, "status": status}
+        for effect, gain, status in zip(truth["effects"], best.gains, best.status, strict=True)
+    ]
+    if diagnosis is None:
+        return {**told, "verdict": "failed", "effects": [{**e, "outcome": MISSED} for e in effects], **_nothing()}
+    answer = _held_against(diagnosis, effects, truth, several=places > 1)
+    return {**told, "verdict": diagnosis["verdict"], **answer, **_heldout(diagnosis, best)}
+
+
+def _nothing() -> dict[str, Any]:
+    return {"named": [], "false": [], "parameters": [], "stated": [], "heldout": None}
+
+
+def _held_against(diagnosis: Row, effects: Sequence[Row], truth: Row, *, several: bool) -> dict[str, Any]:
+    found = diagnosis["found"]
+    rows = [{**e, **_outcome(e, diagnosis, several=several)} for e in effects]
+    right = [entry for entry in found if any(same(e, entry, several=several) for e in effects)]
+    exact = len(right) == len(found) and all(row["outcome"] == HIT for row in rows)
+    return {
+        "effects": rows,
+        "named": [_name(entry) for entry in found],
+        "false": [_name(entry) for entry in found if entry not in right],
+        "parameters": [
+            *(row for e in effects for row in _of_effect(e, found, several=several)),
+            *(_of_machine(diagnosis, truth) if exact else ()),
+        ],
+        "stated": list(_stated(diagnosis, effects, several=several)),
+    }
+
+
+def same(effect: Row, entry: Row, *, several: bool) -> bool:
+    """Return whether an entry names an effect, at its place where there are several and it has one."""
+    here = not several or not effect["at"] or entry.get("at", effect["at"]) in (effect["at"], "drive", "sensor")
+    return here and alike(effect["mechanism"], entry["mechanism"])
+
+
+def _name(entry: Row) -> str:
+    at = entry.get("at", "")
+    return entry["mechanism"] if at in ("", "ground", "drive", "sensor") else f"{entry['mechanism']}@{at}"
+
+
+def _outcome(effect: Row, diagnosis: Row, *, several: bool) -> dict[str, Any]:
+    """Return what became of an effect, and the probability that was stated of what was found of it."""
+    found = diagnosis["found"]
+    for entry in found:
+        if same(effect, entry, several=several):
+            return {"outcome": HIT, "probability": entry["probability"]}
+    others = [*diagnosis.get("confused_with", ()), *(o for entry in found for o in entry.get("confused_with", ()))]
+    if found and any(same(effect, _entry(other), several=several) for other in others):
+        return {"outcome": CONFUSED, "probability": None}
+    if any(entry["mechanism"] in VAGUE for entry in found):
+        return {"outcome": NOTICED, "probability": None}
+    return {"outcome": MISNAMED if found else MISSED, "probability": None}
+
+
+def _entry(other: Row | str) -> Row:
+    return {"mechanism": other} if isinstance(other, str) else other
+
+
+def _of_effect(effect: Row, found: Sequence[Row], *, several: bool) -> Iterator[dict[str, Any]]:
+    """Yield each parameter of an effect that was named exactly, with whether its interval holds the truth."""
+    for entry in found:
+        if entry["mechanism"] != effect["mechanism"] or not same(effect, entry, several=several):
+            continue
+        own = _turned(effect["parameters"], entry["parameters"])
+        for name, interval in entry["parameters"].items():
+            if name in own and interval["low"] < interval["high"]:
+                yield _parameter(f"{effect['mechanism']}.{name}", own[name], interval, turn=name in TURNING)
+        return
+
+
+def _turned(truth: Mapping[str, float], said: Mapping[str, Row]) -> dict[str, float]:
+    """Return the true parameters with that sign of the amplitude which was found; an angle turns with it."""
+    own = dict(truth)
+    for angle, amplitudes in TURNING.items():
+        for amplitude in amplitudes:
+            if angle in own and amplitude in own and said.get(amplitude, {}).get("median", 0.0) * own[amplitude] < 0.0:
+                own[amplitude], own[angle] = -own[amplitude], own[angle] + math.pi
+    return own
+
+
+def _of_machine(diagnosis: Row, truth: Row) -> Iterator[dict[str, Any]]:
+    """Yield the parameters of the machine itself, which are to be right where everything was named."""
+    values = truth["machine"]["values"]
+    for name, interval in diagnosis["parameters"]["after"].items():
+        if name in values:
+            yield _parameter(name, values[name], interval)
+
+
+def _parameter(name: str, truth: float, interval: Row, *, turn: bool = False) -> dict[str, Any]:
+    error = interval["median"] - truth
+    if turn:
+        error = math.remainder(error, 2.0 * math.pi)
+    sizes = {key: interval[key] for key in ("low", "median", "high")}
+    inside = covered(interval, truth, turn=turn)
+    relative = error / abs(truth) if truth and not turn else None
+    return {"name": name, "truth": truth, **sizes, "inside": inside, "relative_error": relative}
+
+
+def _stated(diagnosis: Row, effects: Sequence[Row], *, several: bool) -> Iterator[list[float]]:
+    """Yield each probability that was stated of a mechanism, and 1 if that was at work, else 0."""
+    for row in diagnosis["ranking"]:
+        if row["mechanism"] not in (*VAGUE, "nothing_missing"):
+            yield [row["probability"], float(any(same(e, row, several=several) for e in effects))]
+
+
+def _heldout(diagnosis: Row, best: Yardstick) -> dict[str, Any]:
+    """Return the errors on held-out data of nominal, found and true model, and the share of what can be won."""
+    fit = diagnosis["fit"]
+    before, after, true = fit["before"]["heldout_nrmse"], fit["after"]["heldout_nrmse"], best.nrmse
+    if true is None or before is None or after is None:
+        return {"heldout": None}
+    to_win = before - true
+    share = (before - after) / to_win if to_win > 0.02 * true else None
+    return {"heldout": {"before": before, "after": after, "true": true, "share": share, "ratio": after / true}}

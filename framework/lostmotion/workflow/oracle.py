@@ -1,0 +1,154 @@
+"""What one who knows the truth could get out of a recording: the yardstick of a blind trial.
+
+Nominal and true model go through the likelihood of the diagnosis itself, begun at the truth. What the true terms gain
+is the log of the likelihood ratio, beyond which no test can go.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from lostmotion.inference.candidates import frees_of, term_of
+from lostmotion.inference.fit import Fit, maximise, restarted, warmed
+from lostmotion.inference.predict import Horizon
+from lostmotion.inference.problem import NOISE, RANDOM, Problem
+from lostmotion.inference.selection import significant_random_force
+from lostmotion.inference.setup import polish, problem_of, split, stepped
+from lostmotion.stages.compare import exponent_of, pieces_of, predict
+from lostmotion.system import System, key_of
+from lostmotion.workflow.prepare import Prepared
+
+ALIKE: tuple[frozenset[str], ...] = (
+    frozenset({"excitation_delay", "sensor_delay"}),
+    frozenset({"excitation_gain", "sensor_gain"}),
+    frozenset({"dahl_friction", "lugre_friction", "bouc_wen_hysteresis"}),
+)
+"""Mechanisms that no recording of this kind tells apart: either name is right."""
+SKIPPED = ("sensor_quantisation", "unknown")
+"""What no likelihood of ours knows."""
+WARM = 3.0
+
+Row = Mapping[str, Any]
+
+
+def alike(one: str, other: str) -> bool:
+    """Return whether two names count as one."""
+    return one == other or any({one, other} <= same for same in ALIKE)
+
+
+@dataclass(frozen=True)
+class Yardstick:
+    """What the true model reaches: the gain of each effect (None where no term stands for it), with a status.
+
+    `nrmse` is its error on held-out data over the horizon of the diagnosis; None where it could not be fitted.
+    """
+
+    gains: tuple[float | None, ...]
+    status: tuple[str, ...]
+    nrmse: float | None
+
+
+def yardstick(prepared: Prepared, truth: Row, diagnosis: Row | None) -> Yardstick:
+    """Return what the true model of a case reaches, over the horizon of a diagnosis if there is one."""
+    train, held = split(prepared.tracks)
+    system = System(prepared.model, prepared.terms)
+    problem = _begun(problem_of(system, prepared.case, train, jobs=1), truth["machine"])
+    effects = truth["effects"]
+    keys = [key_for(system, effect) for effect in effects]
+    status = [_status(effect, key) for effect, key in zip(effects, keys, strict=True)]
+    acting = {key: effect for key, effect in zip(keys, effects, strict=True) if key}
+    full = _fitted(problem, acting)
+    gains = [
+        max(full.log_likelihood - _fitted(problem, {k: e for k, e in acting.items() if k != key}).log_likelihood, 0.0)
+        if key
+        else _without_term(full, effect)
+        for key, effect in zip(keys, effects, strict=True)
+    ]
+    known = all(key or effect["mechanism"] == "random_force" for key, effect in zip(keys, effects, strict=True))
+    error = _held_out(polish(full), prepared, held, diagnosis["fit"]) if diagnosis and known else None
+    return Yardstick(tuple(gains), tuple(status), error)
+
+
+def key_for(system: System, effect: Row) -> str | None:
+    """Return the term that stands for an effect at its place, or one that equals it; None where there is none."""
+    same = [t for t in system.terms if alike(t.name, effect["mechanism"]) and effect["at"] in ("", t.at)]
+    usable = [t for t in same if not getattr(t, "marked", False)]
+    return next((key_of(t) for t in sorted(usable, key=lambda t: t.name != effect["mechanism"])), None)
+
+
+def _status(effect: Row, key: str | None) -> str:
+    if key or effect["mechanism"] == "random_force":
+        return "ok"
+    return "no likelihood" if effect["mechanism"] in SKIPPED else "no term"
+
+
+def _without_term(fit: Fit, effect: Row) -> float | None:
+    """Return the gain of what is no term: a random force beyond the usual."""
+    return significant_random_force(fit) if effect["mechanism"] == "random_force" else None
+
+
+def _begun(problem: Problem, machine: Row) -> Problem:
+    """Return the problem with the true values, and the usual noise, as its start."""
+    free = []
+    for f in problem.free:
+        if f.parameter == NOISE:
+            free.append(replace(f, start=_within(math.log(machine["measurement_noise"]), f.low, f.high)))
+        elif f.parameter == RANDOM:
+            free.append(replace(f, start=_within(problem.scales.usual, f.low, f.high)))
+        else:
+            free.append(replace(f, start=f.coordinate(machine["values"][f.parameter])))
+    begun = replace(problem, free=tuple(free))
+    return stepped(begun, begun.start)
+
+
+def _within(value: float, low: float, high: float) -> float:
+    return min(max(value, low), high)
+
+
+def _fitted(problem: Problem, acting: Mapping[str, Row]) -> Fit:
+    """Return the best fit with these terms, begun at the truth as it is and with a larger random force."""
+    for key, effect in acting.items():
+        problem = _with(problem, key, effect["parameters"])
+    fits = [maximise(problem), maximise(problem, warmed(problem, problem.start, WARM))]
+    best = max(fits, key=lambda f: f.local.log_posterior)
+    again = maximise(restarted(best), warmed(problem, best.theta, 1.0))
+    return max((best, again), key=lambda f: f.local.log_posterior)
+
+
+def _with(problem: Problem, key: str, truth: Mapping[str, float]) -> Problem:
+    """Return the problem with one more term, begun at its true parameters where it has them."""
+    _, slots = term_of(problem, key)
+    start = {s.key: truth[s.param.name] for s in slots if s.param.name in truth}
+    known = problem.known.copy()
+    for slot in slots:
+        if getattr(slot.param, "choices", ()) and slot.key in start:
+            known[problem.system.index[slot.key]] = start[slot.key]
+    frees = frees_of(slots, problem.scales, start)
+    begun = [replace(f, start=f.coordinate(start[f.key])) if f.key in start else f for f in frees]
+    return replace(problem, known=known).extended(begun, {key})
+
+
+def _held_out(fit: Fit, prepared: Prepared, held: Sequence[Any], said: Row) -> float | None:
+    """Return the error of free runs of a fit on held-out data, over the horizon that a diagnosis chose."""
+    pieces = pieces_of(prepared.tracks, held)
+    track = pieces[0].track
+    unit_time, number = float(said["horizon_unit_time"]), float(said["after"]["horizon"])
+    steps = int(min(max(round(number * unit_time / track.dt), 2), track.samples // 4))
+    horizon = Horizon(steps, number, said["horizon_unit"], unit_time)
+    error = predict(fit, pieces, horizon, exponent_of(fit, prepared.tracks)).nrmse
+    return float(error) if np.isfinite(error) else None
+
+
+def covered(interval: Row, truth: float, *, turn: bool = False) -> bool:
+    """Return whether an interval holds a truth; with `turn` it is an angle in rad."""
+    at = _nearest_turn(truth, interval["median"]) if turn else truth
+    return bool(interval["low"] <= at <= interval["high"])
+
+
+def _nearest_turn(angle: float, near: float) -> float:
+    return angle + 2.0 * math.pi * round((near - angle) / (2.0 * math.pi))

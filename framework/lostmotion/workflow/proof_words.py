@@ -1,0 +1,49 @@
+"""What a blind trial says in sentences."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+FEW = 40
+"""With fewer cases the bands are wider than any target."""
+
+Row = Mapping[str, Any]
+
+
+def says_of(told: Row) -> list[str]:
+    """Return the sentences that a report opens with."""
+    return [part for part in (_opening(told), _alarms(told), *_rest(told)) if part]
+
+
+def _opening(told: Row) -> str:
+    if not told["effects"]:
+        return f"Nothing was hidden in {told['cases']} machines."
+    strong, weak = told["targets"][0], told["targets"][1]
+    named = sum(row["hits"] for row in told["mechanisms"])
+    more = [f"{row['hits']} of {row['of']} {words}" for row, words in _tiers(strong, weak) if row["of"]]
+    listed = f": {', '.join(more)}" if more else ""
+    return f"Of {told['effects']} hidden effects {named} were named{listed}."
+
+
+def _tiers(strong: Row, weak: Row) -> list[tuple[Row, str]]:
+    return [(strong, "that gain more than 50 in log-likelihood"), (weak, "that gain 15 to 50")]
+
+
+def _alarms(told: Row) -> str:
+    every = told["alarms"][0]
+    return f"{every['hits']} of {every['of']} clean cases raised a false alarm." if every["of"] else ""
+
+
+def _rest(told: Row) -> Iterator[str]:
+    covered, held = told["coverage"][0], told["heldout"]
+    if covered["of"]:
+        yield f"The 95 % intervals hold {covered['hits']} of {covered['of']} true parameters."
+    if held["median_share"] is not None:
+        yield f"On held-out data {held['median_share']:.0%} of what the true model would win was won (median)."
+    if told["failed"]:
+        yield f"{len(told['failed'])} cases could not be diagnosed: they are listed, and count as missed."
+    if told["unmeasured"]:
+        yield f"Of {len(told['unmeasured'])} cases the true model could not be fitted."
+    if told["cases"] < FEW:
+        yield f"With {told['cases']} cases no target can be decided: take 200."

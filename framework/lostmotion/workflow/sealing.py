@@ -1,0 +1,192 @@
+"""The first and the last step of a blind trial: truths that are sealed before anybody looks, and opened afterwards.
+
+Of each case there is `cases/NNN` for the one who diagnoses, and `sealed/NNN.json` with the truth and a random salt, so
+that nobody can find a truth by trying. `seal.json` holds the digests of both, and is there before the first diagnosis.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from lostmotion.case import dump_case
+from lostmotion.contracts import Array
+from lostmotion.errors import DataError
+from lostmotion.kernels.independent_zoo import Hidden
+from lostmotion.provenance import digest
+from lostmotion.storage import folder_for, save_json, save_table
+from lostmotion.workflow.hiding import hidden_in
+from lostmotion.workflow.mechanisms import NAMES, SPRUNG, TABLE, Effect, Pilot, drawn
+from lostmotion.workflow.zoo import USUAL, Meddling, Rig, draw_rig, moved
+
+CLEAN, SEVERAL = 0.25, 0.15
+"""Shares of the cases that hide nothing, and that hide two or three things."""
+RARE = 0.5
+"""How much rarer than any other mechanism is one that no library has, of which there are several kinds."""
+PLAIN, COLOURED, OUTLIERS = "plain", "coloured", "outliers"
+VARIANTS: Mapping[str, float] = {PLAIN: 0.6, COLOURED: 0.2, OUTLIERS: 0.2}
+"""The measurement noise of clean cases: white; with a memory; white with outliers. All others have white noise."""
+TOUCHES = (0.05, 0.98)
+"""A machine with a gap is in contact for a share of time between these."""
+RUNAWAY = 4.0
+"""A softening spring may throw a machine out of its range: then another one is drawn."""
+TRIES = 2000
+
+
+@dataclass(frozen=True)
+class Blind:
+    """What is concealed: the seed, the longest recording (samples), if need be only some mechanisms, or none at all."""
+
+    seed: int = 0
+    most: int = 20_000
+    only: tuple[str, ...] = ()
+    clean: bool = False
+
+    def check(self) -> None:
+        """Refuse names that no mechanism has, and wishes that exclude one another."""
+        for name in self.only:
+            if name not in NAMES:
+                raise DataError(f"no mechanism is called {name!r}: there are {', '.join(NAMES)}")
+        if self.only and self.clean:
+            raise DataError("clean cases hide nothing: give either --clean or --only")
+
+
+def label(number: int) -> str:
+    """Return the name of a case."""
+    return f"{number:03d}"
+
+
+def concealed(blind: Blind, out: Path, number: int) -> dict[str, Any]:
+    """Return the digests of case `number` after writing it, and its sealed truth, into the folder `out`."""
+    rng = np.random.default_rng([blind.seed, number])
+    salt = rng.bytes(16).hex()
+    names, variant = _chosen(blind, rng)
+    rig, effects, truth = _machine(blind, names, rng)
+    place = folder_for(out / "cases" / label(number))
+    excitation, response, noise = _recorded(rig, truth, hidden_in(rig, effects)[1].step, variant, rng)
+    save_table(place / "recording.csv", {"time": rig.time, "excitation": excitation, "response": response}, {}, {})
+    dump_case(_case(rig, number), place / "case.toml")
+    sealed = folder_for(out / "sealed") / f"{label(number)}.json"
+    save_json(
+        sealed,
+        {
+            "schema": "lostmotion.sealed/1",
+            "case": label(number),
+            "salt": salt,
+            "variant": variant,
+            "effects": [asdict(effect) for effect in effects],
+            "machine": {**asdict(rig), "measurement_noise": noise},
+        },
+    )
+    return {"case": label(number), "digests": _digests(out, label(number))}
+
+
+def publish(out: Path, concealed: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
+    """Return the content of `seal.json` after writing it; an earlier one must say the same of the same cases."""
+    path, new = out / "seal.json", {one["case"]: dict(one["digests"]) for one in concealed}
+    old = json.loads(path.read_text(encoding="utf-8"))["digests"] if path.exists() else {}
+    for case in sorted(set(old) & set(new)):
+        if old[case] != new[case]:
+            raise DataError(f"case {case} is not the one of {path}: conceal into another folder, or begin with --fresh")
+    content = {"schema": "lostmotion.seal/1", "digest": "SHA-256", "digests": {**old, **new}}
+    save_json(path, content)
+    return content
+
+
+def unsealed(out: Path, number: int) -> dict[str, Any]:
+    """Return the truth of a case, after checking that neither it nor the case has changed since it was sealed."""
+    case = label(number)
+    sealed: Mapping[str, str] = json.loads((out / "seal.json").read_text(encoding="utf-8"))["digests"][case]
+    for name, value in _digests(out, case).items():
+        if sealed[name] != value:
+            raise DataError(f"{name} of case {case} is not what seal.json vouches for: nothing is scored")
+    truth: dict[str, Any] = json.loads((out / "sealed" / f"{case}.json").read_text(encoding="utf-8"))
+    return truth
+
+
+def _digests(out: Path, case: str) -> dict[str, str]:
+    place = out / "cases" / case
+    files = {"truth": out / "sealed" / f"{case}.json", **{n: place / n for n in ("case.toml", "recording.csv")}}
+    return {name: digest(path) for name, path in files.items()}
+
+
+def _chosen(blind: Blind, rng: np.random.Generator) -> tuple[tuple[str, ...], str]:
+    """Return what is to be hidden, and the kind of measurement noise."""
+    lot, noisy = rng.random(), str(rng.choice(list(VARIANTS), p=list(VARIANTS.values())))
+    if blind.clean or (not blind.only and lot < CLEAN):
+        return (), noisy
+    offered = list(blind.only or NAMES)
+    weights = np.array([RARE if name == "unknown" else 1.0 for name in offered])
+    count = 1 if blind.only or lot < 1.0 - SEVERAL else int(rng.integers(2, 4))
+    picked = rng.choice(offered, size=count, replace=False, p=weights / weights.sum()).tolist()
+    return tuple(_unlike(picked)), PLAIN
+
+
+def _unlike(names: Sequence[str]) -> list[str]:
+    """Return the names without those whose kin is there already; what nobody knows stays by itself."""
+    if "unknown" in names:
+        return ["unknown"]
+    kin = {TABLE[name].kin: name for name in reversed(names)}
+    return [name for name in names if kin[TABLE[name].kin] == name]
+
+
+def _machine(blind: Blind, names: Sequence[str], rng: np.random.Generator) -> tuple[Rig, tuple[Effect, ...], Array]:
+    """Return a machine that can have all of these mechanisms, the mechanisms with their sizes, and its motion."""
+    for _ in range(TRIES):
+        rig = draw_rig(rng, blind.most)
+        if not all(TABLE[name].fits(rig) if name in TABLE else rig.model in SPRUNG for name in names):
+            continue
+        with suppress(DataError):
+            pilot = Pilot(rig, moved(rig, Hidden(), Meddling(), rng))
+            if "x0" in rig.values and not TOUCHES[0] < float(np.mean(np.abs(pilot.touching))) < TOUCHES[1]:
+                continue
+            effects = tuple(drawn(name, pilot, rng) for name in names)
+            truth = moved(rig, *hidden_in(rig, effects), rng)
+            if float(np.std(truth)) < RUNAWAY * float(np.std(pilot.q)):
+                return rig, effects, truth
+    raise DataError(f"no machine was drawn that can have {' and '.join(names) or 'nothing'}")
+
+
+def _recorded(
+    rig: Rig, truth: Array, step: float, variant: str, rng: np.random.Generator
+) -> tuple[Array, Array, float]:
+    """Return excitation and response (samples,) as the sensors show them, and the deviation of the latter's noise."""
+    clean = rig.signal.value(rig.time)
+    noise = rig.noise * float(np.std(truth - clean if rig.based else truth))
+    white = rng.standard_normal(len(truth))
+    if variant == COLOURED:
+        white = _remembering(white, float(rng.uniform(0.3, 0.8)))
+    if variant == OUTLIERS:
+        hit = rng.random(len(truth)) < 10.0 ** rng.uniform(-3.0, -2.0)
+        white = white + hit * rng.choice([-1.0, 1.0], len(truth)) * rng.uniform(5.0, 20.0, len(truth))
+    shown = truth + noise * white
+    if step:
+        shown = step * np.round(shown / step)
+    return clean + USUAL * rig.signal.amplitude * rng.standard_normal(len(truth)), shown, noise
+
+
+def _remembering(white: Array, memory: float) -> Array:
+    """Return noise of unit deviation, each sample of which keeps a share of the one before."""
+    from scipy.signal import lfilter
+
+    return np.asarray(lfilter([(1.0 - memory**2) ** 0.5], [1.0, -memory], white), dtype=float)
+
+
+def _case(rig: Rig, number: int) -> dict[str, Any]:
+    """Return what the owner of the machine believes; nothing of it is hidden."""
+    excitation, units = ("base_position", ("rad", "rad")) if rig.based else ("force", ("N", "m"))
+    recording = {
+        "file": "recording.csv",
+        "time": "time",
+        "excitation": {"column": "excitation", "quantity": excitation, "unit": units[0]},
+        "response": {"column": "response", "quantity": "position", "unit": units[1]},
+    }
+    known = {name: value for name, value in rig.values.items() if name not in rig.estimated}
+    model = {"name": rig.model, "known": known, "estimate": dict(rig.priors)}
+    return {"title": f"Blind case {label(number)}", "recordings": [recording], "model": model}
