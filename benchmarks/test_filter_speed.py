@@ -6,7 +6,8 @@ import time
 import numpy as np
 import pytest
 
-from lostmotion.system import Drive, System
+from lostmotion.forcing import Drive
+from lostmotion.system import System
 from lostmotion_plugins.models.lin import LinBacklash
 from lostmotion_plugins.terms.friction import CoulombFriction
 
@@ -29,8 +30,9 @@ def filter_of(samples, *, compiled=True):
 
     def call():
         return track(
-            z, drive.u, drive.dt, SUBSTEPS, base, own, *system.wiring(active), 0.0, 1e-4, noise**2, truth[:1].repeat(2),
-            np.diag([1e-6, 1.0]), *system.channel("position"), errors, variances, False, *spare, *spare, spare[1],
+            z, drive.u, 0.0, drive.dt, SUBSTEPS, base, own, *system.wiring(active), 0.0, 1e-4, noise**2,
+            truth[:1].repeat(2), np.diag([1e-6, 1.0]),
+            *system.channel("position"), errors, variances, False, *spare, *spare, spare[1],
         )  # fmt: skip
 
     assert call() == samples

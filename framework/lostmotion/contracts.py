@@ -22,36 +22,20 @@ from lostmotion.results import Embedding, Estimate
 from lostmotion.subjects import Data, Flow, Orbit, Series
 
 __all__ = [
-    "KINDS",
-    "PSEUDO_NEEDS",
-    "Array",
-    "Assembly",
-    "Data",
-    "Denoiser",
-    "Drive",
-    "Embedder",
-    "Flow",
-    "Group",
-    "Interface",
-    "Model",
-    "Orbit",
-    "Param",
-    "Quantifier",
-    "Series",
-    "Surrogate",
-    "Term",
-    "Values",
-    "place_of",
-]
+    "KINDS", "PSEUDO_NEEDS", "Array", "Assembly", "Data", "Denoiser", "Drive", "Embedder", "Flow", "Group", "Interface",
+    "Model", "Orbit", "Param", "Quantifier", "Series", "Surrogate", "Term", "Values", "place_of",
+]  # fmt: skip
 
 Array = NDArray[np.float64]
 Values = tuple[float, ...]
 """What a term is handed for its parameters and states: numbers to be indexed, nothing to be written."""
 Drive = tuple[float, float, float]
-PSEUDO_NEEDS = ("step", "mobility")
-"""What a term may need that is no parameter: `step`, the integration step in s, and `mobility`, step / inertia:
-the velocity that a unit force gives the body in one step. A law that jumps at zero velocity is as wide as
-`force * mobility`, so that it sticks without turning the integration stiff."""
+PSEUDO_NEEDS = ("step", "mobility", "omega", "amplitude", "stiffness", "play")
+"""What a term may need that is no parameter of that name: `step`, the integration step in s, and `mobility`, step /
+inertia: the velocity that a unit force gives the body in one step. A law that jumps at zero velocity is as wide as
+`force * mobility`, so that it sticks without turning the integration stiff. `omega` is the angular frequency of the
+drive (rad/s) and `amplitude` its size (sqrt(2) of its rms); `stiffness` and `play` are those of the contact at the
+place, the play 0 where nothing is loose."""
 
 
 @dataclass(frozen=True)
@@ -60,7 +44,8 @@ class Param:
 
     `null` (terms only) is the value at which the whole term does nothing. `typical` is the prior width of a term's
     parameter in natural scales of the recording (drive force, rms position and velocity); `scale="log"` says that
-    the parameter is positive and known by order of magnitude.
+    the parameter is positive and known by order of magnitude. One with `choices` is one of these numbers, tried in turn
+    and then held. Of one that is `lasting` the natural time is the length of the recording, not that of the motion.
     """
 
     name: str
@@ -72,6 +57,8 @@ class Param:
     null: float | None = None
     typical: float = 1.0
     aliases: tuple[str, ...] = ()
+    choices: tuple[float, ...] = ()
+    lasting: bool = False
 
 
 @dataclass(frozen=True)
@@ -79,7 +66,8 @@ class Interface:
     """A place where a force can act: `motion(y, u)` gives relative position and velocity there.
 
     The force is added to `dydt[row]`, divided by the parameter `inertia`. `holds` names the parameters of the model
-    that live here, such as the gap: a term that needs them can act nowhere else.
+    that live here, such as the gap: a term that needs them can act nowhere else. `stiffness` and `play` name those of
+    the contact, if there is one: what a term gets that asks for "stiffness" and "play".
     """
 
     name: str
@@ -87,6 +75,8 @@ class Interface:
     inertia: str
     motion: Callable[[Array, Array], tuple[float, float]]
     holds: tuple[str, ...] = ()
+    stiffness: str | None = None
+    play: str | None = None
 
 
 class Group(NamedTuple):
@@ -143,10 +133,12 @@ class Term(ABC):
 
     `force` returns the generalised force on the body in positive direction (friction is negative for v > 0), with
     `x`, `v` the relative motion at the interface `at`, `p` the own `params` followed by `needs`, `s` the own states.
-    `physics` is a sentence with the parameters in braces; `formula` is the law in plain text.
+    `physics` is a sentence with the parameters in braces; `formula` is the law in plain text. `resembles` names terms
+    that tell a similar story, `equals` those that no recording of a machine that does not age can tell from this one.
     """
 
     at: str
+    acts: ClassVar[Literal["motion", "drive", "sensor"]] = "motion"
     name: ClassVar[str]
     physics: ClassVar[str]
     formula: ClassVar[str]
@@ -155,7 +147,9 @@ class Term(ABC):
     states: ClassVar[tuple[str, ...]] = ()
     needs: ClassVar[tuple[str, ...]] = ()
     motions: ClassVar[tuple[str, ...]] = ("translation", "rotation")
+    further: ClassVar[tuple[Param, ...]] = ()
     resembles: ClassVar[tuple[str, ...]] = ()
+    equals: ClassVar[tuple[str, ...]] = ()
 
     @staticmethod
     @abstractmethod
@@ -165,6 +159,11 @@ class Term(ABC):
     @staticmethod  # noqa: B027 - most terms have no states of their own
     def rate(t: float, x: float, v: float, u: Array, p: Values, s: Values, dsdt: Array) -> None:
         """Write the time derivative of the own states into `dsdt`; a term without states leaves this alone."""
+
+    @staticmethod
+    def derived(p: Values) -> Values:
+        """Return the numbers that `further` names: what a reader asks for beside the parameters, such as a phase."""
+        return ()
 
     def null(self) -> dict[str, float]:
         """Return the parameters, with their values, at which the term does nothing."""
@@ -200,17 +199,26 @@ class Assembly:
 
 def place_of(model: Model, term: Term) -> Interface:
     """Return the interface of `model` at which `term` acts, or raise a `ContractError` that says what is wanting."""
-    places = {i.name: i for i in model.interfaces}
+    places = {i.name: i for i in (model.interfaces if term.acts == "motion" else (_BESIDE[term.acts],))}
     if term.at not in places:
         raise ContractError(
             f"{term.name} acts at {term.at!r}, but {model.name} has {', '.join(places)}{nearest(term.at, places)}"
         )
-    known = {*places[term.at].holds, *PSEUDO_NEEDS}
+    place = places[term.at]
+    known = {*place.holds, *PSEUDO_NEEDS} - (set() if place.stiffness else {"stiffness", "play"})
     if lacking := [n for n in term.needs if n not in known]:
         raise ContractError(f"{term.name} needs {', '.join(lacking)}, which {model.name} does not have at {term.at}")
     if model.motion not in term.motions:
         raise ContractError(f"{term.name} is a law of {' or '.join(term.motions)}; {model.name} is {model.motion}")
-    return places[term.at]
+    return place
+
+
+def _nowhere(y: Array, u: Array) -> tuple[float, float]:
+    return 0.0, 0.0
+
+
+_BESIDE = {name: Interface(name, -1, "", _nowhere) for name in ("drive", "sensor")}
+"""The places beside the machine, where terms act that are no force."""
 
 
 class Embedder(ABC):

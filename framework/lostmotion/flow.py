@@ -25,6 +25,7 @@ from numpy.typing import NDArray
 
 from lostmotion.contracts import Array, Assembly, Flow, Model, Orbit
 from lostmotion.errors import ContractError
+from lostmotion.forcing import SILENT, Tone
 from lostmotion.kernels.compose import build_march
 from lostmotion.system import System
 
@@ -208,18 +209,24 @@ class Stepped:
         if self.beat is None:
             return np.zeros((3 * steps, max(len(names), 1)))
         t = (np.arange(steps)[:, None] * h + np.array([0.0, 0.5 * h, h])).ravel()
-        return np.ascontiguousarray(np.stack([self.beat.column(name)(t) for name in names], axis=1))
+        columns = [self.beat.column(name) for name in names]
+        u = self.system.acting(lambda t, order: columns[order](t), self.full, self.system.everything, self._tone)
+        return np.ascontiguousarray(np.stack([u(t, order) for order in range(len(names))], axis=1))
+
+    @property
+    def _tone(self) -> Tone:
+        return Tone(self.beat.omega, self.beat.amplitude) if self.beat else SILENT
 
     def _packed(self, h: float) -> tuple[Array, Array]:
         """Return the parameters of model and terms, the mobility being that of `LINE` steps."""
-        base, own = self.system.pack(self.full, h)
+        base, own = self.system.pack(self.full, h, self._tone)
         own[self._steep] *= LINE
         return base, own
 
     @cached_property
     def _steep(self) -> NDArray[np.bool_]:
         """Where the parameters of the terms hold a mobility."""
-        needs = [name for term in self.system.terms for name in (*("",) * len(term.params), *term.needs)]
+        needs = [name for _, term in self.system.forces for name in (*("",) * len(term.params), *term.needs)]
         return np.array([name == "mobility" for name in needs], dtype=np.bool_)
 
     def _measured(self, fixed: bool) -> Stepped:

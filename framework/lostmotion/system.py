@@ -9,13 +9,14 @@ import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from lostmotion.beside import DriveTerm, Input, SensorTerm
 from lostmotion.contracts import Array, Assembly, Model, Param, Term, place_of
 from lostmotion.errors import ContractError, nearest
+from lostmotion.forcing import SILENT, Drive, Tone
 from lostmotion.kernels import Blueprint, Compiled, Law, Place, build
 
 NUMB = -1
@@ -23,8 +24,8 @@ NUMB = -1
 
 
 def key_of(term: Term) -> str:
-    """Return the name of a term with its place when that is not the ground: `coulomb_friction@base`."""
-    return term.name if term.at == "ground" else f"{term.name}@{term.at}"
+    """Return the name of a term, with its place when that is neither the ground nor plain: `coulomb_friction@base`."""
+    return term.name if term.at in ("ground", "drive", "sensor") else f"{term.name}@{term.at}"
 
 
 @dataclass(frozen=True)
@@ -118,7 +119,7 @@ class System:
         names = [i.name for i in model.interfaces]
         laws = tuple(
             Law(names.index(place_of(model, t).name), len(t.params) + len(t.needs), len(t.states), t.force, t.rate)
-            for t in self.terms
+            for _, t in self.forces
         )
         return Blueprint(n, len(model.channels), model.rhs, model.observe, places, laws, latent)
 
@@ -129,30 +130,71 @@ class System:
             raise ContractError(
                 f"no term {sorted(unknown)[0]!r} in this system{nearest(sorted(unknown)[0], self.keys)}"
             )
-        on = np.array([key in chosen for key in self.keys], dtype=np.bool_)
-        at, start = np.zeros(len(self.terms), dtype=np.int64), len(self.model.states)
-        for i, term in enumerate(self.terms):
+        on = np.array([key in chosen for key, _ in self.forces], dtype=np.bool_)
+        at, start = np.zeros(len(on), dtype=np.int64), len(self.model.states)
+        for i, (_, term) in enumerate(self.forces):
             at[i] = start if on[i] else 0
             start += len(term.states) if on[i] else 0
         return on, at
 
-    def pack(self, full: Array, step: float) -> tuple[Array, Array]:
-        """Return the parameters of the model, and those of all terms, each with what it needs behind its own."""
+    def pack(self, full: Array, step: float, tone: Tone = SILENT) -> tuple[Array, Array]:
+        """Return the parameters of the model, and those of all forces, each with what it needs behind its own.
+
+        `step` is that of the integration (s).
+        """
         base = np.ascontiguousarray(full[: len(self.model.params)])
-        mobility = [step / full[inertia] if inertia >= 0 else step for _, inertia in self._sources]
-        own = [full[i] if i >= 0 else m for (i, _), m in zip(self._sources, mobility, strict=True)]
+        more = {"step": step, "omega": tone.omega, "amplitude": tone.amplitude, "none": 0.0}
+        sources = [source for key, _ in self.forces for source in self._sources[key]]
+        own = [full[i] if kind == "own" else more[kind] if kind in more else step / full[i] for kind, i in sources]
         return base, np.array(own, dtype=float)
 
+    def values(self, full: Array, key: str, tone: Tone) -> tuple[float, ...]:
+        """Return `p` of a term beside the machine: its own parameters, and behind them what it needs."""
+        return tuple(float(full[i] if kind == "own" else getattr(tone, kind)) for kind, i in self._sources[key])
+
     @cached_property
-    def _sources(self) -> tuple[tuple[int, int], ...]:
-        """Where each entry of a term's `p` comes from: an index, or -1 with the index of an inertia, or -1 twice."""
-        table: list[tuple[int, int]] = []
-        for key, term in zip(self.keys, self.terms, strict=True):
-            inertia = self.index[place_of(self.model, term).inertia]
-            pseudo = {"step": (NUMB, NUMB), "mobility": (NUMB, inertia)}
-            own = [(self.index[f"{key}.{q.name}"], NUMB) for q in term.params]
-            table += [*own, *(pseudo.get(n) or (self.index[n], NUMB) for n in term.needs)]
-        return tuple(table)
+    def forces(self) -> tuple[tuple[str, Term], ...]:
+        """The terms that act on the motion, with their keys, in the order of the kernel."""
+        return tuple((k, t) for k, t in zip(self.keys, self.terms, strict=True) if t.acts == "motion")
+
+    @cached_property
+    def beside(self) -> Mapping[str, DriveTerm | SensorTerm]:
+        """The terms of drive and sensor, by key."""
+        pairs = zip(self.keys, self.terms, strict=True)
+        return {key: term for key, term in pairs if isinstance(term, DriveTerm | SensorTerm)}
+
+    def shaping(self, active: Iterable[str]) -> tuple[str, ...]:
+        """Return the keys of those terms that change the input which acts: of the drive, and delays of the sensor."""
+        return tuple(k for k, t in self.beside.items() if k in set(active) and not getattr(t, "marked", False))
+
+    def acting(self, u: Input, full: Array, active: Iterable[str], tone: Tone) -> Input:
+        """Return the input that acts in place of the recorded `u`, in the time of what the sensor shows."""
+        for key in self.shaping(active):
+            u = _through(self.beside[key], u, self.values(full, key, tone))
+        return u
+
+    def gain(self, full: Array, active: Iterable[str]) -> float:
+        """Return what the sensor shows of one unit of the channel."""
+        sensors = [(k, t) for k, t in self.beside.items() if isinstance(t, SensorTerm) and k in set(active)]
+        return math.prod(t.gain(self.values(full, key, SILENT)) for key, t in sensors)
+
+    @cached_property
+    def _sources(self) -> Mapping[str, tuple[tuple[str, int], ...]]:
+        """Where each entry of the `p` of a term comes from: "own" with an index, "mobility" with that of an inertia."""
+        return {key: tuple(self._entries(key, term)) for key, term in zip(self.keys, self.terms, strict=True)}
+
+    def _entries(self, key: str, term: Term) -> Iterable[tuple[str, int]]:
+        place = place_of(self.model, term)
+        contact = {"stiffness": place.stiffness, "play": place.play}
+        yield from (("own", self.index[f"{key}.{q.name}"]) for q in term.params)
+        for need in term.needs:
+            if need in ("step", "omega", "amplitude"):
+                yield need, NUMB
+            elif need == "mobility":
+                yield need, self.index[place.inertia]
+            else:
+                name = contact.get(need, need)
+                yield ("own", self.index[name]) if name else ("none", NUMB)
 
     def channel(self, name: str) -> tuple[int, int]:
         """Return the index of an observed channel, and that of the state it shows directly (-1 when it is none)."""
@@ -167,13 +209,15 @@ class System:
     def simulate(self, full: Array, active: Iterable[str], y0: Array, drive: Drive) -> Motion:
         """Return the free motion from the state `y0` (padded with zeros for the states of terms) under `drive`."""
         chosen = tuple(active)
-        base, own = self.pack(full, drive.dt / drive.nsub)
+        base, own = self.pack(full, drive.dt / drive.nsub, drive.tone)
         on, at = self.wiring(chosen)
         start = np.zeros(self.states(chosen))
         start[: min(len(start), len(y0))] = y0[: len(start)]
         states = np.full((drive.samples, len(start)), np.nan)
         run = self.kernel(chosen).run
-        return Motion(states, int(run(start, drive.u, drive.dt, drive.nsub, base, own, on, at, 0.0, states)))
+        return Motion(
+            states, int(run(start, drive.u, drive.begin, drive.dt, drive.nsub, base, own, on, at, 0.0, states))
+        )
 
     def stiffness(self, full: Array, active: Iterable[str], states: Array, inputs: Array) -> float:
         """Return the fastest rate (1/s) of the linearised motion over the given states (points, n) and inputs."""
@@ -200,6 +244,14 @@ class System:
         return fastest
 
 
+def _through(term: DriveTerm | SensorTerm, u: Input, p: tuple[float, ...]) -> Input:
+    """Return an input after one term; a sensor that is late sees what an earlier input has done."""
+    if isinstance(term, DriveTerm):
+        return lambda t, order: term.true(u, t, p, order)
+    late = term.delay(p)
+    return (lambda t, order: u(t - late, order)) if late else u
+
+
 def _unit(n: int, a: int) -> Array:
     e = np.zeros(n)
     e[a] = 1.0
@@ -209,37 +261,6 @@ def _unit(n: int, a: int) -> Array:
 def _default(slot: Slot) -> float:
     if slot.param.null is not None:
         return slot.param.null
+    if slot.param.choices:
+        return slot.param.choices[0]
     return 1.0 if slot.param.scale == "log" else 0.0
-
-
-@dataclass(frozen=True)
-class Drive:
-    """Measured inputs on the grid of the integrator: `u` (3 * nsub * samples, inputs), three rows to each step.
-
-    The rows are the input at the start, the middle and the end of a step, the end as a limit from the left, so that
-    an input that jumps at the samples (`hold="step"`) is integrated exactly.
-    """
-
-    u: Array
-    dt: float
-    nsub: int
-    samples: int
-
-    @classmethod
-    def smooth(cls, columns: list[Any], dt: float, nsub: int, samples: int) -> Drive:
-        """Return the drive of functions of time (s), one to each input, for instance splines through the samples."""
-        h = dt / nsub
-        start = np.arange(samples * nsub) * h
-        t = np.minimum((start[:, None] + np.array([0.0, 0.5 * h, h])).ravel(), (samples - 1) * dt)
-        return cls(np.ascontiguousarray(np.stack([f(t) for f in columns], axis=1)), dt, nsub, samples)
-
-    @classmethod
-    def held(cls, columns: list[Array], dt: float, nsub: int, samples: int) -> Drive:
-        """Return the drive of inputs (samples,) that are held between the samples."""
-        u = np.stack([np.repeat(np.asarray(c, dtype=float), 3 * nsub) for c in columns], axis=1)
-        return cls(np.ascontiguousarray(u), dt, nsub, samples)
-
-
-def substeps(rate: float, dt: float, *, accuracy: float = 0.06, most: int = 64) -> int:
-    """Return how many steps to take between samples so that `rate * step <= accuracy` (0.06: 105 steps a cycle)."""
-    return int(min(max(math.ceil(rate * dt / accuracy), 1), most))

@@ -16,7 +16,8 @@ from lostmotion_plugins.models.joint import RobotJoint
 from lostmotion_plugins.quantifiers.flows import KaplanYorke, LyapunovMax, LyapunovSpectrum
 from lostmotion_plugins.terms.contact import ContactDamping
 from lostmotion_plugins.terms.elastic import CubicStiffness
-from lostmotion_plugins.terms.friction import CoulombFriction, LuGreFriction
+from lostmotion_plugins.terms.friction import CoulombFriction
+from lostmotion_plugins.terms.memory import DahlFriction
 
 SOFT = {"m": 1.0, "c": 0.1, "k": 1.0}
 JOINT = {"m": 1.0, "c": 2.0, "k0": 4e3, "x0": 0.02, "mgl": 3.0}
@@ -44,9 +45,9 @@ def test_a_base_motion_carries_its_velocity():
 
 
 def test_states_of_terms_are_states_of_the_flow():
-    values = {**SOFT, "lugre_friction.force": 0.1, "lugre_friction.deflection": 0.01}
-    flow = flow_of(LinearOscillator() + LuGreFriction(), values, drive=(1.0, 1.3))
-    assert flow.states == ("position", "velocity", "lugre_friction.bristle_force")
+    values = {**SOFT, "dahl_friction.force": 0.1, "dahl_friction.deflection": 0.01}
+    flow = flow_of(LinearOscillator() + DahlFriction(), values, drive=(1.0, 1.3))
+    assert flow.states == ("position", "velocity", "dahl_friction.bristle_force")
     orbit = flow.march(flow.start, periods=50, tangents=3)
     assert orbit.status == "ok"
     assert orbit.states.shape == (51, 3)

@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 from lostmotion.errors import CaseError
+from lostmotion.forcing import Drive
 from lostmotion.registry import default
-from lostmotion.system import Drive, System
+from lostmotion.system import System
 from lostmotion.workflow import machines
 from lostmotion.workflow.drives import signal_of
 from lostmotion.workflow.machines import Bench, recorded

@@ -15,6 +15,7 @@ from lostmotion.workflow import judging, proof
 from lostmotion.workflow.campaign import Campaign
 from lostmotion.workflow.hiding import hidden_in
 from lostmotion.workflow.mechanisms import NAMES, UNKNOWN, Pilot
+from lostmotion.workflow.oracle import spelled
 from lostmotion.workflow.prove import Diagnoser
 from lostmotion.workflow.sealing import VARIANTS, Blind, concealed, label, publish, unsealed
 from lostmotion.workflow.zoo import Meddling, draw_rig, moved
@@ -185,12 +186,31 @@ def test_phase_turns_with_the_sign_of_its_amplitude():
     assert all(row["inside"] for row in rows)
 
 
+def test_wave_has_a_cosine_and_a_sine():
+    machine = {"signal": {"tones": [[3.0, 1.0, 0.0], [4.0, 2.0, 0.0]]}}
+    found = spelled({"amplitude": 0.5, "phase": 0.3, "ratio": 2.0}, machine)
+    angle = np.linspace(0.0, 6.0, 7)
+    wave = 5.0 * (found["cosine"] * np.cos(angle) + found["sine"] * np.sin(angle))
+    assert np.allclose(wave, 0.5 * np.cos(angle + 0.3))
+    assert found["share"] == pytest.approx(0.1)
+    assert spelled({"force": 1.0}, machine) == {"force": 1.0}
+
+
+def test_probabilities_of_what_cannot_be_told_apart_are_added():
+    ranking = [
+        {"mechanism": name, "at": "ground", "probability": p}
+        for name, p in (("dahl_friction", 0.6), ("lugre_friction", 0.3), ("gap_drift", 0.05), ("unknown", 0.05))
+    ]
+    found = list(judging._stated({"ranking": ranking}, [effect("bouc_wen_hysteresis")], several=False))
+    assert found == [[pytest.approx(0.9), 1.0], [0.05, 0.0]]
+
+
 def case(number, *effects, named=(), false=(), heldout=None, parameters=()):
     return {
         "case": label(number), "model": "lin_backlash", "variant": "plain",
         "verdict": "mismatch" if named else "adequate", "effects": list(effects),
         "named": list(named), "false": list(false), "parameters": list(parameters),
-        "stated": [[0.95, 1.0], [0.001, 0.0]], "heldout": heldout,
+        "stated": [[0.95, 1.0], [0.001, 0.0]], "heldout": heldout, "margin": 1.5,
     }  # fmt: skip
 
 
@@ -256,7 +276,10 @@ def test_page_stands_by_itself():
     assert "Blind &lt;trial&gt;" in page
     for name in ("detection", "reliability", "heldout"):
         assert f'id="section-{name}"' in page
-    assert "cases/002: Coulomb friction at the ground (gain 30), misnamed; named was gap drift." in page
+    assert (
+        "cases/002: Coulomb friction at the ground (gain 30), misnamed; named was gap drift, which fits worse by 1.5."
+        in page
+    )
     assert "cases/005: offset force; hidden was nothing." in page
     assert "http" not in page
 

@@ -62,13 +62,13 @@ BAND = """
 [model]
 name = "backlash_slider"
 [model.known]
-"lugre_friction.deflection" = 1e-4
+"dahl_friction.deflection" = 1e-4
 [model.estimate]
 m = {{ median = 150.0, sd_log = 1.0 }}
 c = {{ low = 1e3, high = 1e5, scale = "log" }}
 k0 = {{ median = 5e6, sd_log = 1.0 }}
 x0 = {{ median = 2e-3, sd_log = 0.7 }}
-"lugre_friction.force" = {{ median = 1e4, sd_log = 0.7{each} }}
+"dahl_friction.force" = {{ median = 1e4, sd_log = 0.7{each} }}
 "offset_force.force" = {{ mean = 0.0, sd = 2000.0{each} }}
 """
 """Priors by order of magnitude, as read off a loop of force over travel; a mass of 60 kg on that contact would sing at
@@ -169,4 +169,4 @@ def found(sample: Sampled) -> Found:
 def travel(seen: Found, name: str = "") -> np.ndarray:
     """Return draws of the travel (m) from a reversal to half of the plateau: contact opens, gap, contact to half."""
     draws = dict(zip(seen.result.keys, seen.result.draws.T, strict=True))
-    return 2.0 * draws["x0"] + 1.5 * draws["lugre_friction.force" + name] / draws["k0"]
+    return 2.0 * draws["x0"] + 1.5 * draws["dahl_friction.force" + name] / draws["k0"]

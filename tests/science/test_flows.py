@@ -19,7 +19,8 @@ from lostmotion_plugins.models.joint import RobotJoint
 from lostmotion_plugins.models.lin import LinBacklash, ground
 from lostmotion_plugins.quantifiers.flows import KaplanYorke, LyapunovMax, LyapunovSpectrum
 from lostmotion_plugins.terms.elastic import CubicStiffness
-from lostmotion_plugins.terms.friction import CoulombFriction, LuGreFriction, StribeckFriction
+from lostmotion_plugins.terms.friction import CoulombFriction, StribeckFriction
+from lostmotion_plugins.terms.memory import DahlFriction
 
 CASE_1 = {"m": 1.0, "c": 8.0, "k1": 0.0, "k0": 4e4, "x0": 0.005}
 START = np.array([0.001, 0.1])
@@ -196,9 +197,9 @@ BASE = {"m": 1.0, "c": 2.0, "k0": 4e3, "x0": 0.02, "mgl": 3.0}
 TWINS = {
     "lin": (LinBacklash(), CASE_1, (100.0, 40.0)),
     "joint": (RobotJoint() + CoulombFriction("base"), {**BASE, "coulomb_friction@base.force": 0.5}, (0.05, 9.7)),
-    "lugre": (
-        LinBacklash() + LuGreFriction(),
-        {**CASE_1, "lugre_friction.force": 3.0, "lugre_friction.deflection": 1e-4},
+    "dahl": (
+        LinBacklash() + DahlFriction(),
+        {**CASE_1, "dahl_friction.force": 3.0, "dahl_friction.deflection": 1e-4},
         (100.0, 40.0),
     ),
 }

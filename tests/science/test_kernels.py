@@ -9,12 +9,14 @@ import numpy as np
 import pytest
 from independent import Machine, lin_oscillator, recording
 
-from lostmotion.system import Drive, System
+from lostmotion.forcing import Drive
+from lostmotion.system import System
 from lostmotion.workflow.conceal import FRICTION, HIDDEN, JOINT, joint_motion
 from lostmotion_plugins.models.basic import RigidDrive
 from lostmotion_plugins.models.joint import RobotJoint
 from lostmotion_plugins.models.lin import LinBacklash
-from lostmotion_plugins.terms.friction import CoulombFriction, LuGreFriction, StribeckFriction
+from lostmotion_plugins.terms.friction import CoulombFriction, StribeckFriction
+from lostmotion_plugins.terms.memory import DahlFriction
 from lostmotion_plugins.terms.viscous import QuadraticDamping, ViscousDamping
 
 CASE_1 = {"m": 1.0, "c": 8.0, "k1": 0.0, "k0": 4e4, "x0": 0.005}
@@ -26,10 +28,10 @@ SAMPLES = 40
 TWINS = {
     "coulomb": (LinBacklash(), CoulombFriction(), {**CASE_1, "coulomb_friction.force": 3.0}, FORCE),
     "joint": (RobotJoint(), CoulombFriction("base"), {**JOINT, HIDDEN: FRICTION}, BASE),
-    "lugre": (
+    "dahl": (
         LinBacklash(),
-        LuGreFriction(),
-        {**CASE_1, "lugre_friction.force": 3.0, "lugre_friction.deflection": 1e-4},
+        DahlFriction(),
+        {**CASE_1, "dahl_friction.force": 3.0, "dahl_friction.deflection": 1e-4},
         FORCE,
     ),
 }
@@ -55,7 +57,7 @@ def track_all(system, full, drive, channel, *, latent, compiled):
     errors, variances, *kept = written
     track = system.kernel(active, latent=latent, compiled=compiled).track
     done = track(
-        z, drive.u, drive.dt, drive.nsub, base, own, *system.wiring(active), 20.0, 1e-3, 1e-10, y0, cov,
+        z, drive.u, drive.begin, drive.dt, drive.nsub, base, own, *system.wiring(active), 20.0, 1e-3, 1e-10, y0, cov,
         *system.channel(channel), errors, variances, True, *kept,
     )  # fmt: skip
     assert done == SAMPLES
@@ -84,7 +86,18 @@ def test_free_run_equals_its_slow_twin(name):
     for states, compiled in ((fast, True), (slow, False)):
         run = system.kernel(system.everything, compiled=compiled).run
         assert (
-            run(np.full(n, 1e-3), drive.u, drive.dt, 3, base, own, *system.wiring(system.everything), 0.0, states)
+            run(
+                np.full(n, 1e-3),
+                drive.u,
+                drive.begin,
+                drive.dt,
+                3,
+                base,
+                own,
+                *system.wiring(system.everything),
+                0.0,
+                states,
+            )
             == SAMPLES
         )
     assert np.ptp(fast[:, 0]) > 0.0

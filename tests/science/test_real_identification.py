@@ -90,4 +90,4 @@ def test_the_travel_to_half_of_the_plateau_is_that_read_off_the_recording(band):
 def test_the_friction_of_the_damper_is_the_level_of_its_plateau(band):
     """30 lb: the medians of the plateaus at 1 Hz are +2.25 and -1.99 kip, 9.4 kN on average; to within 10 %."""
     for seen in band:
-        assert seen.result.intervals["lugre_friction.force"].median == pytest.approx(LEVEL, rel=0.1)
+        assert seen.result.intervals["dahl_friction.force"].median == pytest.approx(LEVEL, rel=0.1)

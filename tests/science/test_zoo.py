@@ -51,7 +51,8 @@ def dahl(t, x, v, z):
 
 
 def lugre(t, x, v, z):
-    return abs(v) / 0.01 * ((4.0 + 2.0 * math.exp(-((v / 0.3) ** 2))) * np.sign(v) - z)
+    """A bristle of the stiffness force / deflection, z its force."""
+    return 400.0 * (v - abs(v) * z / (4.0 + 2.0 * math.exp(-((v / 0.3) ** 2))))
 
 
 def bouc_wen(t, x, v, z):

@@ -31,12 +31,14 @@ class Hint:
 
 def size_of(param: Param, scales: Scales) -> float:
     """Return the typical size of a term's parameter in the natural scales of the recording."""
-    return param.typical * param.dimension.scale(scales.force, scales.length, scales.time)
+    time = scales.span if param.lasting else scales.time
+    return param.typical * param.dimension.scale(scales.force, scales.length, time)
 
 
 def frees_of(slots: list[Slot], scales: Scales, start: Mapping[str, float]) -> tuple[Free, ...]:
     """Return the free parameters of a term: amplitudes normal about zero (half-normal if signed), shapes log-normal."""
-    return tuple(_free(slot, size_of(slot.param, scales), start.get(slot.key)) for slot in slots)
+    open_ = [slot for slot in slots if not slot.param.choices]
+    return tuple(_free(slot, size_of(slot.param, scales), start.get(slot.key)) for slot in open_)
 
 
 def _free(slot: Slot, size: float, start: float | None) -> Free:
@@ -66,10 +68,25 @@ def screen(fit: Fit, slopes: Sensitivity, key: str) -> Hint:
     amplitudes = [s for s in slots if s.param.null is not None]
     shapes = [s for s in slots if s.param.null is None]
     hints = []
-    for factors in itertools.product(SHAPES, repeat=len(shapes)):
-        shape = {s.key: f * size_of(s.param, problem.scales) for s, f in zip(shapes, factors, strict=True)}
+    for values in itertools.product(*(tried_of(s.param, problem.scales) for s in shapes)):
+        shape = {s.key: value for s, value in zip(shapes, values, strict=True)}
         hints.append(_score(fit, slopes, Trial(key, amplitudes, shape)))
     return max(hints, key=lambda h: h.gain)
+
+
+def tried_of(param: Param, scales: Scales) -> tuple[float, ...]:
+    """Return the values at which a shape parameter is tried."""
+    return param.choices or tuple(f * size_of(param, scales) for f in SHAPES)
+
+
+def with_term(problem: Problem, hint: Hint, start: Mapping[str, float]) -> Problem:
+    """Return a problem with one more term, its choices held at what the score test chose."""
+    _, slots = term_of(problem, hint.key)
+    known = problem.known.copy()
+    for slot in slots:
+        if slot.param.choices:
+            known[problem.system.index[slot.key]] = hint.start[slot.key]
+    return replace(problem, known=known).extended(frees_of(slots, problem.scales, start), {hint.key})
 
 
 @dataclass(frozen=True)
@@ -141,7 +158,7 @@ def fit_with(fit: Fit, hint: Hint, *, hopeless: float = -math.inf) -> Fit:
     """Return the fit with one more term, started where its score test points, or with less of it: the better one."""
     _, slots = term_of(fit.problem, hint.key)
     starts = [_scaled(hint, slots, factor) for factor in (1.0, 0.3)]
-    problems = [restarted(fit).extended(frees_of(slots, fit.problem.scales, start), {hint.key}) for start in starts]
+    problems = [with_term(restarted(fit), hint, start) for start in starts]
     heights = [p.log_posterior(p.clip(p.start)) for p in problems]
     first = int(np.argmax(heights))
     best = maximise(problems[first], hopeless=hopeless)
@@ -156,7 +173,7 @@ def fit_in_place(fit: Fit, key: str, hint: Hint, *, hopeless: float = -math.inf)
     _, slots = term_of(fit.problem, hint.key)
     shared = {s.key: values.get(f"{key}.{s.param.name}") for s in slots}
     start = {**hint.start, **{name: value for name, value in shared.items() if value is not None}}
-    problem = restarted(fit).reduced(key, values).extended(frees_of(slots, fit.problem.scales, start), {hint.key})
+    problem = with_term(restarted(fit).reduced(key, values), hint, start)
     return maximise(problem, warmed(problem, problem.start, 2.0), hopeless=hopeless)
 
 

@@ -67,34 +67,37 @@ def free_runs(problem: Problem, theta: Array, states: Array, starts: Array, step
 
 def free_run(problem: Problem, theta: Array, y0: Array, start: int, steps: int, index: int = 0) -> Array:
     """Return the states (steps, n) of a free run that begins at sample `start` of a recording."""
-    system, drive = problem.system, problem.drives[index]
-    base, own = system.pack(problem.full(theta, index), drive.dt / drive.nsub)
+    system, drive = problem.system, problem.drive(index, theta)
+    base, own = system.pack(problem.full(theta, index), drive.dt / drive.nsub, drive.tone)
     on, at = system.wiring(problem.active)
     y0 = y0[: system.states(problem.active)]
     states = np.full((steps, len(y0)), np.nan)
     u = drive.u[3 * drive.nsub * start : 3 * drive.nsub * (start + steps)]
-    system.kernel(problem.active).run(y0, u, drive.dt, drive.nsub, base, own, on, at, 0.0, states)
+    system.kernel(problem.active).run(
+        y0, u, drive.begin + start * drive.dt, drive.dt, drive.nsub, base, own, on, at, 0.0, states
+    )
     return states
 
 
 def observed(problem: Problem, theta: Array, states: Array, where: tuple[int, int] = (0, 0)) -> Array:
     """Return what the recorded channel would show of the `states` (steps, n), from sample `where[0]` of a recording."""
     system, (start, index) = problem.system, where
-    track, drive = problem.tracks[index], problem.drives[index]
+    track, drive, gain = problem.tracks[index], problem.drive(index, theta), problem.gain(theta, index)
     channel, direct = system.channel(track.channel)
     offset = problem.offset(theta, index)
     if direct >= 0:
-        return states[:, direct] + offset if offset else states[:, direct]
-    base, own = system.pack(problem.full(theta, index), drive.dt / drive.nsub)
+        return gain * states[:, direct] + offset
+    base, own = system.pack(problem.full(theta, index), drive.dt / drive.nsub, drive.tone)
     on, at = system.wiring(problem.active)
     derivative = system.kernel(problem.active).derivative
     seen, dydt = np.zeros(len(system.model.channels)), np.zeros(states.shape[1])
     shown = np.empty(len(states))
     for k, y in enumerate(states):
         u = drive.u[3 * drive.nsub * (start + k)]
-        derivative(0.0, y, u, base, own, on, at, 0.0, dydt)
-        system.model.observe(0.0, y, dydt, u, base, seen)
-        shown[k] = seen[channel] + offset
+        t = drive.begin + (start + k) * drive.dt
+        derivative(t, y, u, base, own, on, at, 0.0, dydt)
+        system.model.observe(t, y, dydt, u, base, seen)
+        shown[k] = gain * seen[channel] + offset
     return shown
 
 

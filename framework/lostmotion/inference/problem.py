@@ -12,9 +12,10 @@ from typing import Any, TypeVar
 import numpy as np
 
 from lostmotion.contracts import Array
+from lostmotion.forcing import Drive
 from lostmotion.inference.free import LEVELS, NOISE, OFFSET, PACE, RANDOM, Free, Route
 from lostmotion.inference.tracks import Track, seat
-from lostmotion.system import Drive, System
+from lostmotion.system import System
 
 __all__ = [
     "LEVELS", "NOISE", "OFFSET", "PACE", "RANDOM", "USUAL", "Free", "Innovations", "Kept", "Problem", "Scales",
@@ -36,13 +37,15 @@ def _pool(jobs: int) -> ThreadPoolExecutor:
 class Scales:
     """The natural sizes of a recorded motion, as amplitudes: generalised force, length, time.
 
-    `usual` is the log intensity (N^2 s) of the random force that the usual noise of a measured excitation makes.
+    `usual` is the log intensity (N^2 s) of the random force that the usual noise of a measured excitation makes;
+    `span` is the length of the recording, in s.
     """
 
     force: float
     length: float
     time: float
     usual: float = 0.0
+    span: float = 1.0
 
     @property
     def velocity(self) -> float:
@@ -201,7 +204,8 @@ class Problem:
         y0, cov = np.zeros(n), np.zeros((n, n))
         cov[0, 0], cov[1, 1] = scales.length**2, scales.velocity**2
         if track.channel == "position":
-            y0[0], y0[1] = track.first[0] - offset, track.first[1]
+            gain = 1.0 if theta is None else self.gain(theta, index)
+            y0[0], y0[1] = (track.first[0] - offset) / gain, track.first[1] / gain
             cov[0, 0] = min((10.0 * track.noise) ** 2 + (1e-3 * scales.length) ** 2, scales.length**2)
             cov[1, 1] *= 0.25
         if track.channel == "force":
@@ -221,6 +225,31 @@ class Problem:
         pace = math.exp(self.routes[index].at(theta, PACE))
         return pace, intensity * pace**2
 
+    def drive(self, index: int, theta: Array) -> Drive:
+        """Return the input that acts in a recording at the coordinates `theta`, on the grid of the integrator."""
+        plain, track = self.drives[index], self.tracks[index]
+        keys = self.system.shaping(self.active)
+        if not keys:
+            return plain
+        full = self.full(theta, index)
+        values = tuple(self.system.values(full, key, track.tone) for key in keys)
+        known = self._acting.get(index)
+        if known and known[0] == values:
+            return known[1]
+        u = self.system.acting(track.recorded(self.nsub), full, keys, track.tone)
+        drive = Drive.acting(u, track.inputs.shape[1], plain, track.held)
+        self._acting[index] = (values, drive)
+        return drive
+
+    @cached_property
+    def _acting(self) -> dict[int, tuple[object, Drive]]:
+        """The input that acted last in each recording: most points differ in other parameters."""
+        return {}
+
+    def gain(self, theta: Array, index: int = 0) -> float:
+        """Return what the sensor of a recording shows of one unit."""
+        return self.system.gain(self.full(theta, index), self.active) if self.system.beside else 1.0
+
     def _filter(self, index: int, theta: Array) -> Part:
         track = self.tracks[index]
         errors, variances = np.zeros(track.samples), np.ones(track.samples)
@@ -229,8 +258,8 @@ class Problem:
 
     def track(self, index: int, theta: Array, errors: Array, variances: Array, kept: Kept | None) -> int:
         """Run the filter over one recording into the given arrays; return how many samples it got through."""
-        track, drive, system = self.tracks[index], self.drives[index], self.system
-        base, own = system.pack(self.full(theta, index), drive.dt / drive.nsub)
+        track, drive, system = self.tracks[index], self.drive(index, theta), self.system
+        base, own = system.pack(self.full(theta, index), drive.dt / drive.nsub, drive.tone)
         on, at = system.wiring(self.active)
         channel, direct = system.channel(track.channel)
         (pace, intensity), offset = self.random(theta, index), self.offset(theta, index)
@@ -238,10 +267,16 @@ class Problem:
         if self.coloured:
             cov[-1, -1] = 0.5 * intensity / pace
         arrays = kept or (_NONE, _NONE3, _NONE, _NONE3, _NONE3)
+        gain = self.gain(theta, index)
+        z = track.z - offset if offset else track.z
         done: int = system.kernel(self.active, latent=self.coloured).track(
-            track.z - offset if offset else track.z, drive.u, drive.dt, drive.nsub, base, own, on, at, pace, intensity,
-            self.noise(theta, index)[1], y0, cov, channel, direct, errors, variances, kept is not None, *arrays,
+            z if gain == 1.0 else z / gain, drive.u, drive.begin, drive.dt, drive.nsub, base, own, on, at, pace,
+            intensity, self.noise(theta, index)[1] / gain**2, y0, cov, channel, direct, errors, variances,
+            kept is not None, *arrays,
         )  # fmt: skip
+        if gain != 1.0:
+            errors *= gain
+            variances *= gain**2
         return done
 
     def extended(self, more: Iterable[Free], active: Iterable[str]) -> Problem:

@@ -98,8 +98,10 @@ class Selector:
     def _visit(self, fit: Fit) -> Visit:
         """Note a fitted set; by the prior a term costs the number of candidates, a factor e, and its complexity."""
         terms = fit.problem.active
-        extra = sum(len(term_of(fit.problem, key)[1]) - 1 for key in terms)
-        price = len(terms) * (math.log(max(len(self.candidates), 1)) + 1.0) + EXTRA * extra
+        slots = [slot for key in terms for slot in term_of(fit.problem, key)[1]]
+        choices = sum(math.log(len(slot.param.choices)) for slot in slots if slot.param.choices)
+        extra = sum(not slot.param.choices for slot in slots) - len(terms)
+        price = len(terms) * (math.log(max(len(self.candidates), 1)) + 1.0) + EXTRA * extra + choices
         visit = Visit(terms, fit, fit.log_evidence - price)
         known = self.course.visits.get(terms)
         if known is None or visit.weight > known.weight:

@@ -12,13 +12,14 @@ from scipy.stats import qmc
 from lostmotion.case import Case, Prior, Sensor
 from lostmotion.contracts import Array
 from lostmotion.errors import CaseError, ContractError
+from lostmotion.forcing import substeps
 from lostmotion.inference.fit import Fit, maximise, restarted, warmed
 from lostmotion.inference.free import LEVELS, NOISE, OFFSET, RANDOM, Free, keys_of
 from lostmotion.inference.modes import Tried, distinct
 from lostmotion.inference.noise import LEVELS_TRIED, noise_frees, own_levels, random_level, usual_of
 from lostmotion.inference.problem import Problem, Scales
 from lostmotion.inference.tracks import Track
-from lostmotion.system import Slot, System, substeps
+from lostmotion.system import Slot, System
 
 HELD_OUT = 0.3
 SHARED = Sensor("shared")
@@ -46,6 +47,10 @@ def split(tracks: Sequence[Track]) -> tuple[tuple[Track, ...], tuple[Track, ...]
 
 def scales_of(system: System, tracks: Sequence[Track], known: Array) -> Scales:
     """Return the natural sizes of force, length and time of the recorded motion."""
+    return replace(_sizes(system, tracks, known), span=max(t.samples * t.dt for t in tracks))
+
+
+def _sizes(system: System, tracks: Sequence[Track], known: Array) -> Scales:
     rate = float(np.median([_rate(t) for t in tracks]))
     size = float(np.median([t.amplitude for t in tracks]))
     if tracks[0].channel == "force":

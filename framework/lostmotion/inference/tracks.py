@@ -10,18 +10,20 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 from scipy.optimize import brentq
 
+from lostmotion.beside import Input
 from lostmotion.contracts import Array, Model
 from lostmotion.errors import CaseError
+from lostmotion.forcing import SILENT, Drive, Tone
 from lostmotion.inference.splines import smoothing_spline
 from lostmotion.recording import Recording
-from lostmotion.system import Drive
 
 
 @dataclass(frozen=True)
 class Track:
     """One recording as the kernels see it: response `z` (samples,), inputs (samples, inputs), sampled every `dt` s.
 
-    `begin` is where it starts in the recording; `held` says that the input is constant between the samples.
+    `begin` is where it starts in the recording; `held` says that the input is constant between the samples; `tone` is
+    the drive of the whole recording.
     """
 
     name: str
@@ -31,6 +33,7 @@ class Track:
     channel: str
     held: bool = False
     begin: int = 0
+    tone: Tone = SILENT
 
     @property
     def samples(self) -> int:
@@ -48,11 +51,34 @@ class Track:
 
     def drive(self, nsub: int) -> Drive:
         """Return the inputs on the grid of an integrator that takes `nsub` steps between samples."""
-        columns = list(self.inputs.T)
         if self.held:
-            return Drive.held(columns, self.dt, nsub, self.samples)
+            drive = Drive.held(list(self.inputs.T), self.dt, nsub, self.samples)
+        else:
+            drive = Drive.smooth(list(self._splines), self.dt, nsub, self.samples)
+        return replace(drive, begin=self.begin * self.dt, tone=self.tone)
+
+    @cached_property
+    def _splines(self) -> tuple[CubicSpline, ...]:
         grid = np.arange(self.samples) * self.dt
-        return Drive.smooth([CubicSpline(grid, c) for c in columns], self.dt, nsub, self.samples)
+        return tuple(CubicSpline(grid, c) for c in self.inputs.T)
+
+    def recorded(self, nsub: int) -> Input:
+        """Return the recorded input as a function of time (s, from the start of the recording) and of the order.
+
+        Beyond its ends it stays what it is there. One that is held between the samples is the mean over a step.
+        """
+        start, last = self.begin * self.dt, (self.samples - 1) * self.dt
+        if not self.held:
+            return lambda t, order: np.asarray(self._splines[order](np.clip(t - start, 0.0, last)))
+        edges = np.arange(self.samples + 1) * self.dt
+        half = 0.5 * self.dt / nsub
+
+        def mean(t: Array, order: int) -> Array:
+            sums = np.concatenate([[0.0], np.cumsum(self.inputs[:, order])]) * self.dt
+            middle = np.clip(t - start, half, edges[-1] - half)
+            return (np.interp(middle + half, edges, sums) - np.interp(middle - half, edges, sums)) / (2.0 * half)
+
+        return mean
 
     @cached_property
     def noise(self) -> float:
@@ -122,7 +148,9 @@ def track_of(recording: Recording, model: Model, *, held: bool = False) -> Track
         t = np.arange(len(u)) * recording.dt
         inputs = np.stack([spline(t), spline.derivative()(t)], axis=1)
     z = np.asarray(recording.data["response"].values, dtype=float)
-    return Track(recording.name, z, inputs, recording.dt, _channel(recording, model), held)
+    bare = Track(recording.name, z, inputs, recording.dt, _channel(recording, model), held)
+    period = period_samples(bare)
+    return replace(bare, tone=Tone(2.0 * math.pi / (period * bare.dt) if period else 0.0, bare.travel))
 
 
 def _channel(recording: Recording, model: Model) -> str:

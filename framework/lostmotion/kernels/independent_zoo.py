@@ -101,11 +101,12 @@ def _remembered(z, v, step, h):  # type: ignore[no-untyped-def]
     if h.memory == BOUC_WEN:
         middle = z + 0.5 * step * (v - 0.5 * (abs(v) * abs(z) * z + v * z * z)) / h.memory_travel
         return z + step * (v - 0.5 * (abs(v) * abs(middle) * middle + v * middle * middle)) / h.memory_travel
-    level = h.memory_force
+    level, travel = h.memory_force, h.memory_travel
     if h.memory == LUGRE:
         level += h.memory_excess * math.exp(-((v / h.memory_velocity) ** 2))
+        travel *= level / h.memory_force
     level = level if v > 0.0 else -level
-    return level + (z - level) * math.exp(-abs(v) * step / h.memory_travel)
+    return level + (z - level) * math.exp(-abs(v) * step / travel)
 
 
 @numba.njit(cache=True, nogil=True)

@@ -114,11 +114,11 @@ def _between(row: Facts) -> str:
 
 def _tables(facts: Facts) -> Iterator[Listed]:
     """Yield the tables below the figures."""
-    outcomes = ["Named", "Confused", "Noticed", "Misnamed", "Missed"]
+    outcomes = ["Confused", "Noticed", "Misnamed", "Missed"]
     note = (
         "Confused: the diagnosis lists the truth among what it cannot tell from what it named. Noticed: called unknown,"
-        " or a random force. Misnamed: something else was named and nothing of these. Without a term in the library an"
-        " effect has no gain."
+        " or a random force. Misnamed: something else was named; in brackets how often that fits as well, to within 3 in"
+        " log-likelihood. Without a term in the library an effect has no gain."
     )
     rows = [_plain(_size(row), *_rate(row), *_outcomes(row)) for row in facts["detection"] if row["of"]]
     yield Listed("By size", ["Gain", "Named", "Share, 95 % band", *outcomes], rows, note)
@@ -148,7 +148,10 @@ def _size(row: Facts) -> str:
 
 
 def _outcomes(row: Facts) -> list[str]:
-    return [str(count) for count in row["outcomes"].values()]
+    counts = {name: str(count) for name, count in row["outcomes"].items() if name != "hit"}
+    if row["misnamed_alike"]:
+        counts["misnamed"] += f" ({row['misnamed_alike']})"
+    return list(counts.values())
 
 
 def _words(name: str) -> str:
@@ -169,7 +172,8 @@ def _missed(one: Facts) -> str:
     at = f" at the {one['at']}" if one["at"] else ""
     gain = one["status"] if one["gain"] is None else f"gain {figures(one['gain'])}"
     named = ", ".join(map(spoken, one["named"])) or "nothing"
-    return f"{one['folder']}: {what}{at} ({gain}), {one['outcome']}; named was {named}."
+    margin = "" if one["margin"] is None or not one["named"] else f", which fits worse by {figures(one['margin'], 2)}"
+    return f"{one['folder']}: {what}{at} ({gain}), {one['outcome']}; named was {named}{margin}."
 
 
 def _alarm(one: Facts) -> str:

@@ -26,6 +26,11 @@ LARGEST = 1e100
 """A missing force beyond this means that the filter ran away: its square could not be taken."""
 
 
+def fitted_keys(system: System) -> tuple[str, ...]:
+    """Return the keys of the terms that are found by likelihood; the others leave marks in the values themselves."""
+    return tuple(k for k, t in zip(system.keys, system.terms, strict=True) if not getattr(t, "marked", False))
+
+
 @dataclass(frozen=True)
 class Located:
     """A force over time and over each covariate, and what each covariate explains of it."""
@@ -73,10 +78,17 @@ class Diagnosis:
         return not self.found and self.unexplained and max(self.located.shares.values()) > STRUCTURED
 
 
-def candidates_of(model: Model, terms: Sequence[type[Term]]) -> tuple[Term, ...]:
-    """Return each term at each place of the model where it can act."""
-    tried = (term(at=place.name) for place in model.interfaces for term in terms)  # type: ignore[call-arg]
-    return tuple(term for term in tried if term.fits(model))
+def candidates_of(model: Model, terms: Sequence[type[Term]], tracks: Sequence[Track] = ()) -> tuple[Term, ...]:
+    """Return each term at each place of the model where it can act, given what drives the recordings.
+
+    Of terms that equal each other the first is enough.
+    """
+    tried = [term(at=place.name) for place in model.interfaces for term in terms if term.acts == "motion"]  # type: ignore[call-arg]
+    tried += [term(at=term.acts) for term in terms if term.acts != "motion"]  # type: ignore[call-arg]
+    driven = all(track.tone.omega > 0.0 for track in tracks)
+    tried = [term for term in tried if term.fits(model) and (driven or "omega" not in term.needs)]
+    names = [term.name for term in tried]
+    return tuple(t for i, t in enumerate(tried) if not set(t.equals) & set(names[:i]))
 
 
 def diagnose(
@@ -92,7 +104,7 @@ def diagnose(
     train, held = split(tracks)
     say("fit of the nominal model")
     nominal = search(problem_of(system, case, train, jobs=jobs), rng)
-    selection = Selector(nominal, system.keys, say).run()
+    selection = Selector(nominal, fitted_keys(system), say).run()
     say("final estimates")
     before = polish(selection.nominal)
     after = polish(selection.chosen) if selection.chosen.problem.active else before
@@ -156,20 +168,23 @@ def locate(model: Model, track: Track, missing: Missing) -> Located:
 def law_of(fit: Fit, track: Track, states: Array, key: str) -> Array:
     """Return the force (samples,) of one term of a fit along the smoothed `states` of a recording."""
     problem = fit.problem.on((track,))
-    system, drive = problem.system, problem.drives[0]
+    system, drive = problem.system, problem.drive(0, fit.theta)
     full = problem.full(fit.theta)
-    base, own = system.pack(full, drive.dt / drive.nsub)
+    base, own = system.pack(full, drive.dt / drive.nsub, drive.tone)
     on, at = system.wiring(problem.active)
-    off = on.copy()
-    off[system.keys.index(key)] = False
+    off, other = on.copy(), drive
+    if key in system.beside:
+        other = replace(problem, active=problem.active - {key}).drive(0, fit.theta)
+    else:
+        off[[k for k, _ in system.forces].index(key)] = False
     derivative = system.kernel(problem.active).derivative
     place = system.model.interfaces[0]
     inertia = full[system.index[place.inertia]]
     force, with_terms, without = np.empty(len(states)), np.zeros(states.shape[1]), np.zeros(states.shape[1])
     for k, y in enumerate(states):
-        u = drive.u[3 * drive.nsub * k]
-        derivative(0.0, y, u, base, own, on, at, 0.0, with_terms)
-        derivative(0.0, y, u, base, own, off, at, 0.0, without)
+        t, i = drive.begin + k * drive.dt, 3 * drive.nsub * k
+        derivative(t, y, drive.u[i], base, own, on, at, 0.0, with_terms)
+        derivative(t, y, other.u[i], base, own, off, at, 0.0, without)
         force[k] = (with_terms[place.row] - without[place.row]) * inertia
     return force
 

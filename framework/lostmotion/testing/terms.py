@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 import string
 from dataclasses import fields
@@ -9,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from lostmotion.beside import DriveTerm, SensorTerm
 from lostmotion.contracts import Array, Term
 from lostmotion.testing.probes import STEP, Point, compiled, differ, of_term
 from lostmotion.testing.rules import SNAKE, listed, rule
@@ -113,6 +115,8 @@ def force_is_zero_at_null(term: Term) -> str:
 @rule("term")
 def force_does_something(term: Term) -> str:
     """Let the force differ from 0 somewhere when the parameters are away from their null."""
+    if term.acts != "motion":
+        return ""
     forces = [pull(term, _walked(term, p)) for p in of_term(term)]
     return "" if any(f != 0.0 for f in forces) else f"the force was 0 at each of {len(forces)} points"
 
@@ -149,6 +153,67 @@ def rate_writes_every_state(term: Term) -> str:
         if bad:
             return f"dsdt of {listed(bad)} keeps what was in it, or is not finite"
     return ""
+
+
+_TIMES = np.linspace(-1.0, 3.0, 41)
+
+
+def _wave(t: Array, order: int) -> Array:
+    """Return a recorded input, or its derivative."""
+    return np.sin(2.0 * t) if order == 0 else 2.0 * np.cos(2.0 * t)
+
+
+@rule("term")
+def input_is_as_recorded_at_null(term: Term) -> str:
+    """Let `true` return the recorded input itself, and its derivative, when the parameters with a null are at it."""
+    if not isinstance(term, DriveTerm):
+        return ""
+    for point, order in itertools.product(of_term(term, null=True), (0, 1)):
+        if not np.array_equal(term.true(_wave, _TIMES, tuple(point.p), order), _wave(_TIMES, order)):
+            return f"the input of order {order} is another one at p = {point.p}"
+    return ""
+
+
+@rule("term")
+def input_is_changed(term: Term) -> str:
+    """Let `true` return another input, with finite numbers, when the parameters are away from their null."""
+    if not isinstance(term, DriveTerm):
+        return ""
+    made = [term.true(_wave, _TIMES, tuple(p.p), 0) for p in of_term(term)]
+    if not all(m.shape == _TIMES.shape and np.all(np.isfinite(m)) for m in made):
+        return "the input is not one finite number for each time"
+    return "" if any(not np.array_equal(m, _wave(_TIMES, 0)) for m in made) else "the input is never changed"
+
+
+@rule("term")
+def derivative_is_that_of_the_input(term: Term) -> str:
+    """Let `true` of order 1 return the time derivative of what it returns of order 0: a base moves with a velocity."""
+    if not isinstance(term, DriveTerm):
+        return ""
+    for point in of_term(term):
+        p, h = tuple(point.p), 1e-5
+        ends = [term.true(_wave, _TIMES + side, p, 0) for side in (h, -h)]
+        if not np.allclose((ends[0] - ends[1]) / (2.0 * h), term.true(_wave, _TIMES, p, 1), rtol=1e-5, atol=1e-5):
+            return f"it is not at p = {point.p}"
+    return ""
+
+
+@rule("term")
+def sensor_is_true_at_null(term: Term) -> str:
+    """Let a sensor show what is there, at once, when the parameters with a null are at it; and else something other."""
+    if not isinstance(term, SensorTerm):
+        return ""
+    for point in of_term(term, null=True):
+        p = tuple(point.p)
+        if term.gain(p) != 1.0 or term.delay(p) != 0.0 or not np.array_equal(term.rounded(_TIMES, p), _TIMES):
+            return f"it shows something other at p = {point.p}"
+    changed = [
+        term.gain(tuple(q.p)) != 1.0
+        or term.delay(tuple(q.p)) != 0.0
+        or not np.array_equal(term.rounded(_TIMES, tuple(q.p)), _TIMES)
+        for q in of_term(term)
+    ]
+    return "" if any(changed) else "it never changes what is shown"
 
 
 @rule("term")

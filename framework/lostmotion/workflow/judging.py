@@ -10,7 +10,7 @@ from typing import Any
 
 from lostmotion.errors import LostMotionError
 from lostmotion.registry import Registry
-from lostmotion.workflow.oracle import Yardstick, alike, covered, yardstick
+from lostmotion.workflow.oracle import ALIKE, Yardstick, alike, covered, spelled, yardstick
 from lostmotion.workflow.prepare import prepare
 from lostmotion.workflow.sealing import label, unsealed
 
@@ -20,6 +20,8 @@ OUTCOMES = (HIT, CONFUSED, NOTICED, MISNAMED, MISSED)
 """What may become of an effect: named; named as one that the diagnosis says it cannot tell from it; called unknown;
 called something else; not noticed."""
 VAGUE = ("unknown", "random_force")
+REPEATED = ("cosine", "sine")
+"""Parameters that say again what an amplitude and a phase say."""
 TURNING = {"phase": ("depth", "amplitude")}
 """Angles, and the amplitudes whose sign turns them by half a turn."""
 
@@ -30,7 +32,7 @@ def judged(out: Path, registry: Registry, number: int) -> dict[str, Any]:
     Raises `DataError` when case or truth are not those that were sealed.
     """
     truth, case = unsealed(out, number), label(number)
-    told = {"case": case, "model": truth["machine"]["model"], "variant": truth["variant"]}
+    told = {"case": case, "model": truth["machine"]["model"], "variant": truth["variant"], "margin": None}
     place = out / "cases" / case
     path = place / "diagnosis" / "diagnosis.json"
     diagnosis = json.loads(path.read_text(encoding="utf-8")) if path.exists() else None
@@ -39,8 +41,9 @@ def judged(out: Path, registry: Registry, number: int) -> dict[str, Any]:
         best = yardstick(prepared, truth, diagnosis)
         places = len(prepared.model.interfaces)
     except (LostMotionError, ArithmeticError, ValueError) as err:
-        best = Yardstick((None,) * len(truth["effects"]), ("failed",) * len(truth["effects"]), None)
+        best = Yardstick((None,) * len(truth["effects"]), ("failed",) * len(truth["effects"]))
         told["oracle"], places = " ".join(str(err).split()), 2 if truth["machine"]["model"] == "robot_joint" else 1
+    told["margin"] = best.margin
     effects = [
         {**effect, "gain": gain, "status": status}
         for effect, gain, status in zip(truth["effects"], best.gains, best.status, strict=True)
@@ -65,11 +68,15 @@ def _held_against(diagnosis: Row, effects: Sequence[Row], truth: Row, *, several
         "named": [_name(entry) for entry in found],
         "false": [_name(entry) for entry in found if entry not in right],
         "parameters": [
-            *(row for e in effects for row in _of_effect(e, found, several=several)),
+            *(row for e in effects for row in _of_effect(_spelled(e, truth), found, several=several)),
             *(_of_machine(diagnosis, truth) if exact else ()),
         ],
         "stated": list(_stated(diagnosis, effects, several=several)),
     }
+
+
+def _spelled(effect: Row, truth: Row) -> dict[str, Any]:
+    return {**effect, "parameters": spelled(effect["parameters"], truth["machine"])}
 
 
 def same(effect: Row, entry: Row, *, several: bool) -> bool:
@@ -108,7 +115,7 @@ def _of_effect(effect: Row, found: Sequence[Row], *, several: bool) -> Iterator[
             continue
         own = _turned(effect["parameters"], entry["parameters"])
         for name, interval in entry["parameters"].items():
-            if name in own and interval["low"] < interval["high"]:
+            if name in own and interval["low"] < interval["high"] and name not in REPEATED:
                 yield _parameter(f"{effect['mechanism']}.{name}", own[name], interval, turn=name in TURNING)
         return
 
@@ -142,10 +149,19 @@ def _parameter(name: str, truth: float, interval: Row, *, turn: bool = False) ->
 
 
 def _stated(diagnosis: Row, effects: Sequence[Row], *, several: bool) -> Iterator[list[float]]:
-    """Yield each probability that was stated of a mechanism, and 1 if that was at work, else 0."""
+    """Yield each probability that was stated of a mechanism, and 1 if that was at work, else 0.
+
+    Of mechanisms that no recording tells apart it is the probability that it is one of them.
+    """
+    shares: dict[tuple[str, str], list[Row]] = {}
     for row in diagnosis["ranking"]:
         if row["mechanism"] not in (*VAGUE, "nothing_missing"):
-            yield [row["probability"], float(any(same(e, row, several=several) for e in effects))]
+            kin = next((min(names) for names in ALIKE if row["mechanism"] in names), row["mechanism"])
+            place = row["at"] if row["at"] in ("ground", "base") else ""
+            shares.setdefault((kin, place), []).append(row)
+    for rows in shares.values():
+        at_work = any(same(effect, rows[0], several=several) for effect in effects)
+        yield [min(sum(row["probability"] for row in rows), 1.0), float(at_work)]
 
 
 def _heldout(diagnosis: Row, best: Yardstick) -> dict[str, Any]:

@@ -16,8 +16,9 @@ import numpy as np
 
 from lostmotion.contracts import Array
 from lostmotion.errors import CaseError, DataError
+from lostmotion.forcing import Drive, substeps
 from lostmotion.kernels.independent_lin import rattle
-from lostmotion.system import Drive, System, substeps
+from lostmotion.system import System
 from lostmotion.workflow.drives import Signal, signal_of
 
 FRICTION = "coulomb_friction"

@@ -45,12 +45,14 @@ def alike(one: str, other: str) -> bool:
 class Yardstick:
     """What the true model reaches: the gain of each effect (None where no term stands for it), with a status.
 
-    `nrmse` is its error on held-out data over the horizon of the diagnosis; None where it could not be fitted.
+    `nrmse` is its error on held-out data over the horizon of the diagnosis, and `margin` by how much log-likelihood it
+    is better than the model that was found; None where either could not be fitted.
     """
 
     gains: tuple[float | None, ...]
     status: tuple[str, ...]
-    nrmse: float | None
+    nrmse: float | None = None
+    margin: float | None = None
 
 
 def yardstick(prepared: Prepared, truth: Row, diagnosis: Row | None) -> Yardstick:
@@ -58,7 +60,7 @@ def yardstick(prepared: Prepared, truth: Row, diagnosis: Row | None) -> Yardstic
     train, held = split(prepared.tracks)
     system = System(prepared.model, prepared.terms)
     problem = _begun(problem_of(system, prepared.case, train, jobs=1), truth["machine"])
-    effects = truth["effects"]
+    effects = [{**e, "parameters": spelled(e["parameters"], truth["machine"])} for e in truth["effects"]]
     keys = [key_for(system, effect) for effect in effects]
     status = [_status(effect, key) for effect, key in zip(effects, keys, strict=True)]
     acting = {key: effect for key, effect in zip(keys, effects, strict=True) if key}
@@ -70,8 +72,37 @@ def yardstick(prepared: Prepared, truth: Row, diagnosis: Row | None) -> Yardstic
         for key, effect in zip(keys, effects, strict=True)
     ]
     known = all(key or effect["mechanism"] == "random_force" for key, effect in zip(keys, effects, strict=True))
-    error = _held_out(polish(full), prepared, held, diagnosis["fit"]) if diagnosis and known else None
-    return Yardstick(tuple(gains), tuple(status), error)
+    if not diagnosis or not known:
+        return Yardstick(tuple(gains), tuple(status))
+    margin = _margin(full, problem, diagnosis["found"]) if acting else None
+    error = _held_out(polish(full), prepared, held, diagnosis["fit"])
+    return Yardstick(tuple(gains), tuple(status), error, margin)
+
+
+def spelled(truth: Mapping[str, float], machine: Row) -> dict[str, float]:
+    """Return the parameters of an effect with all further names they have in the library.
+
+    A wave of an amplitude and a phase (rad) has a cosine and a sine; one of the drive is a share of that.
+    """
+    if "phase" not in truth:
+        return dict(truth)
+    drive = math.hypot(*(tone[0] for tone in machine["signal"]["tones"]))
+    depth = truth["depth"] if "depth" in truth else truth["amplitude"] / drive
+    cosine, sine = depth * math.cos(truth["phase"]), -depth * math.sin(truth["phase"])
+    return {**truth, "share": depth, "cosine": cosine, "sine": sine}
+
+
+def _margin(full: Fit, problem: Problem, found: Sequence[Row]) -> float | None:
+    """Return by how much log-likelihood the true model is better than one with what was found in place of it."""
+    keys = {key_for(problem.system, {"at": "", **entry}): entry for entry in found}
+    if None in keys or set(keys) == set(full.problem.active):
+        return None
+    medians = {
+        key: {"parameters": {name: interval["median"] for name, interval in entry["parameters"].items()}}
+        for key, entry in keys.items()
+        if key
+    }
+    return float(full.log_likelihood - _fitted(problem, medians).log_likelihood)
 
 
 def key_for(system: System, effect: Row) -> str | None:

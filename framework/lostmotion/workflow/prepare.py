@@ -58,7 +58,7 @@ def prepared_of(case: Case, registry: Registry) -> Prepared:
     recordings = tuple(load_recording(spec, case.folder) for spec in case.recordings)
     tracks = tuple(track_of(r, model, held=r.hold == "step") for r in recordings)
     _alike(recordings)
-    terms = candidates_of(model, [registry.load("term", name) for name in registry.names("term")])
+    terms = candidates_of(model, [registry.load("term", name) for name in registry.names("term")], tracks)
     return Prepared(case, recordings, tracks, model, terms)
 
 

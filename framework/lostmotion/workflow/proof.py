@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from scipy.stats import beta, chi2, ncx2
 
-from lostmotion.workflow.judging import HIT, OUTCOMES
+from lostmotion.workflow.judging import HIT, MISNAMED, OUTCOMES
 from lostmotion.workflow.proof_words import says_of
 
 Row = Mapping[str, Any]
@@ -24,6 +24,8 @@ COVERED = (0.90, 0.98)
 CLOSE = 1.05
 """The found model may err on held-out data by so much more than the true one."""
 LEVEL = 0.95
+NEAR = 3.0
+"""What was named in error cannot be told from the truth if that is better by less than this in log-likelihood."""
 ENOUGH = 20
 """With fewer tries a target is not said to be met."""
 
@@ -31,7 +33,8 @@ ENOUGH = 20
 def summary(rows: Sequence[Row], failed: Sequence[Row]) -> dict[str, Any]:
     """Return what a blind trial found, ready for JSON, from what became of each case."""
     lost = {row["case"] for row in failed}
-    effects = [{**effect, "case": row["case"], "named": row["named"]} for row in rows for effect in row["effects"]]
+    kept = ("case", "named", "margin")
+    effects = [{**effect, **{key: row[key] for key in kept}} for row in rows for effect in row["effects"]]
     clean = [row for row in rows if not row["effects"] and row["case"] not in lost]
     told: dict[str, Any] = {
         "cases": len(rows),
@@ -73,7 +76,9 @@ def _bin(effects: Sequence[Row], low: float, high: float) -> dict[str, Any]:
 
 def _counts(effects: Sequence[Row]) -> dict[str, Any]:
     found = Counter(e["outcome"] for e in effects)
-    return {**rate(found[HIT], len(effects)), "outcomes": {name: found[name] for name in OUTCOMES}}
+    close = sum(e["outcome"] == MISNAMED and e["margin"] is not None and e["margin"] < NEAR for e in effects)
+    outcomes = {name: found[name] for name in OUTCOMES}
+    return {**rate(found[HIT], len(effects)), "outcomes": outcomes, "misnamed_alike": close}
 
 
 def _limit(rows: Sequence[Row]) -> dict[str, Any]:
@@ -163,7 +168,7 @@ def _alarms(clean: Sequence[Row]) -> list[dict[str, Any]]:
 
 
 def _told(effect: Row) -> dict[str, Any]:
-    kept = ("case", "mechanism", "what", "at", "gain", "status", "outcome", "named")
+    kept = ("case", "mechanism", "what", "at", "gain", "status", "outcome", "named", "margin")
     return {**{key: effect[key] for key in kept}, "folder": f"cases/{effect['case']}"}
 
 

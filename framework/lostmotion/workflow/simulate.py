@@ -7,18 +7,21 @@ import json
 import math
 import operator
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
 
+from lostmotion.beside import SensorTerm
 from lostmotion.contracts import Array, Assembly, Model, Term
 from lostmotion.errors import CaseError, nearest
+from lostmotion.forcing import SILENT, Drive, Tone, substeps
+from lostmotion.inference.tracks import Track, period_samples
 from lostmotion.provenance import provenance
 from lostmotion.quantities import ANGULAR, SI
 from lostmotion.registry import Registry
 from lostmotion.storage import save_table
-from lostmotion.system import Drive, Slot, System, key_of, substeps
+from lostmotion.system import Slot, System, key_of
 from lostmotion.workflow.drives import Signal, number, pairs, signal_of
 
 ACCURACY = 0.02
@@ -69,16 +72,17 @@ def simulate(plan: Plan) -> Table:
     signals = _inputs(plan)
     nsub = _substeps(system, full, y0, _drive(signals, plan, 1))
     _require_size(samples, nsub)
-    drive = _drive(signals, plan, nsub)
+    recorded = _drive(signals, plan, nsub)
+    drive = _acting(system, full, signals, recorded)
     motion = system.simulate(full, system.everything, y0, drive)
     if motion.finite < samples:
         raise CaseError(
             f"the motion left all bounds after {motion.finite / plan.rate:.4g} s of {plan.duration:g} s:"
             " check the signs and sizes of the parameters"
         )
-    inputs = drive.u[:: 3 * nsub]
+    inputs = recorded.u[:: 3 * nsub]
     columns = dict(zip(plan.assembly.model.inputs, inputs.T, strict=True))
-    columns |= _noisy(_channels(system, full, motion.states, drive), plan)
+    columns |= _shown(system, full, _noisy(_channels(system, full, motion.states, drive), plan), plan)
     return _table(plan, {"time": np.arange(samples) / plan.rate, **columns}, nsub)
 
 
@@ -183,6 +187,35 @@ def _inputs(plan: Plan) -> list[Signal]:
 def _drive(signals: list[Signal], plan: Plan, nsub: int) -> Drive:
     samples = round(plan.duration * plan.rate)
     return Drive.smooth([s.value for s in signals], 1.0 / plan.rate, nsub, samples)
+
+
+def _acting(system: System, full: Array, signals: list[Signal], recorded: Drive) -> Drive:
+    """Return the drive that acts, where terms stand between it and what is recorded."""
+    tone = _tone_of(recorded)
+    plain = replace(recorded, tone=tone)
+    if not system.shaping(system.everything):
+        return plain
+    u = system.acting(lambda t, order: signals[order].value(t), full, system.everything, tone)
+    return Drive.acting(u, len(signals), plain, False)
+
+
+def _tone_of(drive: Drive) -> Tone:
+    """Return frequency and amplitude of a drive as a diagnosis would read them off its samples."""
+    u = drive.u[:: 3 * drive.nsub]
+    track = Track("drive", np.zeros(len(u)), u, drive.dt, "")
+    period = period_samples(track)
+    return Tone(2.0 * math.pi / (period * drive.dt) if period else 0.0, track.travel)
+
+
+def _shown(system: System, full: Array, channels: Mapping[str, Array], plan: Plan) -> dict[str, Array]:
+    """Return what the sensors store: the first channel, with what the terms of a sensor make of it."""
+    shown, first = dict(channels), plan.assembly.model.channels[0]
+    gain = system.gain(full, system.everything)
+    shown[first] = gain * shown[first]
+    for key, term in system.beside.items():
+        if isinstance(term, SensorTerm):
+            shown[first] = term.rounded(shown[first], system.values(full, key, SILENT))
+    return shown
 
 
 def _substeps(system: System, full: Array, y0: Array, coarse: Drive) -> int:

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from lostmotion.contracts import Array
+from lostmotion.contracts import Array, Term
 from lostmotion.inference.candidates import term_of
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.mixture import draws
@@ -136,26 +136,45 @@ def _fit(outcome: Outcome) -> dict[str, Any]:
 def _found(outcome: Outcome) -> list[dict[str, Any]]:
     d = outcome.diagnosis
     after = intervals(d.after, outcome.draws_after)
-    entries = [_entry(d, key, after) for key in d.found]
+    entries = [_entry(outcome, key, after) for key in d.found]
     if not entries and d.unexplained:
         depends = [k for k, share in d.located.shares.items() if share > STRUCTURED]
         entries.append(_unnamed(d, depends))
     return entries
 
 
-def _entry(d: Diagnosis, key: str, after: Mapping[str, Interval]) -> dict[str, Any]:
+def _entry(outcome: Outcome, key: str, after: Mapping[str, Interval]) -> dict[str, Any]:
+    d = outcome.diagnosis
     term, slots = term_of(d.after.problem, key)
-    own = {s.param.name: after[s.key] for s in slots}
+    system, known = d.after.problem.system, d.after.problem.known
+    held = {s.key: float(known[system.index[s.key]]) for s in slots}
+    own = {s.param.name: after.get(s.key) or _of(np.full(1, held[s.key]), s.unit) for s in slots}
     sentence = term.physics.format(**{name: str(i) for name, i in own.items()})
     share = float(np.max(np.abs(d.laws[key]))) / d.after.problem.scales.force
     return {
         "mechanism": term.name,
         "at": term.at,
         "probability": d.selection.inclusion(key),
-        "parameters": {name: interval.as_dict() for name, interval in own.items()},
+        "parameters": {name: i.as_dict() for name, i in (own | _derived(outcome, term, held)).items()},
         "share_of_drive": share,
         "says": f"{sentence}, up to {100.0 * share:.2g} % of the drive.",
     }
+
+
+def _of(draws: Array, unit: str) -> Interval:
+    """Return median and central 95 % interval of draws (count,)."""
+    low, median, high = np.quantile(draws, [0.025, 0.5, 0.975])
+    return Interval(float(median), float(low), float(high), unit)
+
+
+def _derived(outcome: Outcome, term: Term, held: Mapping[str, float]) -> dict[str, Interval]:
+    """Return the intervals of the further numbers of a term, from draws of its parameters (`held` where not free)."""
+    after = outcome.diagnosis.after
+    columns = {key: i for i, key in enumerate(base_keys(after))}
+    rows = [[row[columns[k]] if k in columns else value for k, value in held.items()] for row in outcome.draws_after]
+    made = np.array([term.derived(tuple(row)) for row in rows])
+    motion = after.problem.system.model.motion
+    return {q.name: _of(column, q.dimension.unit(motion)) for q, column in zip(term.further, made.T, strict=True)}
 
 
 def _unnamed(d: Diagnosis, depends: list[str]) -> dict[str, Any]:
@@ -212,7 +231,17 @@ def _confused(d: Diagnosis) -> list[dict[str, Any]]:
         if key not in d.found and p > WORTH_NAMING:
             says = f"This recording gives {term.name} a probability of {p:.2f}: another drive level would decide."
             rows.append({"mechanism": term.name, "at": term.at, "probability": p, "says": says})
-    return rows
+    return rows + [row for key in d.found for row in _equal(d, key)]
+
+
+def _equal(d: Diagnosis, key: str) -> list[dict[str, Any]]:
+    """Return the terms that no recording of a machine that does not age can tell from a term that was found."""
+    term, _ = term_of(d.after.problem, key)
+    says = (
+        f"No recording of this machine can tell {{}} from {term.name}: measure the time lag of the channels by itself."
+    )
+    p = d.selection.inclusion(key)
+    return [{"mechanism": n, "at": "", "probability": p, "says": says.format(n)} for n in term.equals]
 
 
 def _unexplained(d: Diagnosis, *, after: bool) -> dict[str, Any]:

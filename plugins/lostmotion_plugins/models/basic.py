@@ -46,7 +46,7 @@ class LinearOscillator(Model):
     inputs = ("force",)
     channels = ("position", "velocity", "acceleration")
     params = (_MASS, _DAMPING, Param("k", "stiffness", STIFFNESS, low=0.0, scale="log", aliases=("k1", "stiffness")))
-    interfaces = (_GROUND,)
+    interfaces = (Interface("ground", row=1, inertia="m", motion=ground, holds=("k",), stiffness="k"),)
 
     @staticmethod
     def rhs(t: float, y: Array, u: Array, p: Array, dydt: Array) -> None:

@@ -46,7 +46,7 @@ class RobotJoint(Model):
         Param("mgl", "gravity torque of the horizontal link", FORCE, aliases=("gravity",)),
     )
     interfaces = (
-        Interface("base", row=1, inertia="m", motion=base, holds=("k0", "x0")),
+        Interface("base", row=1, inertia="m", motion=base, holds=("k0", "x0"), stiffness="k0", play="x0"),
         Interface("ground", row=1, inertia="m", motion=ground),
     )
     groups = (

@@ -36,7 +36,9 @@ class LinBacklash(Model):
         Param("k0", "stiffness of the contact", STIFFNESS, low=0.0, scale="log", aliases=("stiffness",)),
         Param("x0", "half gap", LENGTH, low=0.0, scale="log", aliases=("gap", "backlash")),
     )
-    interfaces = (Interface("ground", row=1, inertia="m", motion=ground, holds=("k0", "x0")),)
+    interfaces = (
+        Interface("ground", row=1, inertia="m", motion=ground, holds=("k0", "x0"), stiffness="k0", play="x0"),
+    )
     groups = (
         Group("stiffness_ratio", "stiffness of the free spring", "k1 / k0", "k1", lambda q, n: n * q["k0"]),
         Group("zeta", "damping ratio", "c / (2 sqrt(k0 m))", "c", lambda q, n: 2.0 * n * math.sqrt(q["k0"] * q["m"])),

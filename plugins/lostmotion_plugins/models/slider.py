@@ -34,7 +34,7 @@ class BacklashSlider(Model):
         Param("x0", "half gap", LENGTH, low=0.0, scale="log", aliases=("gap", "backlash")),
     )
     interfaces = (
-        Interface("base", row=1, inertia="m", motion=base, holds=("k0", "x0")),
+        Interface("base", row=1, inertia="m", motion=base, holds=("k0", "x0"), stiffness="k0", play="x0"),
         Interface("ground", row=1, inertia="m", motion=ground),
     )
 

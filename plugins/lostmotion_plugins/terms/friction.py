@@ -1,4 +1,4 @@
-"""Dry friction: laws that jump at zero velocity, and one with a bristle that remembers."""
+"""Dry friction as laws that jump at zero velocity."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from lostmotion.contracts import Array, Param, Term, Values
-from lostmotion.quantities import FORCE, LENGTH, SPEED
+from lostmotion.quantities import FORCE, SPEED
 
 
 @dataclass(frozen=True)
@@ -57,37 +57,3 @@ class StribeckFriction(Term):
         if abs(v) >= width:
             return -size if v > 0.0 else (size if v < 0.0 else 0.0)
         return -size * v / width
-
-
-@dataclass(frozen=True)
-class LuGreFriction(Term):
-    """Dry friction through bristles: a spring before it slides, with the bristle force (N) as its own state.
-
-    Written in the bristle force f = sigma0 z, so that the law stays stable when the bristles are much stiffer than
-    one step resolves; sigma1 = sigma2 = 0, since damping of either kind has terms of its own.
-    """
-
-    at: str = "ground"
-    name: ClassVar[str] = "lugre_friction"
-    physics: ClassVar[str] = (
-        "Dry friction of {force} with {deflection} of elastic travel before it slides opposes the motion"
-    )
-    formula: ClassVar[str] = "-f,  f' = |v|/deflection * (force * sign(v) - f)"
-    paper: ClassVar[str] = "Canudas de Wit, Olsson, Astrom, Lischinsky, IEEE Trans. Automatic Control 40 (1995) 419-425"
-    params = (
-        Param("force", "sliding friction force", FORCE, low=0.0, null=0.0),
-        Param("deflection", "elastic travel before sliding", LENGTH, low=0.0, scale="log", typical=0.05),
-    )
-    states = ("bristle_force",)
-    needs = ("step",)
-    resembles = ("coulomb_friction", "stribeck_friction", "dahl_friction", "bouc_wen_hysteresis")
-
-    @staticmethod
-    def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
-        return -s[0]
-
-    @staticmethod
-    def rate(t: float, x: float, v: float, u: Array, p: Values, s: Values, dsdt: Array) -> None:
-        pace = min(abs(v) / p[1], 1.0 / p[2])
-        level = p[0] if v > 0.0 else -p[0]
-        dsdt[0] = pace * (level - s[0])

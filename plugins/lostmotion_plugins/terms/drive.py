@@ -1,0 +1,83 @@
+"""What lies between the recorded excitation and the one that acts."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from lostmotion.beside import DriveTerm, Input
+from lostmotion.contracts import Array, Param, Values
+from lostmotion.quantities import NUMBER, TIME
+
+
+@dataclass(frozen=True)
+class ExcitationHarmonic(DriveTerm):
+    """A harmonic of the drive that was not recorded.
+
+    Cosine and sine are shares of the amplitude of the recorded drive.
+    """
+
+    at: str = "drive"
+    name: ClassVar[str] = "excitation_harmonic"
+    physics: ClassVar[str] = (
+        "The drive has a component of {ratio} times its frequency that was not recorded: {cosine} of its amplitude as a"
+        " cosine and {sine} as a sine"
+    )
+    formula: ClassVar[str] = "u + amplitude * (cosine * cos(ratio omega t) + sine * sin(ratio omega t))"
+    paper: ClassVar[str] = "Pintelon, Schoukens, System Identification: a Frequency Domain Approach (2012), section 3.2"
+    params = (
+        Param("cosine", "share of the drive as cos(ratio omega t)", NUMBER, null=0.0, typical=0.1),
+        Param("sine", "share of the drive as sin(ratio omega t)", NUMBER, null=0.0, typical=0.1),
+        Param("ratio", "frequency over that of the drive", NUMBER, low=0.0, choices=(2.0, 3.0, 4.0, 5.0, 0.5, 1.5)),
+    )
+    further = (Param("share", "share of the amplitude of the drive", NUMBER), Param("phase", "phase in rad", NUMBER))
+    needs = ("omega", "amplitude")
+
+    @staticmethod
+    def true(u: Input, t: Array, p: Values, order: int) -> Array:
+        turn = p[2] * p[3]
+        angle = turn * t + 0.5 * math.pi * order
+        more = p[0] * np.cos(angle) + p[1] * np.sin(angle)
+        return np.asarray(u(t, order) + p[4] * turn**order * more)
+
+    @staticmethod
+    def derived(p: Values) -> Values:
+        return math.hypot(p[0], p[1]), math.atan2(-p[1], p[0])
+
+
+@dataclass(frozen=True)
+class ExcitationGain(DriveTerm):
+    """A gauge of the drive that shows too little or too much."""
+
+    at: str = "drive"
+    name: ClassVar[str] = "excitation_gain"
+    physics: ClassVar[str] = "The drive that acts is larger than the recorded one by {error} of it"
+    formula: ClassVar[str] = "(1 + error) * u"
+    paper: ClassVar[str] = "Pintelon, Schoukens, System Identification: a Frequency Domain Approach (2012), section 1.6"
+    params = (Param("error", "relative error of the gain", NUMBER, low=-0.9, null=0.0, typical=0.1),)
+    resembles = ("sensor_gain",)
+
+    @staticmethod
+    def true(u: Input, t: Array, p: Values, order: int) -> Array:
+        return np.asarray((1.0 + p[0]) * u(t, order))
+
+
+@dataclass(frozen=True)
+class ExcitationDelay(DriveTerm):
+    """A drive that acts later than it was recorded; earlier, where its gauge is slow."""
+
+    at: str = "drive"
+    name: ClassVar[str] = "excitation_delay"
+    physics: ClassVar[str] = "The drive acts {delay} after it was recorded"
+    formula: ClassVar[str] = "u(t - delay)"
+    paper: ClassVar[str] = "Ljung, System Identification: Theory for the User (1999), section 4.2"
+    params = (Param("delay", "delay of the drive", TIME, null=0.0, typical=0.1),)
+    resembles = ("sensor_delay",)
+    equals = ("sensor_delay",)
+
+    @staticmethod
+    def true(u: Input, t: Array, p: Values, order: int) -> Array:
+        return u(t - p[0], order)

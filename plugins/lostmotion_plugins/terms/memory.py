@@ -1,0 +1,120 @@
+"""Friction with a memory: what is elastic before it slides, as a state of its own."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import ClassVar
+
+from lostmotion.contracts import Array, Param, Term, Values
+from lostmotion.quantities import FORCE, LENGTH, SPEED
+
+_KIN = ("coulomb_friction", "stribeck_friction", "dahl_friction", "lugre_friction", "bouc_wen_hysteresis")
+
+
+def _but(name: str) -> tuple[str, ...]:
+    return tuple(kin for kin in _KIN if kin != name)
+
+
+@dataclass(frozen=True)
+class DahlFriction(Term):
+    """Dry friction through bristles that bend before it slides; the bristle force (N) is its own state.
+
+    Its pace is bounded by the step, so that the law stays stable when bristles are stiffer than one step resolves.
+    """
+
+    at: str = "ground"
+    name: ClassVar[str] = "dahl_friction"
+    physics: ClassVar[str] = (
+        "Dry friction of {force} with {deflection} of elastic travel before it slides opposes the motion"
+    )
+    formula: ClassVar[str] = "-f,  f' = |v|/deflection * (force * sign(v) - f)"
+    paper: ClassVar[str] = "Dahl, AIAA Journal 14 (1976) 1675-1682, eq. (4) with i = 1"
+    params = (
+        Param("force", "sliding friction force", FORCE, low=0.0, null=0.0),
+        Param("deflection", "elastic travel before sliding", LENGTH, low=0.0, scale="log", typical=0.05),
+    )
+    states = ("bristle_force",)
+    needs = ("step",)
+    resembles = _but("dahl_friction")
+
+    @staticmethod
+    def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
+        return -s[0]
+
+    @staticmethod
+    def rate(t: float, x: float, v: float, u: Array, p: Values, s: Values, dsdt: Array) -> None:
+        pace = min(abs(v) / p[1], 1.0 / p[2])
+        level = p[0] if v > 0.0 else -p[0]
+        dsdt[0] = pace * (level - s[0])
+
+
+@dataclass(frozen=True)
+class LuGreFriction(Term):
+    """Bristles with a breakaway force: friction is larger near rest, and elastic before it slides.
+
+    Written in the bristle force f = sigma0 z; sigma1 = sigma2 = 0, since damping of either kind has terms of its own.
+    """
+
+    at: str = "ground"
+    name: ClassVar[str] = "lugre_friction"
+    physics: ClassVar[str] = (
+        "Dry friction of {force}, rising by {excess} towards rest below {velocity}, with {deflection} of elastic travel"
+        " before it slides, opposes the motion"
+    )
+    formula: ClassVar[str] = (
+        "-f,  f' = |v|/deflection * (g sign(v) - f) * force/g,  g = force + excess * exp(-(v/velocity)^2)"
+    )
+    paper: ClassVar[str] = "Canudas de Wit, Olsson, Astrom, Lischinsky, IEEE Trans. Automatic Control 40 (1995) 419-425"
+    params = (
+        Param("force", "sliding friction force", FORCE, low=0.0, null=0.0),
+        Param("excess", "breakaway friction above the sliding one", FORCE, low=0.0, null=0.0),
+        Param("velocity", "Stribeck velocity", SPEED, low=0.0, scale="log", typical=0.1),
+        Param("deflection", "elastic travel before sliding", LENGTH, low=0.0, scale="log", typical=0.05),
+    )
+    states = ("bristle_force",)
+    needs = ("step",)
+    resembles = _but("lugre_friction")
+
+    @staticmethod
+    def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
+        return -s[0]
+
+    @staticmethod
+    def rate(t: float, x: float, v: float, u: Array, p: Values, s: Values, dsdt: Array) -> None:
+        level = p[0] + p[1] * math.exp(-((v / p[2]) ** 2))
+        stiffer = p[0] / level if level > 0.0 else 1.0
+        pace = min(abs(v) / p[3] * stiffer, 1.0 / p[4])
+        dsdt[0] = pace * ((level if v > 0.0 else -level) - s[0])
+
+
+@dataclass(frozen=True)
+class BoucWenHysteresis(Term):
+    """A hysteretic force that is a spring at first and yields: the smooth loop of joints, rubber, wire rope.
+
+    The state h runs from -1 to 1; beta = gamma = 1/2 and n = 2: unloading is as stiff as the start.
+    """
+
+    at: str = "ground"
+    name: ClassVar[str] = "bouc_wen_hysteresis"
+    physics: ClassVar[str] = "A hysteretic force that yields at {force} after {travel} of travel acts"
+    formula: ClassVar[str] = "-force * h,  h' = (v - (|v| h |h| + v h^2) / 2) / travel"
+    paper: ClassVar[str] = "Wen, J. Engineering Mechanics Division ASCE 102 (1976) 249-263; Bouc (1967)"
+    params = (
+        Param("force", "yield force", FORCE, low=0.0, null=0.0),
+        Param("travel", "travel at which the first slope would yield", LENGTH, low=0.0, scale="log", typical=0.3),
+    )
+    states = ("hysteresis",)
+    needs = ("step",)
+    resembles = _but("bouc_wen_hysteresis")
+
+    @staticmethod
+    def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
+        return -p[0] * s[0]
+
+    @staticmethod
+    def rate(t: float, x: float, v: float, u: Array, p: Values, s: Values, dsdt: Array) -> None:
+        h = s[0]
+        pace = min(abs(v) / p[1], 1.0 / p[2])
+        sense = 1.0 if v > 0.0 else -1.0
+        dsdt[0] = pace * (sense - 0.5 * (h * abs(h) + sense * h * h))

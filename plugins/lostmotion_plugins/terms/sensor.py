@@ -1,0 +1,81 @@
+"""What lies between the motion and its recording."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from lostmotion.beside import SensorTerm
+from lostmotion.contracts import Array, Param, Values
+from lostmotion.quantities import LENGTH, NUMBER, TIME
+
+_LEVELS = 30
+"""At least so many differences of neighbouring values have to lie on the lattice."""
+_WHOLE = 0.01
+
+
+@dataclass(frozen=True)
+class SensorGain(SensorTerm):
+    """A sensor of the response that shows too little or too much."""
+
+    at: str = "sensor"
+    name: ClassVar[str] = "sensor_gain"
+    physics: ClassVar[str] = "The sensor of the response shows too much by {error} of it"
+    formula: ClassVar[str] = "(1 + error) * x"
+    paper: ClassVar[str] = "Pintelon, Schoukens, System Identification: a Frequency Domain Approach (2012), section 1.6"
+    params = (Param("error", "relative error of the gain", NUMBER, low=-0.9, null=0.0, typical=0.1),)
+    resembles = ("excitation_gain",)
+
+    @staticmethod
+    def gain(p: Values) -> float:
+        return 1.0 + p[0]
+
+
+@dataclass(frozen=True)
+class SensorDelay(SensorTerm):
+    """A sensor of the response that is late: what it shows was there `delay` ago."""
+
+    at: str = "sensor"
+    name: ClassVar[str] = "sensor_delay"
+    physics: ClassVar[str] = "The sensor of the response is late by {delay}"
+    formula: ClassVar[str] = "x(t - delay)"
+    paper: ClassVar[str] = "Ljung, System Identification: Theory for the User (1999), section 4.2"
+    params = (Param("delay", "delay of the sensor", TIME, low=0.0, null=0.0, typical=0.1),)
+    resembles = ("excitation_delay",)
+    equals = ("excitation_delay",)
+
+    @staticmethod
+    def delay(p: Values) -> float:
+        return p[0]
+
+
+@dataclass(frozen=True)
+class SensorQuantisation(SensorTerm):
+    """A sensor that shows whole steps only; the stored values themselves tell."""
+
+    at: str = "sensor"
+    name: ClassVar[str] = "sensor_quantisation"
+    physics: ClassVar[str] = "The sensor of the response shows whole steps of {step} only"
+    formula: ClassVar[str] = "step * round(z / step)"
+    paper: ClassVar[str] = "Widrow, Kollar, Quantization Noise (2008), section 4.1"
+    params = (Param("step", "step of the sensor", LENGTH, low=0.0, null=0.0, typical=0.01),)
+
+    @staticmethod
+    def rounded(z: Array, p: Values) -> Array:
+        return np.asarray(p[0] * np.round(z / p[0])) if p[0] > 0.0 else z
+
+    @staticmethod
+    def marks(z: Array) -> Values:
+        """Return the step of the lattice on which nearly all differences of the values lie."""
+        seen = z[np.isfinite(z)]
+        differences = np.abs(np.diff(seen))
+        differences = differences[differences > 1e-9 * (float(np.ptp(seen)) or 1.0)]
+        if len(differences) < _LEVELS:
+            return ()
+        step = float(np.min(differences))
+        near = differences[differences < 50.5 * step]
+        step = float(np.sum(near) / np.sum(np.round(near / step)))
+        off = np.abs(near / step - np.round(near / step))
+        return (step,) if len(near) >= _LEVELS and float(np.quantile(off, 0.99)) < _WHOLE else ()
