@@ -117,8 +117,8 @@ def _tables(facts: Facts) -> Iterator[Listed]:
     outcomes = ["Confused", "Noticed", "Misnamed", "Missed"]
     note = (
         "Confused: the diagnosis lists the truth among what it cannot tell from what it named. Noticed: called unknown,"
-        " or a random force. Misnamed: something else was named; in brackets how often that fits as well, to within 3 in"
-        " log-likelihood. Without a term in the library an effect has no gain."
+        " or a random force. Misnamed: something else was named; in brackets how often that fits as well, to within 3"
+        " in log-likelihood. Without a term in the library an effect has no gain."
     )
     rows = [_plain(_size(row), *_rate(row), *_outcomes(row)) for row in facts["detection"] if row["of"]]
     yield Listed("By size", ["Gain", "Named", "Share, 95 % band", *outcomes], rows, note)

@@ -8,13 +8,14 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
 from lostmotion.report import style
 
 Row = Mapping[str, Any]
 EDGE = "#555555"
-SMALLEST, LARGEST = 0.5, 2000.0
-"""Gains beyond these are drawn at the rim."""
+SMALLEST, LARGEST, WIDE = 0.5, 2000.0, 1.5
+"""Gains beyond these are drawn at the rim; errors beyond this ratio need a logarithmic axis."""
 CAPTIONS = {
     "detection": (
         "Share of hidden effects that were named, over what their true terms gain in log-likelihood, with exact 95 %"
@@ -50,7 +51,7 @@ def detection(facts: Mapping[str, Any]) -> Figure:
         axes.plot(np.minimum(sizes[chosen, 0], LARGEST), np.full(int(chosen.sum()), at), "|", color=colour, alpha=0.7)
     axes.plot([27.0, 150.0], [0.80, 0.95], "s", color=EDGE, markerfacecolor="none", markersize=7, label="targets")
     axes.set_xscale("log")
-    axes.set_xlim(SMALLEST, LARGEST)
+    axes.set_xlim(0.8 * SMALLEST, 1.2 * LARGEST)
     axes.set_ylim(-0.12, 1.12)
     style.log_ticks(axes.xaxis)
     axes.set_xlabel("gain of the true terms in log-likelihood")
@@ -96,8 +97,12 @@ def heldout(facts: Mapping[str, Any]) -> Figure:
     ratios = np.array(facts["heldout"]["ratios"], dtype=float)
     axes.axhspan(1.0 / 1.05, 1.05, color=style.SHADE, zorder=0)
     axes.plot(np.arange(1, len(ratios) + 1), ratios, "o", color=style.AFTER, markersize=3.5)
-    axes.set_yscale("log")
-    style.log_ticks(axes.yaxis)
+    if max(ratios.max(), 1.0 / ratios.min()) > WIDE:
+        axes.set_yscale("log")
+        style.log_ticks(axes.yaxis)
+    else:
+        style.few_ticks(axes)
+    axes.xaxis.set_major_locator(MaxNLocator(8, integer=True))
     axes.set_xlabel("case, in order")
     axes.set_ylabel("error, found / true")
     return figure
