@@ -1,6 +1,7 @@
 """The calibrations of the project: a table in Markdown, one line to each parameter of each campaign.
 
 python benchmarks/calibration.py --out FOLDER [--only standard|ignored|found|quantifiers] [--machines N] [--jobs 2]
+                                 [--seed 0]
 
 standard     200 machines, nothing hidden: do the intervals of the trajectory route hold the truth?
 ignored      100 machines that hide 1 N of dry friction, fitted without it: the lie of a wrong model
@@ -66,7 +67,7 @@ CAMPAIGNS: Mapping[str, Campaign] = {
 HEAD = ("campaign", "parameter", "in 50 %", "in 90 %", "in 95 %", "chi2 p", "ECDF p", "z rms", "median rel. sd", "lost")
 
 
-def run(name: str, out: Path, machines: int, jobs: int) -> dict[str, Any]:
+def run(name: str, out: Path, machines: int, jobs: int, seed: int = 0) -> dict[str, Any]:
     campaign = CAMPAIGNS[name]
     folder = out / name
     folder.mkdir(parents=True, exist_ok=True)
@@ -74,7 +75,7 @@ def run(name: str, out: Path, machines: int, jobs: int) -> dict[str, Any]:
     model = {"name": "lin_backlash", "known": KNOWN, "estimate": PRIORS}
     dump_case({"title": f"Oscillator with backlash: {name}", "model": model}, case)
     plan = Plan(ess=campaign.ess)
-    design = Design(case.absolute(), campaign.bench, campaign.hide, campaign.terms, campaign.route, plan)
+    design = Design(case.absolute(), campaign.bench, campaign.hide, campaign.terms, campaign.route, plan, seed)
     with tqdm(desc=name, unit=" machines", leave=False, file=sys.stderr) as bar:
 
         def say(done: int, of: int) -> None:
@@ -109,11 +110,14 @@ def main() -> None:
     parser.add_argument("--only", action="append", choices=list(CAMPAIGNS))
     parser.add_argument("--machines", type=int, default=0, help="instead of the number of each campaign")
     parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument(
+        "--seed", type=int, default=0, help="other machines: drawn by another seed, in a folder of its own"
+    )
     args = parser.parse_args()
     begin = time.perf_counter()
     table, said = [], []
     for name in args.only or CAMPAIGNS:
-        content = run(name, args.out, args.machines, args.jobs)
+        content = run(name, args.out, args.machines, args.jobs, args.seed)
         table += lines(name, content)
         said += [f"- {name}: {sentence}" for sentence in content["says"]]
     print(f"| {' | '.join(HEAD)} |", f"|{'---|' * len(HEAD)}", *table, "", *said, sep="\n")

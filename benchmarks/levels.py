@@ -1,6 +1,7 @@
 """How well the quantifier route reads its levels, and what it makes of them.
 
     python benchmarks/levels.py errors [--machines 60]     how far exponents and dimensions read from recordings lie off
+    python benchmarks/levels.py chaos [--machines 358]     the same of chaos alone, with damping from 0.5 to 8 %
     python benchmarks/levels.py machine                    a simulated machine at eight levels
     python benchmarks/levels.py decide                     two gap sizes of equal exponents, told apart by D2
     python benchmarks/levels.py table2                     Table 2 of the paper, typed in
@@ -19,6 +20,7 @@ import time
 from collections.abc import Mapping
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import replace
+from itertools import repeat
 from pathlib import Path
 from typing import Any
 
@@ -48,14 +50,17 @@ TRUE_GAP, TWO_GAPS, BETWEEN = {"x0": 0.0031, "zeta": 0.0239}, (60.0, 75.0, 100.0
 """A machine and its levels (N), found among 1600 machines and sets of levels on a map: their exponents fit gaps of
 2 to 4 and of 7 to 11 mm."""
 CAREFUL = Bench(periods=400, looks=60, noise=0.002)
-LONG = 6000
+LONG, BRIEF = 6000, 2000
+Known = tuple[float, float]
+"""A value with its standard deviation."""
 
 
-def one(seed: int) -> dict[str, Any]:
-    """Return what was read of one recording, and the truth."""
-    registry, rng = default(), np.random.default_rng([seed, 20])
-    inverse, zeta, ratio = rng.uniform(0.8, 9.5), rng.uniform(0.01, 0.06), rng.uniform(0.18, 0.32)
-    noise = float(rng.choice([0.002, 0.005, 0.01] if seed % 2 else [0.002, 0.005, 0.01, 0.02]))
+def one(seed: int, chaos: bool = False) -> dict[str, Any]:
+    """Return what was read of one recording, and the truth; nothing, where `chaos` is wanted and the motion is not."""
+    registry, rng = default(), np.random.default_rng([seed, 20 + chaos])
+    inverse, zeta = rng.uniform(0.8, 9.5), 0.005 * 16.0 ** rng.uniform() if chaos else rng.uniform(0.01, 0.06)
+    ratio = rng.uniform(0.18, 0.32)
+    noise = float(rng.choice([0.002, 0.005, 0.01] if seed % 2 or chaos else [0.002, 0.005, 0.01, 0.02]))
     bench = Bench(int(rng.integers(120, 250)), int(rng.choice([50, 80, 100])), noise)
     moved = bool(seed % 2)
     model = registry.make("model", "robot_joint" if moved else "lin_backlash")
@@ -63,6 +68,8 @@ def one(seed: int) -> dict[str, Any]:
     beat = Harmonic(1.0 / inverse / (ratio**2 if moved else 1.0), ratio)
     signals, begin = rehearsed(model, values, beat, bench, rng)
     flow = flow_of(model, values, drive=beat, start=begin)
+    if chaos and not shows_chaos(*truth(flow, rng, BRIEF)):
+        return {}
     exponent, dimension, period = truth(flow, rng)
     start = time.perf_counter()
     read = read_level(signals, registry, rng)
@@ -79,22 +86,27 @@ def one(seed: int) -> dict[str, Any]:
     return row
 
 
-def truth(flow: Flow, rng: np.random.Generator) -> tuple[tuple[float, float], tuple[float, float], int]:
+def shows_chaos(exponent: Known, _dimension: Known, period: int) -> bool:
+    """Return whether an exponent is positive beyond doubt, of a motion that does not repeat itself."""
+    return not period and exponent[0] > 3.0 * exponent[1]
+
+
+def truth(flow: Flow, rng: np.random.Generator, periods: int = LONG) -> tuple[Known, Known, int]:
     """Return exponent (1/s) and dimension with their errors, and the period, of the motion from the start of a flow."""
     registry = default()
-    found = registry.make("quantifier", "lyapunov_max", periods=LONG, transient=0).estimate(flow, rng=rng)
-    section = registry.make("quantifier", "section_dimension", periods=LONG, transient=0).estimate(flow, rng=rng)
+    found = registry.make("quantifier", "lyapunov_max", periods=periods, transient=0).estimate(flow, rng=rng)
+    section = registry.make("quantifier", "section_dimension", periods=periods, transient=0).estimate(flow, rng=rng)
     states = flow.march(flow.start, periods=400, tangents=0).states
     sd = section.details.get("stderr", math.nan)
     return (found.value, found.details.get("stderr", math.nan)), (section.value, sd), period_of(states)
 
 
-def errors(machines: int, keep: Path | None) -> None:
+def errors(machines: int, keep: Path | None, *, chaos: bool = False) -> None:
     """Print how the readings of machines compare with the truth."""
     with ProcessPoolExecutor(cores()) as pool:
-        rows = []
-        for k, row in enumerate(pool.map(one, range(machines))):
-            rows.append(row)
+        rows: list[dict[str, Any]] = []
+        for k, row in enumerate(pool.map(one, range(machines), repeat(chaos))):
+            rows += [row] if row else []
             print(f"\r{k + 1} of {machines}", end="", file=sys.stderr, flush=True)
             if keep:
                 keep.write_text(json.dumps(rows))
@@ -121,27 +133,37 @@ def told(rows: list[dict[str, Any]]) -> None:
         print(f"{name}: {len(kept)} readings; error over claimed sd: mean {z.mean():+.2f}, rms "
               f"{math.sqrt(np.mean(z**2)):.2f}, largest {np.abs(z).max():.2f}; error over value: mean "
               f"{np.mean(off / size - 1.0):+.3f}, sd {np.std(off / size):.3f}")  # fmt: skip
-        bias, scale, own = fitted(off, claimed, size)
-        found = [corrected(name, Estimate(r[name], *(r[name] + s * 1.96 * r[f"{name}_sd"] for s in (-1, 1)), "ok"))
-                 for r in kept]  # fmt: skip
+        moved = np.array([r["model"] == "robot_joint" for r in kept])
+        names = [f"{name} of a moved base" if base and name == "d2" else name for base in moved]
+        found = [corrected(key, Estimate(r[name], *(r[name] + s * 1.96 * r[f"{name}_sd"] for s in (-1, 1)), "ok"))
+                 for key, r in zip(names, kept, strict=True)]  # fmt: skip
         left = np.array([(one.value - t) / one.sd for one, t in zip(found, size, strict=True)])
         inside = np.abs(left) < student.ppf(0.975, TAIL)
         print(f"  as corrected: mean {left.mean():+.2f}, rms {math.sqrt(np.mean(left**2)):.2f}; 95 % intervals hold "
               f"{inside.sum()} of {len(left)}")  # fmt: skip
-        print(f"  most likely: bias {bias:+.3f} of the value, {scale:.2f} claimed sd and {own:.3f} of the value")
+        unit = np.array([r["beat"] if name == "lyapunov" else 1.0 for r in kept])
+        for parts in (np.zeros_like(moved), moved):
+            biases, scale, own, fits = fitted(off * unit, claimed * unit, size * unit, parts)
+            print(f"  most likely (log-likelihood {fits:.1f}): bias {' and '.join(f'{b:+.3f}' for b in biases)} of the "
+                  f"value, {scale:.2f} claimed sd and {own:.3f} of the value")  # fmt: skip
     print(f"seconds a recording: {np.mean([r['seconds'] for r in rows]):.2f}")
 
 
-def fitted(seen: Array, claimed: Array, true: Array) -> tuple[float, float, float]:
-    """Return bias, factor of the claimed sd, and own error as a share of the value, by maximum likelihood (Student)."""
+def fitted(seen: Array, claimed: Array, true: Array, parts: Array) -> tuple[list[float], float, float, float]:
+    """Return the most likely biases, factor of the claimed sd, own error as a share of the value, and log-likelihood.
+
+    There is a bias for those that are not in `parts`, and one for those that are. What is seen errs about the truth
+    (Student): were the truth to err about what is seen, low readings would count for more than high ones.
+    """
 
     def cost(theta: Array) -> float:
-        sd = np.hypot(math.exp(theta[1]) * claimed, math.exp(theta[2]) * seen)
-        z = (seen / (1.0 + theta[0]) - true) / sd
-        return float(np.sum(np.log(sd) + 0.5 * (TAIL + 1.0) * np.log1p(z**2 / TAIL)) + 0.5 * theta[2] ** 2 / 25.0)
+        bias, sd = theta[2:][parts.astype(int)], np.hypot(math.exp(theta[0]) * claimed, math.exp(theta[1]) * true)
+        z = (seen - (1.0 + bias) * true) / sd
+        return float(np.sum(np.log(sd) + 0.5 * (TAIL + 1.0) * np.log1p(z**2 / TAIL)) + 0.5 * theta[1] ** 2 / 25.0)
 
-    found = minimize(cost, [0.0, -0.2, -3.0], method="Nelder-Mead", options={"maxiter": 2000}).x
-    return float(found[0]), math.exp(found[1]), math.exp(found[2])
+    start = [-0.2, -3.0, *[0.0] * len(np.unique(parts))]
+    best = minimize(cost, start, method="Nelder-Mead", options={"maxiter": 4000})
+    return best.x[2:].tolist(), math.exp(best.x[0]), math.exp(best.x[1]), -float(best.fun)
 
 
 def chaotic(rows: list[dict[str, Any]]) -> list[dict[str, Any]]:
@@ -235,13 +257,13 @@ def progress(done: int, cells: int) -> None:
 def main() -> None:
     """Run what is asked for."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("what", choices=("errors", "machine", "decide", "table2"))
-    parser.add_argument("--machines", type=int, default=240, help="recordings for `errors`")
+    parser.add_argument("what", choices=("errors", "chaos", "machine", "decide", "table2"))
+    parser.add_argument("--machines", type=int, default=240, help="recordings for `errors` and `chaos`")
     parser.add_argument("--keep", type=Path, help="file for the rows of `errors`")
     parser.add_argument("--folder", type=Path, default=Path("levels"), help="where the maps are kept")
     args = parser.parse_args()
-    if args.what == "errors":
-        errors(args.machines, args.keep)
+    if args.what in ("errors", "chaos"):
+        errors(args.machines, args.keep, chaos=args.what == "chaos")
         return
     {"machine": machine, "decide": decide, "table2": table2}[args.what](args.folder)
 
