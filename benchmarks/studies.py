@@ -57,7 +57,7 @@ def run(study):
 
 def findings(d):
     """Return names, intervals, gains and statuses of a diagnosis."""
-    from lostmotion.workflow.verdict import draws_of, intervals
+    from lostmotion.workflow.findings import draws_of, intervals
 
     rng = np.random.default_rng(1)
     course = d.selection

@@ -61,9 +61,14 @@ class SensorTerm(Term):
         return z
 
     @staticmethod
-    def marks(z: Array) -> Values:
-        """Return the parameters that the stored values (samples,) betray by themselves, or nothing."""
-        return ()
+    def marks(z: Array) -> tuple[Values, Values]:
+        """Return the parameters that the stored values (samples,) betray by themselves, with their errors, or nothing."""
+        return (), ()
+
+    @staticmethod
+    def scatter(p: Values) -> float:
+        """Return the standard deviation of the error that such marks bring with them."""
+        return 0.0
 
     @property
     def marked(self) -> bool:

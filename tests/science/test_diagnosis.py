@@ -8,7 +8,7 @@ from truths import FORCE, FRICTION, case_of, system_of, track_of
 
 from lostmotion.stages.compare import exponent_of, horizon_for, pieces_of, predict
 from lostmotion.stages.diagnose import diagnose
-from lostmotion.workflow.verdict import draws_of, intervals
+from lostmotion.workflow.findings import draws_of, intervals
 
 
 def diagnosed(force, unknown, **kind):

@@ -10,8 +10,8 @@ from lostmotion.registry import default
 from lostmotion.stages.diagnose import diagnose
 from lostmotion.system import System
 from lostmotion.workflow.diagnose import judged
+from lostmotion.workflow.findings import intervals
 from lostmotion.workflow.prepare import prepare
-from lostmotion.workflow.verdict import intervals
 
 TOLERANCE = {"m": 0.03, "c": 0.03, "coulomb_friction.force": 0.03, "offset_force.force": 0.10}
 

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from lostmotion.beside import SensorTerm
 from lostmotion.case import Case
-from lostmotion.contracts import Array, Model, Term
+from lostmotion.contracts import Array, Model, Term, Values
 from lostmotion.errors import DataError
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.latent import Missing, missing_force
@@ -22,6 +23,8 @@ from lostmotion.system import System
 SIGNIFICANT = 8.0
 """A random force beyond the usual noise of the drive counts when it gains this much log-likelihood."""
 STRUCTURED = 0.1
+MARKED = 0.05
+"""What marks in the stored values bring with them counts from this share of the noise variance on."""
 LARGEST = 1e100
 """A missing force beyond this means that the filter ran away: its square could not be taken."""
 
@@ -45,6 +48,7 @@ class Located:
 class Diagnosis:
     """What was found: the fits before and after, the selection, the missing force before and what is left after.
 
+    `marks` holds the terms that the stored values themselves betray, with their parameters and the errors of these.
     `shown` is the recording (or the first held-out one) that curves and figures are about; `law` (samples,) is the
     force of the found terms along it. `random_gain` is the log-likelihood that a random force beyond the usual adds.
     """
@@ -61,6 +65,7 @@ class Diagnosis:
     random_gain: float
     train: tuple[Track, ...]
     held: tuple[Track, ...]
+    marks: Mapping[str, tuple[Values, Values]] = field(default_factory=dict)
 
     @property
     def found(self) -> tuple[str, ...]:
@@ -111,7 +116,20 @@ def diagnose(
     gain = significant_random_force(after)
     say("missing force")
     shown = tracks[0] if len(tracks) == 1 else held[0]
-    return _located(Diagnosis(before, after, selection, shown, _NOWHERE, None, _NO, {}, {}, gain, train, held))
+    marks = marks_of(after)
+    return _located(Diagnosis(before, after, selection, shown, _NOWHERE, None, _NO, {}, {}, gain, train, held, marks))
+
+
+def marks_of(fit: Fit) -> dict[str, tuple[Values, Values]]:
+    """Return the sensor terms that the stored values betray and that make up a share of the noise, by key."""
+    tracks, found = fit.problem.tracks, {}
+    noise = max(fit.problem.noise(fit.theta, i)[1] for i in range(len(tracks)))
+    for key, term in fit.problem.system.beside.items():
+        if isinstance(term, SensorTerm) and term.marked:
+            seen = [term.marks(track.z) for track in tracks]
+            if all(p for p, _ in seen) and term.scatter(seen[0][0]) ** 2 > MARKED * noise:
+                found[key] = seen[0]
+    return found
 
 
 _NO = np.zeros(0)

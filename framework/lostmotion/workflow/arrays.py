@@ -10,7 +10,7 @@ from lostmotion.inference.predict import filtered, free_run
 from lostmotion.inference.tracks import Track, period_samples
 from lostmotion.stages.diagnose import Diagnosis, Located, base_keys
 from lostmotion.storage import Column
-from lostmotion.workflow.verdict import Outcome
+from lostmotion.workflow.findings import Outcome
 
 PORTRAIT = 3000
 

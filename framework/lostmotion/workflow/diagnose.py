@@ -19,7 +19,8 @@ from lostmotion.system import System
 from lostmotion.workflow.arrays import arrays_of
 from lostmotion.workflow.notes import notes_of
 from lostmotion.workflow.prepare import Prepared, prepare
-from lostmotion.workflow.verdict import Outcome, draws_of, verdict
+from lostmotion.workflow.findings import Outcome, draws_of
+from lostmotion.workflow.verdict import verdict
 
 Say = Callable[[str], None]
 

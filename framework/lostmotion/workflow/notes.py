@@ -8,7 +8,7 @@ import numpy as np
 
 from lostmotion.inference.problem import LEVELS
 from lostmotion.stages.diagnose import Diagnosis
-from lostmotion.workflow.verdict import Outcome
+from lostmotion.workflow.findings import Outcome
 
 FAR = 5.0
 """Held-out errors of an adequate model that are this many times the noise deserve a warning."""

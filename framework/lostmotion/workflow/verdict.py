@@ -3,60 +3,25 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from lostmotion.contracts import Array, Term
 from lostmotion.inference.candidates import term_of
 from lostmotion.inference.fit import Fit
-from lostmotion.inference.mixture import draws
-from lostmotion.inference.predict import Horizon
-from lostmotion.inference.problem import LEVELS
 from lostmotion.inference.tracks import period_samples
-from lostmotion.results import Interval
 from lostmotion.stages.compare import Prediction
-from lostmotion.stages.diagnose import STRUCTURED, Diagnosis, base_keys
+from lostmotion.stages.diagnose import Diagnosis
 from lostmotion.system import key_of
+from lostmotion.workflow.findings import Outcome, found_in, intervals
 
-DRAWS = 2000
 WORTH_NAMING = 0.05
-
-
-@dataclass(frozen=True)
-class Outcome:
-    """A diagnosis, its predictions, the horizon they are judged over, draws (draws, keys) of both posteriors."""
-
-    diagnosis: Diagnosis
-    before: Prediction
-    after: Prediction
-    horizon: Horizon
-    draws_before: Array
-    draws_after: Array
-
-
-def draws_of(fit: Fit, rng: np.random.Generator) -> Array:
-    """Return draws (DRAWS, keys) of the physical parameters from the posterior about a fit."""
-    free = fit.problem.free
-    theta = draws(fit, rng, DRAWS)
-    kept = [i for i, f in enumerate(free) if f.key not in LEVELS]
-    return np.array([[free[i].value(row[i]) for i in kept] for row in theta])
-
-
-def intervals(fit: Fit, draws: Array) -> dict[str, Interval]:
-    """Return median and central 95 % interval of each physical parameter."""
-    units = {f.key: f.unit for f in fit.problem.free}
-    low, median, high = np.quantile(draws, [0.025, 0.5, 0.975], axis=0)
-    keys = base_keys(fit)
-    return {k: Interval(float(median[i]), float(low[i]), float(high[i]), units[k]) for i, k in enumerate(keys)}
 
 
 def verdict(outcome: Outcome) -> dict[str, Any]:
     """Return the content of `diagnosis.json`, provenance and title left out."""
     d = outcome.diagnosis
-    found = _found(outcome)
+    found = found_in(outcome)
     return {
         "schema": "lostmotion.diagnosis/1",
         "verdict": "mismatch" if found else "adequate",
@@ -131,67 +96,6 @@ def _fit(outcome: Outcome) -> dict[str, Any]:
     floor = noise / float(np.nanstd(d.shown.z))
     unit = {"horizon_unit": outcome.horizon.unit, "horizon_unit_time": outcome.horizon.unit_time}
     return {"before": entry(outcome.before), "after": entry(outcome.after), "noise_floor_nrmse": floor, **unit}
-
-
-def _found(outcome: Outcome) -> list[dict[str, Any]]:
-    d = outcome.diagnosis
-    after = intervals(d.after, outcome.draws_after)
-    entries = [_entry(outcome, key, after) for key in d.found]
-    if not entries and d.unexplained:
-        depends = [k for k, share in d.located.shares.items() if share > STRUCTURED]
-        entries.append(_unnamed(d, depends))
-    return entries
-
-
-def _entry(outcome: Outcome, key: str, after: Mapping[str, Interval]) -> dict[str, Any]:
-    d = outcome.diagnosis
-    term, slots = term_of(d.after.problem, key)
-    system, known = d.after.problem.system, d.after.problem.known
-    held = {s.key: float(known[system.index[s.key]]) for s in slots}
-    own = {s.param.name: after.get(s.key) or _of(np.full(1, held[s.key]), s.unit) for s in slots}
-    sentence = term.physics.format(**{name: str(i) for name, i in own.items()})
-    share = float(np.max(np.abs(d.laws[key]))) / d.after.problem.scales.force
-    return {
-        "mechanism": term.name,
-        "at": term.at,
-        "probability": d.selection.inclusion(key),
-        "parameters": {name: i.as_dict() for name, i in (own | _derived(outcome, term, held)).items()},
-        "share_of_drive": share,
-        "says": f"{sentence}, up to {100.0 * share:.2g} % of the drive.",
-    }
-
-
-def _of(draws: Array, unit: str) -> Interval:
-    """Return median and central 95 % interval of draws (count,)."""
-    low, median, high = np.quantile(draws, [0.025, 0.5, 0.975])
-    return Interval(float(median), float(low), float(high), unit)
-
-
-def _derived(outcome: Outcome, term: Term, held: Mapping[str, float]) -> dict[str, Interval]:
-    """Return the intervals of the further numbers of a term, from draws of its parameters (`held` where not free)."""
-    after = outcome.diagnosis.after
-    columns = {key: i for i, key in enumerate(base_keys(after))}
-    rows = [[row[columns[k]] if k in columns else value for k, value in held.items()] for row in outcome.draws_after]
-    made = np.array([term.derived(tuple(row)) for row in rows])
-    motion = after.problem.system.model.motion
-    return {q.name: _of(column, q.dimension.unit(motion)) for q, column in zip(term.further, made.T, strict=True)}
-
-
-def _unnamed(d: Diagnosis, depends: list[str]) -> dict[str, Any]:
-    """Return the entry of a mismatch that no term explains: structured ("unknown") or not ("random_force")."""
-    rms = float(np.std(d.located.missing.force))
-    unit = "N m" if d.after.problem.system.model.motion == "rotation" else "N"
-    gain = Interval(rms, rms, rms, unit)
-    share = rms / d.after.problem.scales.force
-    name = "unknown" if depends else "random_force"
-    on = f"depends on {' and '.join(depends)}" if depends else "depends on nothing that was recorded"
-    return {
-        "mechanism": name,
-        "probability": 1.0 - math.exp(-d.random_gain),
-        "parameters": {"rms": gain.as_dict()},
-        "depends_on": depends,
-        "says": f"A force of {rms:.3g} {unit} rms, {share:.1%} of the drive, is missing; no term explains it; it {on}.",
-    }
 
 
 def _ranking(d: Diagnosis) -> list[dict[str, Any]]:
@@ -269,7 +173,7 @@ def says(outcome: Outcome, found: list[dict[str, Any]]) -> list[str]:
             f" {fit['noise_floor_nrmse']:.1%}.",
         ]
     if not d.found:
-        return [found[0]["says"]]
+        return [entry["says"] for entry in found]
     opening = [entry["says"] for entry in found]
     if len(found) == 1:
         opening[0] = f"{opening[0][:-1]}, and the model leaves it out."

@@ -92,29 +92,29 @@ class LuGreFriction(Term):
 class BoucWenHysteresis(Term):
     """A hysteretic force that is a spring at first and yields: the smooth loop of joints, rubber, wire rope.
 
-    The state h runs from -1 to 1; beta = gamma = 1/2 and n = 2: unloading is as stiff as the start.
+    The state is the force f itself; beta = gamma = 1/2 and n = 2: unloading is as stiff as the start.
     """
 
     at: str = "ground"
     name: ClassVar[str] = "bouc_wen_hysteresis"
     physics: ClassVar[str] = "A hysteretic force that yields at {force} after {travel} of travel acts"
-    formula: ClassVar[str] = "-force * h,  h' = (v - (|v| h |h| + v h^2) / 2) / travel"
+    formula: ClassVar[str] = "-f,  f' = (force * v - (|v| f |f| + v f^2) / (2 force)) / travel"
     paper: ClassVar[str] = "Wen, J. Engineering Mechanics Division ASCE 102 (1976) 249-263; Bouc (1967)"
     params = (
         Param("force", "yield force", FORCE, low=0.0, null=0.0),
         Param("travel", "travel at which the first slope would yield", LENGTH, low=0.0, scale="log", typical=0.3),
     )
-    states = ("hysteresis",)
+    states = ("hysteretic_force",)
     needs = ("step",)
     resembles = _but("bouc_wen_hysteresis")
 
     @staticmethod
     def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
-        return -p[0] * s[0]
+        return -s[0]
 
     @staticmethod
     def rate(t: float, x: float, v: float, u: Array, p: Values, s: Values, dsdt: Array) -> None:
-        h = s[0]
+        f = s[0]
         pace = min(abs(v) / p[1], 1.0 / p[2])
         sense = 1.0 if v > 0.0 else -1.0
-        dsdt[0] = pace * (sense - 0.5 * (h * abs(h) + sense * h * h))
+        dsdt[0] = pace * (sense * p[0] - 0.5 * (f * abs(f) + sense * f * f) / p[0]) if p[0] > 0.0 else 0.0

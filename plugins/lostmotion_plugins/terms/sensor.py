@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -67,15 +68,22 @@ class SensorQuantisation(SensorTerm):
         return np.asarray(p[0] * np.round(z / p[0])) if p[0] > 0.0 else z
 
     @staticmethod
-    def marks(z: Array) -> Values:
-        """Return the step of the lattice on which nearly all differences of the values lie."""
+    def scatter(p: Values) -> float:
+        return p[0] / math.sqrt(12.0)
+
+    @staticmethod
+    def marks(z: Array) -> tuple[Values, Values]:
+        """Return the step of the lattice on which nearly all differences of the values lie, with its error."""
         seen = z[np.isfinite(z)]
         differences = np.abs(np.diff(seen))
         differences = differences[differences > 1e-9 * (float(np.ptp(seen)) or 1.0)]
         if len(differences) < _LEVELS:
-            return ()
+            return (), ()
         step = float(np.min(differences))
         near = differences[differences < 50.5 * step]
-        step = float(np.sum(near) / np.sum(np.round(near / step)))
+        whole = np.round(near / step)
+        step = float(np.sum(near * whole) / np.sum(whole * whole))
         off = np.abs(near / step - np.round(near / step))
-        return (step,) if len(near) >= _LEVELS and float(np.quantile(off, 0.99)) < _WHOLE else ()
+        if len(near) < _LEVELS or float(np.quantile(off, 0.99)) > _WHOLE:
+            return (), ()
+        return (step,), (step * max(float(np.std(off)) / math.sqrt(float(np.sum(whole * whole))), 1e-9),)
