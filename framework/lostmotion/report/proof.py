@@ -136,7 +136,12 @@ def _tables(facts: Facts) -> Iterator[Listed]:
         if row["of"]
     ]
     head = ["Parameter", "Truths inside", "Share, 95 % band", "Median error"]
-    yield Listed("Do 95 % intervals hold the truth?", head, rows, "Of what was named exactly.")
+    yield Listed(
+        "Do 95 % intervals hold the truth?",
+        head,
+        rows,
+        "Of cases with white noise in which the parameter, and for those of the machine everything, was named exactly.",
+    )
     rows = [_plain(spoken(row["truth"]), spoken(row["answer"]), str(row["cases"])) for row in facts["confusion"]]
     yield Listed("What was taken for what", ["Truth", "Answer", "Times"], rows, "")
 

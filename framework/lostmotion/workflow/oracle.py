@@ -31,7 +31,9 @@ ALIKE: tuple[frozenset[str], ...] = (
 """Mechanisms that no recording of this kind tells apart: either name is right."""
 SKIPPED = ("sensor_quantisation", "unknown")
 """What no likelihood of ours knows."""
-WARM = 3.0
+WARM = (0.0, 3.0, 2.0 * math.log(300.0))
+"""Fits begin at the usual random force and at larger ones, in log intensity; with the largest, 0.3 of the drive, a
+model that lacks something finds its way from afar."""
 
 Row = Mapping[str, Any]
 
@@ -142,10 +144,10 @@ def _within(value: float, low: float, high: float) -> float:
 
 
 def _fitted(problem: Problem, acting: Mapping[str, Row]) -> Fit:
-    """Return the best fit with these terms, begun at the truth as it is and with a larger random force."""
+    """Return the best fit with these terms, begun at the truth with several random forces."""
     for key, effect in acting.items():
         problem = _with(problem, key, effect["parameters"])
-    fits = [maximise(problem), maximise(problem, warmed(problem, problem.start, WARM))]
+    fits = [maximise(problem, warmed(problem, problem.start, by)) for by in WARM]
     best = max(fits, key=lambda f: f.local.log_posterior)
     again = maximise(restarted(best), warmed(problem, best.theta, 1.0))
     return max((best, again), key=lambda f: f.local.log_posterior)

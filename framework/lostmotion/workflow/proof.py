@@ -13,6 +13,7 @@ from scipy.stats import beta, chi2, ncx2
 
 from lostmotion.workflow.judging import HIT, MISNAMED, OUTCOMES
 from lostmotion.workflow.proof_words import says_of
+from lostmotion.workflow.sealing import PLAIN
 
 Row = Mapping[str, Any]
 GAINS = (0.0, 5.0, 15.0, 50.0, 150.0, 500.0, math.inf)
@@ -46,7 +47,7 @@ def summary(rows: Sequence[Row], failed: Sequence[Row]) -> dict[str, Any]:
         "mechanisms": _mechanisms(effects),
         "confusion": _confusion(rows),
         "reliability": _reliability([pair for row in rows for pair in row["stated"]]),
-        "coverage": _coverage([one for row in rows for one in row["parameters"]]),
+        "coverage": _coverage([one for row in rows if row["variant"] == PLAIN for one in row["parameters"]]),
         "heldout": _heldout([row["heldout"] for row in rows if row["heldout"] and row["effects"]]),
         "alarms": _alarms(clean),
         "misses": [_told(e) for e in effects if e["outcome"] != HIT],
@@ -179,7 +180,7 @@ def _alarm(row: Row) -> dict[str, Any]:
 
 def _targets(told: Row, effects: Sequence[Row]) -> list[dict[str, Any]]:
     """Return what a diagnosis should reach, what it reached, and whether that is as it should be."""
-    plain = next((row for row in told["alarms"] if row["noise"] == "plain"), rate(0, 0))
+    plain = next((row for row in told["alarms"] if row["noise"] == PLAIN), rate(0, 0))
     rows = [
         ("effects named, gain above 50", _named(effects, 50.0, math.inf), 0.95, 1.0),
         ("effects named, gain 15 to 50", _named(effects, 15.0, 50.0), 0.80, 1.0),
