@@ -29,6 +29,10 @@ class Filtered:
         e, v = self.errors[held], self.variances[held]
         return float(np.mean(-0.5 * (e * e / v + np.log(2.0 * np.pi * v))))
 
+    def expected_score(self, held: slice) -> float:
+        """Return what `log_score` would be if the errors were as large as their variances say."""
+        return float(np.mean(-0.5 * (1.0 + np.log(2.0 * np.pi * self.variances[held]))))
+
 
 @dataclass(frozen=True)
 class FreeRuns:
@@ -102,9 +106,15 @@ def observed(problem: Problem, theta: Array, states: Array, where: tuple[int, in
 
 
 def largest_exponent(problem: Problem, theta: Array, y0: Array, index: int = 0) -> float:
-    """Return the largest Lyapunov exponent (1/s, base e) under the recorded drive, by Benettin's method.
+    """Return the largest Lyapunov exponent (1/s, base e) under the recorded drive: the mean of `growth_rates`."""
+    rates = growth_rates(problem, theta, y0, index)
+    return float(np.mean(rates)) if len(rates) else math.nan
 
-    Two runs from `y0` a millionth of the motion apart are brought together again after each natural time;
+
+def growth_rates(problem: Problem, theta: Array, y0: Array, index: int = 0) -> Array:
+    """Return how fast (1/s, base e) near runs part in each natural time, (pieces,); none where they cannot be told.
+
+    Two runs from `y0` a millionth of the motion apart are brought together again after each piece;
     Benettin, Galgani, Giorgilli, Strelcyn, Meccanica 15 (1980) 9-20. The first tenth is not counted.
     """
     track = problem.tracks[index]
@@ -112,17 +122,17 @@ def largest_exponent(problem: Problem, theta: Array, y0: Array, index: int = 0) 
     unit = np.ones(len(y0))
     unit[0], unit[1] = problem.scales.length, problem.scales.velocity
     near, far = y0.copy(), y0 + 1e-6 * unit * _direction(len(y0))
-    growth, time = 0.0, 0.0
+    rates = []
     for start in range(0, track.samples - piece, piece):
         near = free_run(problem, theta, near, start, piece + 1, index)[-1]
         far = free_run(problem, theta, far, start, piece + 1, index)[-1]
         gap = float(np.linalg.norm((far - near) / unit))
         if not math.isfinite(gap) or gap == 0.0:
-            return math.nan
+            return np.zeros(0)
         if start > 0.1 * track.samples:
-            growth, time = growth + math.log(gap / 1e-6), time + piece * track.dt
+            rates.append(math.log(gap / 1e-6) / (piece * track.dt))
         far = near + (far - near) * (1e-6 / gap)
-    return growth / time if time > 0 else math.nan
+    return np.array(rates)
 
 
 def _direction(n: int) -> Array:

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from markupsafe import Markup
 
-from lostmotion.report import growth, missing, opening, portraits, posteriors, prediction, ranking, style, tables
+from lostmotion.report import growth, missing, opening, portraits, posteriors, prediction, ranking, show, style, tables
 from lostmotion.report.evidence import Evidence, read_evidence
 from lostmotion.report.pages import Section, template
 
@@ -22,14 +22,19 @@ class Drawn(NamedTuple):
     markup: Markup
     caption: str
     table: tables.Table | None
+    kind: str = "tight"
 
 
+TABLES = {"parameters": tables.parameters, "show": show.table}
+PROSE = ("show",)
+"""Sections of which the table holds sentences, which have to be broken."""
 SECTIONS = (
     Section("prediction", "Recording and prediction", prediction.draw, prediction.caption),
     Section("missing", "The force that the model does not explain", missing.draw, missing.caption),
     Section("ranking", "Which physics it may be", ranking.draw, ranking.caption),
     Section("parameters", "Parameters", posteriors.draw, posteriors.caption),
     Section("portraits", "Phase portrait and Poincaré section", portraits.draw, portraits.caption),
+    Section("show", "Before and after in numbers", show.draw, show.caption),
     Section("growth", "How far ahead predictions hold", growth.draw, growth.caption),
     Section("whiteness", "Are the innovations white?", growth.draw_whiteness, growth.whiteness_caption),
 )
@@ -64,12 +69,13 @@ def _drawn(evidence: Evidence) -> Iterator[Drawn]:
     """Return the sections that have a figure or a table."""
     for section in SECTIONS:
         figure = section.draw(evidence)
-        table = tables.parameters(evidence) if section.name == "parameters" else None
+        table = TABLES[section.name](evidence) if section.name in TABLES else None
         if figure is not None or (table and table.rows):
             # The markup is drawn by matplotlib, which escapes the words it is given.
             markup = Markup(style.embedded(figure, section.name) if figure else "")  # noqa: S704
             caption = section.caption(evidence) if figure else ""
-            yield Drawn(section.name, section.title, markup, caption, table)
+            kind = "prose" if section.name in PROSE else "tight"
+            yield Drawn(section.name, section.title, markup, caption, table, kind)
 
 
 def _provenance(evidence: Evidence) -> str:

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from lostmotion.report import style
 from lostmotion.report.cast import versions
 from lostmotion.report.evidence import Evidence
-from lostmotion.report.words import Scale, sentence, with_unit
+from lostmotion.report.words import Scale, figures, sentence, with_unit
 from lostmotion.results import Array
 
 KINDS = ("portrait", "section")
@@ -60,7 +60,7 @@ def draw_panel(axes: Axes, evidence: Evidence, what: tuple[str, tuple[str, str, 
     kind, (key, words, colour) = what
     axes.set_xlim(frame.across)
     axes.set_ylim(frame.up)
-    axes.set_title(words if kind == "portrait" else f"{words}: section", color=colour)
+    axes.set_title(words if kind == "portrait" else f"{words}: section{_distance(evidence, key)}", color=colour)
     axes.set_xlabel(with_unit("position", frame.position.unit))
     style.few_ticks(axes, 4, 5)
     if kind == "portrait":
@@ -69,6 +69,13 @@ def draw_panel(axes: Axes, evidence: Evidence, what: tuple[str, tuple[str, str, 
     if key != "recorded":
         axes.plot(*_scaled(evidence, (kind, "recorded"), frame), ".", color="#bdbdbd", markersize=4, markeredgewidth=0)
     axes.plot(*_scaled(evidence, (kind, key), frame), ".", color=colour, markersize=5, markeredgewidth=0)
+
+
+def _distance(evidence: Evidence, key: str) -> str:
+    """Return how far the section of a model lies from the recorded one, or of that one's halves from each other."""
+    entry = evidence.fact("show", "noise_floor" if key == "recorded" else key, "attractor_distance") or {}
+    value = entry.get("value")
+    return "" if value is None else f", {'halves ' if key == 'recorded' else ''}{figures(value, 2)} apart"
 
 
 def frame_of(evidence: Evidence, kind: str) -> Frame:

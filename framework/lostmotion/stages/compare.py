@@ -15,6 +15,7 @@ from lostmotion.inference.predict import (
     filtered,
     free_run,
     free_runs,
+    growth_rates,
     horizon_of,
     largest_exponent,
     observed,
@@ -38,9 +39,13 @@ class Piece:
 
 @dataclass(frozen=True)
 class Prediction:
-    """How one model predicts held-out data: scores, error growth (steps,), a forecast, the innovations."""
+    """How one model predicts held-out data: scores, error growth (steps,), a forecast, the innovations.
+
+    `expected_score` is the log score of a recording that the model itself had made.
+    """
 
     log_score: float
+    expected_score: float
     nrmse: float
     exponent: float
     lead: Array
@@ -66,14 +71,23 @@ def exponent_of(fit: Fit, tracks: Sequence[Track]) -> float:
     return largest_exponent(problem, fit.theta, y0)
 
 
+def exponent_blocks(fit: Fit, tracks: Sequence[Track], blocks: int = 10) -> Array:
+    """Return the exponent (blocks,), in 1/s, over successive parts of the first recording; none if it is too short."""
+    problem = fit.problem.on((tracks[0],))
+    y0, _ = problem.initial(0, problem.system.states(problem.active))
+    rates = growth_rates(problem, fit.theta, y0)
+    return np.array([part.mean() for part in np.array_split(rates, blocks)]) if len(rates) >= blocks else np.zeros(0)
+
+
 def predict(fit: Fit, pieces: Sequence[Piece], horizon: Horizon, exponent: float) -> Prediction:
     """Return the predictions of one model on the held-out pieces, judged over `horizon`."""
     scale = float(np.nanstd(np.concatenate([p.track.z[p.begin :] for p in pieces])))
     problems = [fit.problem.on((piece.track,)) for piece in pieces]
     tracked = [filtered(problem, fit.theta) for problem in problems]
-    runs, scores = [], []
+    runs, scores, lengths = [], [], [p.track.samples - p.begin for p in pieces]
     for piece, problem, seen in zip(pieces, problems, tracked, strict=True):
-        scores.append((seen.log_score(slice(piece.begin, None)), piece.track.samples - piece.begin))
+        held = slice(piece.begin, None)
+        scores.append((seen.log_score(held), seen.expected_score(held)))
         runs.append(_runs(problem, fit, seen.states, piece, horizon))
     shortest = min(r.error.shape[1] for r in runs)
     joint = replace(runs[0], lead=runs[0].lead[:shortest], error=np.vstack([r.error[:, :shortest] for r in runs]))
@@ -82,7 +96,8 @@ def predict(fit: Fit, pieces: Sequence[Piece], horizon: Horizon, exponent: float
     forecast, restarts = _forecast(problems[0], fit, first.states, pieces[0], horizon)
     tail = slice(pieces[0].begin, None)
     return Prediction(
-        log_score=float(np.average([s for s, _ in scores], weights=[n for _, n in scores])),
+        log_score=float(np.average([s for s, _ in scores], weights=lengths)),
+        expected_score=float(np.average([s for _, s in scores], weights=lengths)),
         nrmse=float(np.sqrt(np.nanmean(judged**2)) / scale),
         exponent=exponent,
         lead=joint.lead,

@@ -2,23 +2,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from lostmotion.contracts import Array
-from lostmotion.inference.fit import Fit
-from lostmotion.inference.predict import filtered, free_run
-from lostmotion.inference.tracks import Track, period_samples
+from lostmotion.inference.tracks import period_samples
 from lostmotion.stages.diagnose import Diagnosis, Located, base_keys
 from lostmotion.storage import Column
+from lostmotion.workflow.attractors import section
 from lostmotion.workflow.findings import Outcome
 
 PORTRAIT = 3000
 
 
-def arrays_of(outcome: Outcome) -> tuple[dict[str, Column], dict[str, Column]]:
-    """Return the variables and the coordinates of `arrays.nc`."""
+def arrays_of(outcome: Outcome, motions: Mapping[str, Array]) -> tuple[dict[str, Column], dict[str, Column]]:
+    """Return the variables and the coordinates of `arrays.nc`; `motions` are those of `motions_of`."""
     d = outcome.diagnosis
-    variables = {**_series(outcome), **_curves(d), **_portraits(d), **_growth(outcome), **_draws(outcome)}
+    variables = {**_series(outcome), **_curves(d), **_portraits(d, motions), **_growth(outcome), **_draws(outcome)}
     coords = {
         "time": Column(("time",), d.shown.time, "s", "time from the start of the recording"),
         "covariate": Column(("covariate",), list(d.located.curves)),
@@ -117,35 +118,15 @@ def _draws(outcome: Outcome) -> dict[str, Column]:
     }
 
 
-def _portraits(d: Diagnosis) -> dict[str, Column]:
+def _portraits(d: Diagnosis, motions: Mapping[str, Array]) -> dict[str, Column]:
     """Return phase portraits and stroboscopic sections of the recording and of free runs of both models."""
-    smoothed = (d.left or d.located).missing.states
-    runs = {"recorded": smoothed, "before": _free(d.before, d.shown)}
-    if d.found:
-        runs["after"] = _free(d.after, d.shown)
     units, period = units_of(d), period_samples(d.shown)
     table = {}
-    for name, states in runs.items():
+    for name, states in motions.items():
         tail = states[-PORTRAIT:] if period else states[:: max(1, len(states) // PORTRAIT)]
-        points = _section(states, period) if period else None
+        points = section(states, period) if period else None
         for axis, column, unit in (("x", 0, units["position"]), ("v", 1, units["velocity"])):
             table[f"portrait_{name}_{axis}"] = Column(("portrait",), tail[:, column], unit)
             if points is not None:
                 table[f"section_{name}_{axis}"] = Column(("section",), points[:, column], unit)
     return table
-
-
-def _free(fit: Fit, track: Track) -> Array:
-    """Return the states (samples, n) of a free run over a whole recording, from its first filtered state."""
-    problem = fit.problem.on((track,))
-    first = min(20, track.samples - 1)
-    states = filtered(problem, fit.theta).states
-    run = free_run(problem, fit.theta, states[first], first, track.samples - first)
-    return np.vstack([states[:first], run])
-
-
-def _section(states: Array, period: float) -> Array:
-    """Return position and velocity (points, 2) once each drive period, interpolated between samples."""
-    at = np.arange(0.0, len(states) - 1, period)
-    grid = np.arange(len(states))
-    return np.stack([np.interp(at, grid, states[:, i]) for i in (0, 1)], axis=1)

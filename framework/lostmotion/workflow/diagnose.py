@@ -17,12 +17,16 @@ from lostmotion.stages.diagnose import Diagnosis, diagnose
 from lostmotion.storage import folder_for, save_arrays, save_json
 from lostmotion.system import System
 from lostmotion.workflow.arrays import arrays_of
+from lostmotion.workflow.attractors import motions_of
+from lostmotion.workflow.findings import Outcome, draws_of
 from lostmotion.workflow.notes import notes_of
 from lostmotion.workflow.prepare import Prepared, prepare
-from lostmotion.workflow.findings import Outcome, draws_of
+from lostmotion.workflow.show import Seen, shown
 from lostmotion.workflow.verdict import verdict
 
 Say = Callable[[str], None]
+SHOW = 1
+"""The stream of random numbers for what is shown: no finding depends on it."""
 
 
 def run_diagnosis(
@@ -37,9 +41,12 @@ def run_diagnosis(
     diagnosis = diagnose(prepared.case, prepared.tracks, system, rng=rng, jobs=jobs, say=say)
     say("held-out predictions")
     outcome = judged(diagnosis, prepared, rng)
-    content = {"title": prepared.case.title, **verdict(outcome), **_background(prepared, outcome, seed)}
+    motions = motions_of(diagnosis)
+    say("attractors")
+    show = shown(Seen(outcome, motions, prepared.tracks, registry), np.random.default_rng([seed, SHOW]))
+    content = {"title": prepared.case.title, **verdict(outcome), "show": show, **_background(prepared, outcome, seed)}
     say("report")
-    variables, coords = arrays_of(outcome)
+    variables, coords = arrays_of(outcome, motions)
     save_arrays(folder / "arrays.nc", variables, coords, {"title": prepared.case.title})
     save_json(folder / "diagnosis.json", content)
     write_report(folder)

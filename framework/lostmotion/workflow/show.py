@@ -1,0 +1,148 @@
+"""Before, after and the noise floor: every number that shows whether a model behaves as its machine does."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from lostmotion.contracts import Array, Series
+from lostmotion.errors import LostMotionError
+from lostmotion.inference.fit import Fit
+from lostmotion.inference.predict import observed
+from lostmotion.inference.tracks import Track, period_samples
+from lostmotion.registry import Registry
+from lostmotion.results import Estimate
+from lostmotion.signals import checked
+from lostmotion.stages.compare import exponent_blocks
+from lostmotion.stages.embed import embed
+from lostmotion.stages.quantify import quantify
+from lostmotion.workflow.attractors import Apart, distances_between
+from lostmotion.workflow.findings import Outcome
+from lostmotion.workflow.motion import returned
+from lostmotion.workflow.show_words import said
+
+EMBEDDER, DIMENSION = "ami_cao", "correlation_dimension"
+PAIRS = 1_000_000
+"""Pairs of points for a dimension: a second for 20,000 samples."""
+STUDENT = 2.262
+"""What a mean of ten blocks may be off, in standard errors, at 95 %."""
+FEWEST = 50
+PERIODIC = "The motion repeats itself: it is a closed line, and no dimension is estimated."
+
+
+@dataclass(frozen=True)
+class Seen:
+    """A diagnosed outcome, the motions (samples, n) of recording and models, all recordings, and the plugins."""
+
+    outcome: Outcome
+    motions: Mapping[str, Array]
+    tracks: tuple[Track, ...]
+    registry: Registry
+
+
+def shown(seen: Seen, rng: np.random.Generator) -> dict[str, Any]:
+    """Return the `show` of `diagnosis.json`: measures by name under "before", "after" and "noise_floor"."""
+    outcome, d = seen.outcome, seen.outcome.diagnosis
+    both = {"before": (outcome.before, d.before)}
+    if d.found:
+        both["after"] = (outcome.after, d.after)
+    apart, strobed = distances_between(seen.motions, d.shown, rng)
+    dimensions = _dimensions(seen, rng)
+    table: dict[str, Any] = {}
+    for name, (prediction, fit) in both.items():
+        table[name] = {
+            "heldout_log_score": prediction.log_score,
+            "free_run_error": prediction.nrmse,
+            "valid_prediction_time": {
+                "value": prediction.valid_time / outcome.horizon.unit_time,
+                "or_longer": bool(prediction.valid_time >= prediction.lead[-1]),
+            },
+            "attractor_distance": _distance(apart[name]),
+            "largest_exponent": _exponent(fit, seen.tracks, prediction.exponent),
+            "d2": _estimate(dimensions[name]),
+            "whiteness": {"p": prediction.white},
+        }
+    last = both.get("after", both["before"])
+    noise = math.sqrt(last[1].problem.noise(last[1].theta)[1])
+    table["noise_floor"] = {
+        "heldout_log_score": last[0].expected_score,
+        "free_run_error": noise / float(np.nanstd(d.shown.z)),
+        "attractor_distance": _distance(apart["noise_floor"]),
+        "d2": _estimate(dimensions["recorded"]),
+    }
+    unit = outcome.horizon.unit
+    table["units"] = {
+        "heldout_log_score": "1",
+        "free_run_error": "1",
+        "valid_prediction_time": unit,
+        "attractor_distance": "standard deviations of the motion",
+        "largest_exponent": "1/s",
+        "d2": "1",
+        "whiteness": "1",
+    }
+    table["horizon"] = {"value": outcome.horizon.number, "unit": unit}
+    return {**table, "says": said(table, strobed)}
+
+
+def _distance(apart: Apart) -> dict[str, Any]:
+    return {"value": apart.value, "p": apart.chance, "status": apart.status}
+
+
+def _exponent(fit: Fit, tracks: tuple[Track, ...], value: float) -> dict[str, Any]:
+    """Return the exponent with an interval from the scatter over blocks of the recording."""
+    blocks = exponent_blocks(fit, tracks)
+    if not len(blocks) or not math.isfinite(value):
+        return {"value": value, "low": math.nan, "high": math.nan, "status": "too_short"}
+    half = STUDENT * float(np.std(blocks, ddof=1)) / math.sqrt(len(blocks))
+    return {"value": value, "low": value - half, "high": value + half, "status": "ok"}
+
+
+def _estimate(estimate: Estimate) -> dict[str, Any]:
+    interval = {"value": estimate.value, "low": estimate.low, "high": estimate.high}
+    return {**interval, "status": estimate.status, "says": estimate.says}
+
+
+def _dimensions(seen: Seen, rng: np.random.Generator) -> dict[str, Estimate]:
+    """Return the correlation dimension of the recording, and of the free run of each model embedded as that is."""
+    outcome, d = seen.outcome, seen.outcome.diagnosis
+    track, period = d.shown, period_samples(d.shown)
+    seconds = period * track.dt if period else None
+    finite = track.z[np.isfinite(track.z)] if len(track.z) else track.z
+    fits = {"before": d.before, "after": d.after} if d.found else {"before": d.before}
+    try:
+        recorded = embed(finite, seen.registry.make("embedder", EMBEDDER), dt=track.dt, period=seconds)
+    except LostMotionError as err:
+        return dict.fromkeys(("recorded", *fits), Estimate.refused("failed", str(err)))
+    noise = math.sqrt(d.after.problem.noise(d.after.theta)[1]) / max(float(np.std(finite)), 1e-300)
+    found = {"recorded": _dimension(recorded, seen.registry, rng, noise)}
+    exponents = {"before": outcome.before.exponent, "after": outcome.after.exponent}
+    for name, fit in fits.items():
+        if not exponents[name] > 0.0:
+            found[name] = Estimate.refused("regular", "Near runs of the model do not part: no dimension is estimated.")
+            continue
+        found[name] = _of_model(fit, track, seen.motions[name], (recorded, seen.registry, rng))
+    return found
+
+
+def _of_model(fit: Fit, track: Track, states: Array, given: tuple[Series, Registry, np.random.Generator]) -> Estimate:
+    recorded, registry, rng = given
+    x = observed(fit.problem.on((track,)), fit.theta, states)
+    if not np.isfinite(x).all():
+        return Estimate.refused("diverged", "The free run leaves all bounds.")
+    try:
+        return _dimension(replace(recorded, x=checked(x)), registry, rng, 0.0)
+    except LostMotionError as err:
+        return Estimate.refused("failed", str(err))
+
+
+def _dimension(series: Series, registry: Registry, rng: np.random.Generator, noise: float) -> Estimate:
+    """Return the dimension of a series with noise (share of its deviation); of one that repeats itself, a refusal."""
+    if series.period and series.n * series.dt < FEWEST * series.period:
+        return Estimate.refused("too_short", f"Fewer than {FEWEST} drive periods are too few for a dimension.")
+    if series.period and returned(series, series.period, noise)[0]:
+        return Estimate.refused("regular", PERIODIC)
+    return quantify(series, registry.make("quantifier", DIMENSION, pairs=PAIRS), rng=rng)

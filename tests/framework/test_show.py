@@ -1,0 +1,134 @@
+"""Distances between clouds of points, growth rates in blocks, and the table of before, after and noise floor."""
+
+import numpy as np
+import pytest
+
+from lostmotion.report import show
+from lostmotion.report.evidence import Evidence
+from lostmotion.signals.distances import distances, energy_distance, same_chance
+from lostmotion.workflow.attractors import MOST, distances_between, section
+from lostmotion.workflow.show_words import said
+
+PERIOD = 40.0
+
+
+class Drive:
+    """As much of a track as sections need: a harmonic drive of 40 samples a period, or none."""
+
+    def __init__(self, samples, driven=True):
+        t = np.arange(samples)
+        self.samples, self.dt = samples, 0.01
+        self.inputs = np.cos(2 * np.pi * t / PERIOD)[:, None] if driven else np.zeros((samples, 1))
+
+
+def wandering(seed, samples=8000, middle=0.0):
+    """States (samples, 2) of an orbit with a new amplitude each period, as chaos has it."""
+    rng = np.random.default_rng(seed)
+    size = np.repeat(1.0 + 0.4 * rng.random(samples // 40), 40)
+    angle = 2 * np.pi * np.arange(samples) / PERIOD
+    return np.stack([middle + size * np.sin(angle), size * np.cos(angle)], axis=1)
+
+
+def test_energy_distance_of_two_points_is_twice_their_distance():
+    points = np.array([[[0.0, 0.0], [0.0, 0.0], [3.0, 4.0], [3.0, 4.0]]])
+    table = distances(points)
+    assert energy_distance(table, np.arange(2), np.arange(2, 4)) == pytest.approx(10.0, abs=1e-6)
+
+
+def test_energy_distance_is_that_of_scipy_in_one_dimension():
+    from scipy.stats import energy_distance as scipys
+
+    rng = np.random.default_rng(3)
+    a, b = rng.standard_normal(60), 0.5 + rng.standard_normal(80)
+    table = distances(np.concatenate([a, b])[None, :, None])
+    own = energy_distance(table, np.arange(60), np.arange(60, 140))
+    assert own == pytest.approx(scipys(a, b) ** 2, rel=1e-6)
+
+
+def test_chance_is_even_for_equal_clouds_and_small_for_others():
+    """Forty pairs of equal clouds: p below 0.05 in 2 of them on average; more than 8 has a chance of 1e-4."""
+    rng = np.random.default_rng(5)
+    small = 0
+    for _ in range(40):
+        table = distances(rng.standard_normal((1, 160, 2)))
+        small += same_chance(table, 80, rng) < 0.05
+    assert small <= 8
+    moved = rng.standard_normal((1, 160, 2))
+    moved[0, 80:] += 1.0
+    assert same_chance(distances(moved), 80, rng) == pytest.approx(0.005)
+
+
+def test_model_with_the_right_orbit_is_at_the_floor_and_another_is_not():
+    motions = {"recorded": wandering(1), "before": wandering(2, middle=0.3), "after": wandering(3)}
+    apart, strobed = distances_between(motions, Drive(8000), np.random.default_rng(0))
+    assert strobed
+    assert apart["before"].chance < 0.01 < apart["after"].chance
+    assert apart["before"].value > 3.0 * apart["noise_floor"].value
+    assert apart["after"].value < 3.0 * apart["noise_floor"].value
+
+
+def test_without_a_drive_looks_at_the_whole_orbit_are_compared():
+    motions = {"recorded": wandering(1), "before": wandering(2, middle=0.5)}
+    apart, strobed = distances_between(motions, Drive(8000, driven=False), np.random.default_rng(0))
+    assert not strobed
+    assert apart["before"].status == "ok"
+    assert apart["before"].chance < 0.01
+
+
+def test_short_recordings_and_runaways_have_a_status():
+    runaway = wandering(2)
+    runaway[500:] = np.nan
+    apart, _ = distances_between({"recorded": wandering(1), "before": runaway}, Drive(8000), np.random.default_rng(0))
+    assert apart["before"].status == "diverged"
+    apart, _ = distances_between(
+        {"recorded": wandering(1, 400), "before": wandering(2, 400)}, Drive(400), np.random.default_rng(0)
+    )
+    assert apart["before"].status == apart["noise_floor"].status == "too_short"
+
+
+def test_sections_are_taken_at_the_phase_asked_for():
+    points = section(wandering(1), PERIOD, 0.25)
+    assert len(points) == 200
+    np.testing.assert_allclose(points[:, 1], 0.0, atol=1e-9)
+    assert MOST >= 200
+
+
+def made(augmented=True):
+    def measures(error, p):
+        return {
+            "heldout_log_score": 4.0,
+            "free_run_error": error,
+            "valid_prediction_time": {"value": 3.0, "or_longer": error < 0.1},
+            "attractor_distance": {"value": error, "p": p, "status": "ok"},
+            "largest_exponent": {"value": 1.0, "low": 0.8, "high": 1.2, "status": "ok"},
+            "d2": {"value": 2.1, "low": 2.0, "high": 2.2, "status": "ok", "says": ""},
+            "whiteness": {"p": p},
+        }
+
+    table = {"before": measures(0.3, 0.005), "noise_floor": measures(0.01, 0.5)}
+    del table["noise_floor"]["whiteness"], table["noise_floor"]["valid_prediction_time"]
+    if augmented:
+        table["after"] = measures(0.02, 0.4)
+    table["units"] = {"valid_prediction_time": "Lyapunov times", "largest_exponent": "1/s", "d2": "1"}
+    table["horizon"] = {"value": 0.5, "unit": "Lyapunov times"}
+    return {"found": [{}] if augmented else [], "show": {**table, "says": said(table, True)}}
+
+
+def test_table_of_the_report_has_every_measure_with_a_sentence():
+    table = show.table(Evidence(made(), {}, {}, {}))
+    assert [row[0].partition(" (")[0] for row in table.rows] == list(show.NAMES.values())
+    assert all(row[-1].endswith(".") for row in table.rows)
+    distance = next(row for row in table.rows if row[0] == "Distance between attractors")
+    assert distance[1:4] == ["0.3 (p = 0.005)", "0.02 (p = 0.4)", "0.01 (p = 0.5)"]
+    exponent = next(row for row in table.rows if row[0] == "Largest exponent (1/s)")
+    assert exponent[1] == "1.00 [0.80, 1.20]"
+
+
+def test_table_of_an_adequate_model_has_one_model():
+    table = show.table(Evidence(made(augmented=False), {}, {}, {}))
+    assert table.head[1] == "Model as it stands"
+    assert all(len(row) == len(table.head) for row in table.rows)
+
+
+def test_report_without_a_show_has_no_table():
+    assert show.table(Evidence({"found": []}, {}, {}, {})).rows == []
