@@ -277,7 +277,7 @@ UNKNOWN: Mapping[str, Mechanism] = {
 NAMES = (*TABLE, "unknown")
 NOISY: Mapping[str, Callable[[Pilot, float], float]] = {
     "sensor_quantisation": lambda pilot, share: pilot.noise * 10.0 ** (1.2 * share),
-    "random_force": lambda pilot, share: pilot.usual * 3.0 * 10.0 ** (1.2 * share),
+    "random_force": lambda pilot, share: pilot.usual * 3.2 * 10.0 ** (0.7 * share),
 }
 """Sizes of what has no force that could be foretold, from a share between 0 and 1."""
 
