@@ -176,6 +176,17 @@ def test_answers_are_judged(truth, diagnosis, several, outcome):
     assert judging._outcome(truth, diagnosis, several=several)["outcome"] == outcome
 
 
+def test_effect_beside_one_that_was_named_is_missed_and_not_misnamed():
+    truth = {"machine": {"values": {}, "signal": {"tones": [[1.0, 1.0, 0.0]]}}}
+    effects = [effect("gap_drift", ""), effect("offset_force", "")]
+    answer = judging._held_against(said(entry("gap_drift")), effects, truth, several=False)
+    assert [row["outcome"] for row in answer["effects"]] == [judging.HIT, judging.MISSED]
+    assert answer["false"] == []
+    answer = judging._held_against(said(entry("gap_drift"), entry("viscous_damping")), effects, truth, several=False)
+    assert [row["outcome"] for row in answer["effects"]] == [judging.HIT, judging.MISNAMED]
+    assert answer["false"] == ["viscous_damping"]
+
+
 def test_phase_turns_with_the_sign_of_its_amplitude():
     whole = {"low": -0.11, "median": -0.1, "high": -0.09}
     angle = {"low": 0.4 + np.pi - 0.1, "median": 0.4 + np.pi, "high": 0.4 + np.pi + 0.1}

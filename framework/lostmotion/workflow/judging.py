@@ -60,8 +60,10 @@ def _nothing() -> dict[str, Any]:
 
 def _held_against(diagnosis: Row, effects: Sequence[Row], truth: Row, *, several: bool) -> dict[str, Any]:
     found = diagnosis["found"]
-    rows = [{**e, **_outcome(e, diagnosis, several=several)} for e in effects]
     right = [entry for entry in found if any(same(e, entry, several=several) for e in effects)]
+    rows = [{**e, **_outcome(e, diagnosis, several=several)} for e in effects]
+    if len(right) == len(found):
+        rows = [{**row, "outcome": MISSED} if row["outcome"] == MISNAMED else row for row in rows]
     exact = len(right) == len(found) and all(row["outcome"] == HIT for row in rows)
     return {
         "effects": rows,

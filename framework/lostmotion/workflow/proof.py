@@ -12,6 +12,7 @@ import numpy as np
 from scipy.stats import beta, chi2, ncx2
 
 from lostmotion.workflow.judging import HIT, MISNAMED, OUTCOMES
+from lostmotion.workflow.oracle import alike
 from lostmotion.workflow.proof_words import says_of
 from lostmotion.workflow.sealing import PLAIN
 
@@ -117,8 +118,9 @@ def _confusion(rows: Sequence[Row]) -> list[dict[str, Any]]:
     pairs: Counter[tuple[str, str]] = Counter()
     for row in rows:
         for truth in [e["mechanism"] for e in row["effects"]] or ["nothing"]:
-            answers = {name.partition("@")[0] for name in row["named"]} or {"nothing"}
-            pairs.update((truth, answer) for answer in (answers & {truth} or answers))
+            named, false = ({name.partition("@")[0] for name in row[key]} for key in ("named", "false"))
+            like = {name for name in named if alike(name, truth)}
+            pairs.update((truth, answer) for answer in (named & {truth} or like or false or {"nothing"}))
     return [{"truth": t, "answer": a, "cases": n} for (t, a), n in sorted(pairs.items())]
 
 
