@@ -1,4 +1,4 @@
-"""Where the missing force lives: its curves over position, velocity, drive phase and time, and what each explains."""
+"""Where the missing force lives: its curves over position, velocity, drive phase and time, and a sentence on it."""
 
 from __future__ import annotations
 
@@ -8,12 +8,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from lostmotion.contracts import Array, Model
+from lostmotion.contracts import Array, Interface, Model
 from lostmotion.inference.latent import Missing
+from lostmotion.inference.shares import Covariate, Share, significant
 from lostmotion.inference.tracks import Track, period_samples
 
 BINS = 25
-FOLDS = 5
+WORTH_SAYING = 0.05
+SIGNED = 0.97
+"""What goes with the sign of the velocity to this share of what goes with the velocity is said to go with the sign."""
 
 
 @dataclass(frozen=True)
@@ -34,8 +37,8 @@ def covariates(model: Model, track: Track, missing: Missing) -> dict[str, Array]
     table = {"position": missing.position, "velocity": missing.velocity}
     for place in model.interfaces:
         if place.name != "ground" and len(model.interfaces) > 1:
-            motion = np.array([place.motion(y, u) for y, u in zip(missing.states, track.inputs, strict=True)])
-            table[f"position at {place.name}"], table[f"velocity at {place.name}"] = motion.T
+            moved = _motion(place, track, missing)
+            table[f"position at {place.name}"], table[f"velocity at {place.name}"] = moved
     period = period_samples(track)
     if period:
         table["phase"] = ((track.begin + np.arange(track.samples)) / period) % 1.0
@@ -60,31 +63,6 @@ def curve(values: Array, force: Array, edges: Array | None = None) -> Curve:
     return Curve(*rows)
 
 
-def explained(values: Array, force: Array) -> float:
-    """Return the share of the variance of `force` that a smooth curve over `values` predicts, cross-validated.
-
-    The folds are contiguous blocks of time, so that a slow force does not explain itself; never below zero.
-    """
-    edges = edges_of(values)
-    if len(edges) < 4 or not np.any(force):
-        return 0.0
-    which = np.clip(np.searchsorted(edges, values, side="right") - 1, 0, len(edges) - 2)
-    block = (np.arange(len(force)) * FOLDS * 4 // len(force)) % FOLDS
-    left = 0.0
-    for fold in range(FOLDS):
-        seen, hidden = block != fold, block == fold
-        total = np.bincount(which[seen], force[seen], len(edges) - 1)
-        count = np.bincount(which[seen], minlength=len(edges) - 1)
-        means = (total + np.mean(force[seen])) / (count + 1.0)
-        left += float(np.sum((force[hidden] - means[which[hidden]]) ** 2))
-    return max(0.0, 1.0 - left / float(np.sum((force - force.mean()) ** 2)))
-
-
-def shares(table: Mapping[str, Array], force: Array) -> dict[str, float]:
-    """Return what each covariate explains of the variance of the force."""
-    return {name: round(explained(values, force), 4) for name, values in table.items()}
-
-
 def parity(found: Curve) -> str:
     """Return "odd", "even" or "neither": how a curve changes when position or velocity is reversed."""
     good = np.isfinite(found.center) & np.isfinite(found.mean)
@@ -102,16 +80,60 @@ def parity(found: Curve) -> str:
     return "odd" if share > 0.8 else ("even" if share < 0.2 else "neither")
 
 
-def summary(table: Mapping[str, Array], force: Array, found: Mapping[str, float]) -> str:
-    """Return one sentence on where the force lives."""
-    name = max(found, key=lambda k: found[k])
-    if found[name] < 0.05:
-        return "no structure over position, velocity, phase or time"
+def further(
+    model: Model, track: Track, missing: Missing, plays: Mapping[str, float] | None = None
+) -> dict[str, Covariate]:
+    """Return what else a force may depend on: sign of velocity, contact, history, at each place of the model.
+
+    `plays` are the half gaps by place. History is where the body was a quarter of a natural period ago, and counts for
+    what it adds to position and velocity.
+    """
+    found = {}
+    for place in model.interfaces:
+        x, v = (missing.position, missing.velocity) if place.name == "ground" else _motion(place, track, missing)
+        tail = "" if place.name == "ground" or len(model.interfaces) == 1 else f" at {place.name}"
+        found[f"sign of velocity{tail}"] = Covariate((np.sign(v),), classes=True)
+        play = (plays or {}).get(place.name, 0.0)
+        if play > 0.0:
+            found[f"contact{tail}"] = Covariate((np.asarray(np.abs(x) > play, dtype=float),), classes=True)
+        found[f"history{tail}"] = Covariate((x, v, _earlier(x, v, track.dt)))
+    return found
+
+
+def _motion(place: Interface, track: Track, missing: Missing) -> Array:
+    """Return relative position and velocity (2, samples) at a place."""
+    return np.array([place.motion(y, u) for y, u in zip(missing.states, track.inputs, strict=True)]).T
+
+
+def _earlier(x: Array, v: Array, dt: float) -> Array:
+    """Return the position (samples,) a quarter of the natural period earlier; before that the first one."""
+    lag = round(0.5 * math.pi * float(np.std(x)) / max(float(np.std(v)), 1e-300) / dt)
+    lag = min(max(lag, 1), len(x) - 1)
+    return np.concatenate([np.full(lag, x[0]), x[:-lag]])
+
+
+def summary(table: Mapping[str, Array], force: Array, found: Mapping[str, Share]) -> str:
+    """Return one sentence on where the force lives: of covariates only those that noise would not reach."""
+    values = {name: share.value for name, share in found.items()}
+    known = [name for name in significant(found) if values[name] >= WORTH_SAYING]
+    if not known:
+        return "no structure over position, velocity, phase or time that noise would not show as well"
+    name = known[0]
+    if name.startswith("velocity"):
+        sign = name.replace("velocity", "sign of velocity")
+        name = sign if values.get(sign, 0.0) > SIGNED * values[name] else name
     kind = parity(curve(table[name], force)) if name.startswith(("position", "velocity")) else "neither"
     how = "a function of" if kind == "neither" else f"{kind} in"
-    absent = [k for k in found if k != name and found[k] < 0.05]
+    sure = f"{values[name]:.0%} +- {found[name].error:.0%} of its variance"
+    more = [f"{k} ({values[k]:.0%})" for k in known if k not in name and name not in k and k != name]
+    also = f"; with it go {_listed(more)}" if more else ""
+    absent = [k for k in table if k not in known and k not in name]
     nothing = f"; nothing of it goes with {' or '.join(absent)}" if absent else ""
-    return f"{how} {name}, which explains {found[name]:.0%} of its variance{nothing}"
+    return f"{how} {name}, which explains {sure}{also}{nothing}"
+
+
+def _listed(names: list[str]) -> str:
+    return " and ".join([", ".join(names[:-1]), names[-1]] if len(names) > 1 else names)
 
 
 def autocorrelation(errors: Array, variances: Array, lags: int = 40) -> Array:

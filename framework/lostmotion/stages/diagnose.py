@@ -13,11 +13,14 @@ from lostmotion.contracts import Array, Model, Term, Values
 from lostmotion.errors import DataError
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.latent import Missing, missing_force
-from lostmotion.inference.locate import Curve, covariates, curve, edges_of, shares, summary
+from lostmotion.inference.learned import Learned
+from lostmotion.inference.locate import Curve, covariates, curve, edges_of, further, summary
 from lostmotion.inference.problem import LEVELS, Problem
 from lostmotion.inference.selection import Selection, Selector, significant_random_force
 from lostmotion.inference.setup import polish, problem_of, search, split, stepped
+from lostmotion.inference.shares import Covariate, Share, shares_of, significant
 from lostmotion.inference.tracks import Track
+from lostmotion.inference.unexplained import Unknown, unknown_of
 from lostmotion.system import System
 
 SIGNIFICANT = 8.0
@@ -40,8 +43,18 @@ class Located:
 
     missing: Missing
     curves: dict[str, Curve]
-    shares: dict[str, float]
+    explained: dict[str, Share]
     summary: str
+
+    @property
+    def shares(self) -> dict[str, float]:
+        """What each covariate explains of the variance of the force."""
+        return {name: share.value for name, share in self.explained.items()}
+
+    @property
+    def structure(self) -> list[str]:
+        """The covariates with which more than `STRUCTURED` of the force goes, and more than noise would show."""
+        return [name for name in significant(self.explained) if self.explained[name].value > STRUCTURED]
 
 
 @dataclass(frozen=True)
@@ -51,6 +64,7 @@ class Diagnosis:
     `marks` holds the terms that the stored values themselves betray, with their parameters and the errors of these.
     `shown` is the recording (or the first held-out one) that curves and figures are about; `law` (samples,) is the
     force of the found terms along it. `random_gain` is the log-likelihood that a random force beyond the usual adds.
+    `learned` are the curves that were learned where the library did not suffice; `after` is the fit with them.
     """
 
     before: Fit
@@ -66,11 +80,17 @@ class Diagnosis:
     train: tuple[Track, ...]
     held: tuple[Track, ...]
     marks: Mapping[str, tuple[Values, Values]] = field(default_factory=dict)
+    learned: Unknown | None = None
 
     @property
     def found(self) -> tuple[str, ...]:
-        """The keys of the terms that were left out, most probable first."""
+        """The keys of the terms that were left out, most probable first; learned curves come last."""
         return tuple(sorted(self.after.problem.active, key=lambda k: -self.selection.inclusion(k)))
+
+    @property
+    def named(self) -> tuple[str, ...]:
+        """The keys of the terms of the library that were left out."""
+        return tuple(key for key in self.found if not self.learned or key not in self.learned.keys)
 
     @property
     def unexplained(self) -> bool:
@@ -80,7 +100,7 @@ class Diagnosis:
     @property
     def unknown(self) -> bool:
         """Whether something is missing, with structure, that no term of the library explains."""
-        return not self.found and self.unexplained and max(self.located.shares.values()) > STRUCTURED
+        return bool(self.learned) or (not self.found and self.unexplained and bool(self.located.structure))
 
 
 def candidates_of(model: Model, terms: Sequence[type[Term]], tracks: Sequence[Track] = ()) -> tuple[Term, ...]:
@@ -116,8 +136,18 @@ def diagnose(
     gain = significant_random_force(after)
     say("missing force")
     shown = tracks[0] if len(tracks) == 1 else held[0]
+    chance = rng.spawn(1)[0]
     marks = marks_of(after)
-    return _located(Diagnosis(before, after, selection, shown, _NOWHERE, None, _NO, {}, {}, gain, train, held, marks))
+    bare = Diagnosis(before, after, selection, shown, _NOWHERE, None, _NO, {}, {}, gain, train, held, marks)
+    known = _located(bare, chance)
+    if not (known.unexplained or (known.left or known.located).structure):
+        return known
+    learned = unknown_of(selection.nominal, selection.chosen, len(system.keys), say)
+    if learned is None:
+        return known
+    after = polish(learned.fit)
+    gain = significant_random_force(after)
+    return _located(replace(bare, after=after, random_gain=gain, learned=replace(learned, fit=after)), chance)
 
 
 def marks_of(fit: Fit) -> dict[str, tuple[Values, Values]]:
@@ -136,28 +166,23 @@ _NO = np.zeros(0)
 _NOWHERE = Located(Missing(_NO, _NO, np.zeros((0, 2)), 0.0, 0.0, 0.0), {}, {}, "")
 
 
-def _located(bare: Diagnosis) -> Diagnosis:
+def _located(bare: Diagnosis, rng: np.random.Generator) -> Diagnosis:
     """Return the diagnosis with the missing force located: found terms taken out first, then with them."""
     after, shown = bare.after, bare.shown
     honest = stepped(after.problem, after.theta).on((shown,))
-    if not bare.found:
-        located = locate(after.problem.system.model, shown, missing_force(honest, after.theta))
-        return replace(bare, located=located)
+    model, plays = after.problem.system.model, plays_of(honest, after.theta)
     left = missing_force(honest, after.theta)
-    bare_problem, theta = taken_out(honest, after.theta)
-    located = locate(
-        after.problem.system.model,
-        shown,
-        missing_force(bare_problem, theta),
-    )
+    if not bare.found:
+        return replace(bare, located=locate(model, shown, left, plays=plays, rng=rng))
+    located = locate(model, shown, missing_force(*taken_out(honest, after.theta)), plays=plays, rng=rng)
     laws = {key: law_of(after, shown, left.states, key) for key in bare.found}
     law = np.sum(list(laws.values()), axis=0)
-    table = covariates(after.problem.system.model, shown, left)
+    table = covariates(model, shown, left)
     curves = {k: curve(v, law, edges_of(table[k])) for k, v in table.items()}
     return replace(
         bare,
         located=located,
-        left=locate(after.problem.system.model, shown, left),
+        left=locate(model, shown, left, plays=plays, rng=rng),
         law=law,
         laws=laws,
         law_curves=curves,
@@ -170,15 +195,29 @@ def taken_out(problem: Problem, theta: Array) -> tuple[Problem, Array]:
     return replace(problem, free=tuple(problem.free[i] for i in kept), active=frozenset()), theta[kept]
 
 
-def locate(model: Model, track: Track, missing: Missing) -> Located:
-    """Return where a missing force lives."""
+def plays_of(problem: Problem, theta: Array) -> dict[str, float]:
+    """Return the half gap (m or rad) at each place of the model that has one."""
+    full, system = problem.full(theta), problem.system
+    return {i.name: float(full[system.index[i.play]]) for i in system.model.interfaces if i.play}
+
+
+def locate(
+    model: Model,
+    track: Track,
+    missing: Missing,
+    *,
+    plays: Mapping[str, float] | None = None,
+    rng: np.random.Generator | None = None,
+) -> Located:
+    """Return where a missing force lives; `plays` are the half gaps by place, `rng` draws surrogates of the force."""
     if not np.all(np.abs(missing.force) < LARGEST):
         raise DataError(
             f"{track.name}: the model cannot follow this recording at all: check the units and columns of what went in"
             " and came out, the known values and the priors"
         )
     table = covariates(model, track, missing)
-    found = shares(table, missing.force)
+    asked = {name: Covariate((values,)) for name, values in table.items()} | further(model, track, missing, plays)
+    found = shares_of(asked, missing.force, rng)
     curves = {name: curve(values, missing.force) for name, values in table.items()}
     return Located(missing, curves, found, summary(table, missing.force, found))
 
@@ -208,5 +247,7 @@ def law_of(fit: Fit, track: Track, states: Array, key: str) -> Array:
 
 
 def base_keys(fit: Fit) -> list[str]:
-    """Return the keys of the physical parameters of a fit, noise levels left out."""
-    return [k for k in fit.problem.keys if k not in LEVELS]
+    """Return the keys of the physical parameters of a fit, noise levels and coefficients of learned curves left out."""
+    system = fit.problem.system
+    curves = tuple(f"{k}." for k, t in zip(system.keys, system.terms, strict=True) if isinstance(t, Learned))
+    return [k for k in fit.problem.keys if k not in LEVELS and not (curves and k.startswith(curves))]

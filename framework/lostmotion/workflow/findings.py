@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -14,11 +13,11 @@ from lostmotion.inference.candidates import term_of
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.mixture import draws
 from lostmotion.inference.predict import Horizon
-from lostmotion.inference.problem import LEVELS
 from lostmotion.quantities import ANGULAR, SI
 from lostmotion.results import Interval
 from lostmotion.stages.compare import Prediction
-from lostmotion.stages.diagnose import STRUCTURED, Diagnosis, base_keys
+from lostmotion.stages.diagnose import Diagnosis, base_keys
+from lostmotion.workflow.unknowns import learned_entry, unnamed_entry
 
 DRAWS = 2000
 
@@ -39,7 +38,8 @@ def draws_of(fit: Fit, rng: np.random.Generator) -> Array:
     """Return draws (DRAWS, keys) of the physical parameters from the posterior about a fit."""
     free = fit.problem.free
     theta = draws(fit, rng, DRAWS)
-    kept = [i for i, f in enumerate(free) if f.key not in LEVELS]
+    physical = set(base_keys(fit))
+    kept = [i for i, f in enumerate(free) if f.key in physical]
     return np.array([[free[i].value(row[i]) for i in kept] for row in theta])
 
 
@@ -55,10 +55,11 @@ def found_in(outcome: Outcome) -> list[dict[str, Any]]:
     """Return the entries of `found`: terms, marks in the stored values, and what no term explains."""
     d = outcome.diagnosis
     after = intervals(d.after, outcome.draws_after)
-    entries = [_entry(outcome, key, after) for key in d.found] + [_mark(d, key) for key in d.marks]
-    if not d.found and d.unexplained:
-        depends = [k for k, share in d.located.shares.items() if share > STRUCTURED]
-        entries.append(_unnamed(d, depends))
+    entries = [_entry(outcome, key, after) for key in d.named] + [_mark(d, key) for key in d.marks]
+    if d.learned:
+        entries.append(learned_entry(d))
+    elif not d.found and d.unexplained:
+        entries.append(unnamed_entry(d))
     return entries
 
 
@@ -110,20 +111,3 @@ def _of(draws: Array, unit: str) -> Interval:
     """Return median and central 95 % interval of draws (count,)."""
     low, median, high = np.quantile(draws, [0.025, 0.5, 0.975])
     return Interval(float(median), float(low), float(high), unit)
-
-
-def _unnamed(d: Diagnosis, depends: list[str]) -> dict[str, Any]:
-    """Return the entry of a mismatch that no term explains: structured ("unknown") or not ("random_force")."""
-    rms = float(np.std(d.located.missing.force))
-    unit = "N m" if d.after.problem.system.model.motion == "rotation" else "N"
-    gain = Interval(rms, rms, rms, unit)
-    share = rms / d.after.problem.scales.force
-    name = "unknown" if depends else "random_force"
-    on = f"depends on {' and '.join(depends)}" if depends else "depends on nothing that was recorded"
-    return {
-        "mechanism": name,
-        "probability": 1.0 - math.exp(-d.random_gain),
-        "parameters": {"rms": gain.as_dict()},
-        "depends_on": depends,
-        "says": f"A force of {rms:.3g} {unit} rms, {share:.1%} of the drive, is missing; no term explains it; it {on}.",
-    }

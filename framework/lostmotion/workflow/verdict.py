@@ -14,6 +14,7 @@ from lostmotion.stages.compare import Prediction
 from lostmotion.stages.diagnose import Diagnosis
 from lostmotion.system import key_of
 from lostmotion.workflow.findings import Outcome, found_in, intervals
+from lostmotion.workflow.unknowns import unknown_odds, where
 
 WORTH_NAMING = 0.05
 
@@ -31,7 +32,8 @@ def verdict(outcome: Outcome) -> dict[str, Any]:
         "confused_with": _confused(d),
         "unexplained": _unexplained(d, after=True),
         "unexplained_before": _unexplained(d, after=False),
-        "where": {"summary": d.located.summary, "explained_by": d.located.shares},
+        "where": where(d.located, d.learned),
+        "where_after": where(d.left or d.located),
         "parameters": {
             "before": {k: v.as_dict() for k, v in intervals(d.before, outcome.draws_before).items()},
             "after": {k: v.as_dict() for k, v in intervals(d.after, outcome.draws_after).items()},
@@ -101,10 +103,11 @@ def _fit(outcome: Outcome) -> dict[str, Any]:
 def _ranking(d: Diagnosis) -> list[dict[str, Any]]:
     """Return every candidate with its evidence and probability, and beside them "nothing missing" and "unknown".
 
-    "Unknown" is what the library does not explain: when nothing was found and a force beyond the usual is left.
+    "Unknown" is what the library does not explain: curves that were learned, or, when nothing was found, a force beyond
+    the usual.
     """
     selection = d.selection
-    unknown = 0.0 if d.found or not d.unexplained else 1.0 - math.exp(-d.random_gain)
+    unknown, gain = unknown_odds(d)
     rows = []
     for term in selection.nominal.problem.system.terms:
         key = key_of(term)
@@ -113,7 +116,7 @@ def _ranking(d: Diagnosis) -> list[dict[str, Any]]:
                 "mechanism": term.name,
                 "at": term.at,
                 "log_evidence_gain": selection.gain(key),
-                "probability": selection.inclusion(key) * (1.0 - unknown),
+                "probability": selection.inclusion(key) * (1.0 if key in d.named else 1.0 - unknown),
                 "fitted": frozenset({key}) in selection.visits,
             }
         )
@@ -121,21 +124,21 @@ def _ranking(d: Diagnosis) -> list[dict[str, Any]]:
     rows.append(
         {"mechanism": "nothing_missing", "at": "", "log_evidence_gain": 0.0, "probability": nothing, "fitted": True}
     )
-    gain = d.random_gain if unknown else 0.0
-    rows.append({"mechanism": "unknown", "at": "", "log_evidence_gain": gain, "probability": unknown, "fitted": False})
+    fitted = d.learned is not None
+    rows.append({"mechanism": "unknown", "at": "", "log_evidence_gain": gain, "probability": unknown, "fitted": fitted})
     return sorted(rows, key=lambda row: (-row["probability"], -row["log_evidence_gain"]))
 
 
 def _confused(d: Diagnosis) -> list[dict[str, Any]]:
     """Return the terms that are in other sets of some weight, and relatives of what was found."""
     rows = []
-    for term in d.after.problem.system.terms:
+    for term in d.selection.nominal.problem.system.terms:
         key = key_of(term)
-        p = d.selection.inclusion(key)
+        p = 0.0 if d.learned else d.selection.inclusion(key)
         if key not in d.found and p > WORTH_NAMING:
             says = f"This recording gives {term.name} a probability of {p:.2f}: another drive level would decide."
             rows.append({"mechanism": term.name, "at": term.at, "probability": p, "says": says})
-    return rows + [row for key in d.found for row in _equal(d, key)]
+    return rows + [row for key in d.named for row in _equal(d, key)]
 
 
 def _equal(d: Diagnosis, key: str) -> list[dict[str, Any]]:

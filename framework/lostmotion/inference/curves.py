@@ -1,0 +1,187 @@
+"""Learned curves in a fit: their smoothness by marginal likelihood, their coefficients by the fit, their bands.
+
+One score test of all coefficients gives the marginal likelihood of any smoothness in closed form, for the likelihood of
+one-step errors is close to normal in them.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from lostmotion.contracts import Array, Interface, place_of
+from lostmotion.inference.fit import Fit, Sensitivity, maximise, restarted, robust_covariance, solved
+from lostmotion.inference.latent import kept_by
+from lostmotion.inference.learned import Learned, curves_for, spread
+from lostmotion.inference.problem import Free, Problem
+from lostmotion.inference.tracks import Track
+from lostmotion.system import System, key_of
+
+SIZES = (0.002, 0.006, 0.02, 0.06, 0.2)
+"""Standard deviations of a curve that are tried, in units of the drive."""
+LENGTHS = (0.06, 0.12, 0.25, 0.5, 1.0)
+"""Correlation lengths that are tried, in half widths of the range."""
+CHOICES = math.log(len(SIZES) * len(LENGTHS))
+"""The log price of a smoothness that was chosen."""
+EDGE = 0.02
+NUDGE = 3e-4
+"""Finite-difference step of a coefficient in units of the drive."""
+
+
+@dataclass(frozen=True)
+class Shape:
+    """What a score test says of a curve: the log evidence it promises, its prior widths and where to start (count,)."""
+
+    key: str
+    gain: float
+    widths: Array
+    start: Array
+
+
+def transplanted(fit: Fit, keep: Iterable[str]) -> Fit:
+    """Return a fit in a system that has the terms `keep` and every curve, with the ranges that the motion visited."""
+    problem, chosen = fit.problem, set(keep)
+    old = problem.system
+    kept = [term for key, term in zip(old.keys, old.terms, strict=True) if key in chosen]
+    driven = all(track.tone.omega > 0.0 for track in problem.tracks)
+    curves = curves_for(old.model, driven=driven)
+    system = System(old.model, (*kept, *curves))
+    known = system.vector(
+        {slot.key: problem.known[old.index[slot.key]] for slot in system.slots if slot.key in old.index}
+    )
+    for curve in curves:
+        low, high = _range(fit, curve)
+        known[system.index[f"{key_of(curve)}.middle"]] = 0.5 * (low + high)
+        known[system.index[f"{key_of(curve)}.half"]] = 0.5 * (high - low)
+    return replace(fit, problem=replace(problem, system=system, known=known))
+
+
+def _range(fit: Fit, curve: Learned) -> tuple[float, float]:
+    """Return the least and the greatest value of what a curve runs over, in all recordings, with a narrow margin."""
+    problem = fit.problem
+    if curve.over in ("time", "phase"):
+        return 0.0, max(float(track.time[-1]) for track in problem.tracks)
+    place = place_of(problem.system.model, curve)
+    column = int(curve.over == "velocity")
+    ends = [_ends(problem, fit.theta, i, place, column) for i in range(len(problem.tracks))]
+    low, high = min(e[0] for e in ends), max(e[1] for e in ends)
+    return low - EDGE * (high - low), high + EDGE * (high - low)
+
+
+def _ends(problem: Problem, theta: Array, index: int, place: Interface, column: int) -> tuple[float, float]:
+    track = problem.tracks[index]
+    single = replace(problem.on((track,)), jobs=1)
+    (states, *_), _, _ = kept_by(single, theta)
+    moved = _motion(track, states, place)[:, column]
+    low, high = np.quantile(moved[len(moved) // 50 :], [1e-3, 1.0 - 1e-3])
+    return float(low), float(high)
+
+
+def _motion(track: Track, states: Array, place: Interface) -> Array:
+    return np.array([place.motion(y, u) for y, u in zip(states, track.inputs, strict=True)])
+
+
+def size_of(term: Learned, problem: Problem) -> float:
+    """Return the natural size of the coefficients of a curve: the drive, in the dimension they have."""
+    scales = problem.scales
+    return term.params[0].dimension.scale(scales.force, scales.length, scales.time)
+
+
+def shape_of(fit: Fit, slopes: Sensitivity, key: str) -> Shape:
+    """Return what a curve promises at its best smoothness, the free parameters of the fit moving along.
+
+    With gradient g and information H of its coefficients, prior widths D: the evidence gains
+    (g'D (I + D H D)^-1 D g - log det(I + D H D)) / 2.
+    """
+    problem = fit.problem
+    term = _learned(problem, key)
+    gradient, information = _projected(fit, slopes, key)
+    options = []
+    for size, length in itertools.product(SIZES, LENGTHS):
+        widths = size * size_of(term, problem) * spread(term, length)
+        inner = np.eye(term.count) + information * np.outer(widths, widths)
+        pull = np.linalg.solve(inner, widths * gradient)
+        gain = 0.5 * float(widths * gradient @ pull) - 0.5 * float(np.linalg.slogdet(inner)[1])
+        options.append(Shape(key, gain, widths, widths * pull))
+    return max(options, key=lambda s: s.gain)
+
+
+def _learned(problem: Problem, key: str) -> Learned:
+    term = problem.system.terms[problem.system.keys.index(key)]
+    if not isinstance(term, Learned):
+        raise TypeError(f"{key} is no learned curve")
+    return term
+
+
+def _projected(fit: Fit, slopes: Sensitivity, key: str) -> tuple[Array, Array]:
+    """Return gradient (count,) and information (count, count) of the coefficients of a curve at zero.
+
+    What the free parameters of the fit explain as well is taken out.
+    """
+    problem, term = fit.problem, _learned(fit.problem, key)
+    width = NUDGE * size_of(term, problem)
+    wider = with_curve(problem, key, np.full(term.count, math.inf), np.zeros(term.count))
+    zero = np.concatenate([slopes.theta, np.zeros(term.count)])
+    points = [zero, *(zero + width * row for row in np.eye(len(zero))[len(slopes.theta) :])]
+    here, *above = wider.many(points)
+    de = np.array([(a.errors - here.errors) / width for a in above])
+    dv = np.array([(a.variances - here.variances) / width for a in above])
+    joint = Sensitivity(
+        zero, here, np.vstack([slopes.errors, de]), np.vstack([slopes.variances, dv]), np.full(len(zero), width)
+    )
+    information, k = joint.information(), len(slopes.theta)
+    base = information[:k, :k] + np.diag([1.0 / f.sd**2 if math.isfinite(f.sd) else 0.0 for f in problem.free])
+    pulled = solved(base, information[:k, k:])
+    return joint.gradient()[k:], information[k:, k:] - information[k:, :k] @ pulled
+
+
+def with_curve(problem: Problem, key: str, widths: Array, start: Array) -> Problem:
+    """Return a problem with one more curve: its coefficients normal about zero with `widths`, begun at `start`."""
+    term = _learned(problem, key)
+    reach = np.where(np.isfinite(widths), 30.0 * widths, 1e3 * size_of(term, problem))
+    unit = term.params[0].dimension.unit(problem.system.model.motion)
+    frees = [
+        Free(f"{key}.v{i}", unit, float(start[i]), -float(reach[i]), float(reach[i]), sd=float(widths[i]))
+        for i in range(term.count)
+    ]
+    return problem.extended(frees, {key})
+
+
+def fit_curve(fit: Fit, shape: Shape) -> Fit:
+    """Return the fit with one more curve, begun where its score test points, or with less of it, and fitted again."""
+    base = restarted(fit)
+    problems = [with_curve(base, shape.key, shape.widths, f * shape.start) for f in (1.0, 0.5, 0.2)]
+    heights = [p.log_posterior(p.clip(p.start)) for p in problems]
+    return maximise(problems[int(np.argmax(heights))], rounds=15, tolerance=0.1)
+
+
+@dataclass(frozen=True)
+class Band:
+    """A learned curve at places `at` (points,): mean, and covariance (points, points) of mean; what it is times."""
+
+    term: Learned
+    at: Array
+    mean: Array
+    covariance: Array
+
+    @property
+    def sd(self) -> Array:
+        """The standard deviation (points,) of the curve."""
+        return np.sqrt(np.maximum(np.diag(self.covariance), 0.0))
+
+
+def band_of(fit: Fit, key: str, points: int = 81) -> Band:
+    """Return a learned curve over the range of the data, with the robust covariance of its coefficients."""
+    problem, term = fit.problem, _learned(fit.problem, key)
+    columns = [problem.keys.index(f"{key}.v{i}") for i in range(term.count)]
+    middle, half = (float(problem.known[problem.system.index[f"{key}.{n}"]]) for n in ("middle", "half"))
+    phase = term.over == "phase"
+    z = np.linspace(0.0, 2.0, points) if phase else np.linspace(-1.0, 1.0, points)
+    at = 0.5 * z if phase else middle + half * z
+    basis = term.basis(z)
+    covariance = robust_covariance(fit)[np.ix_(columns, columns)]
+    return Band(term, at, basis @ fit.theta[columns], basis @ covariance @ basis.T)

@@ -1,0 +1,142 @@
+"""A formula for a learned curve: a sparse regression that proposes, and finds nothing."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from lostmotion.contracts import Array
+from lostmotion.quantities import Dimension
+
+MOST = 3
+RIDGE = 0.02
+"""A curve is smooth, so its covariance is close to singular: this share of its mean variance is added."""
+TURNS = np.arange(1.0, 20.01, 0.25)
+"""Spatial frequencies that are tried, in periods over the range of the curve."""
+MIDDLES = np.linspace(-0.9, 0.9, 73)
+WIDTHS = (0.06, 0.08, 0.1, 0.15, 0.25, 0.4)
+EXPLAINS = 0.8
+MORE = 6.0
+"""A further piece has to better Akaike's criterion by this."""
+
+
+class Axis(NamedTuple):
+    """The symbol of what a curve runs over, its dimension, that of the curve, and "translation" or "rotation"."""
+
+    symbol: str
+    dimension: Dimension
+    of: Dimension
+    motion: str
+
+
+@dataclass(frozen=True)
+class Piece:
+    """One piece of a formula: its columns (points, 1 or 2), the price of a shape among many, and how it is written."""
+
+    columns: Array
+    price: float
+    text: Callable[[Array], str]
+
+
+@dataclass(frozen=True)
+class Formula:
+    """A proposed formula, and the share of the variance of the curve, weighted by its precision, that it has."""
+
+    text: str
+    share: float
+
+
+def proposed(at: Array, mean: Array, covariance: Array, over: Axis) -> Formula | None:
+    """Return a formula of three pieces at most for a curve (points,) with its covariance, or None.
+
+    Pieces are taken one by one, by Akaike's criterion. None when they tell less than `EXPLAINS` of the curve.
+    """
+    jitter = RIDGE * float(np.mean(np.diag(covariance))) + 1e-12 * float(np.mean(mean**2)) + 1e-300
+    root = np.linalg.cholesky(covariance + jitter * np.eye(len(at)))
+    aim = np.linalg.solve(root, mean)
+    chosen: list[Piece] = []
+    best = float(aim @ aim)
+    pieces = [(p, np.linalg.solve(root, p.columns)) for p in _pieces(at, over)]
+    white: list[Array] = []
+    for _ in range(MOST):
+        scores = [_left(aim, [*white, w])[0] + _price([*chosen, p]) for p, w in pieces]
+        first = int(np.argmin(scores))
+        if scores[first] >= best - MORE:
+            break
+        best = scores[first]
+        chosen.append(pieces[first][0])
+        white.append(pieces[first][1])
+    if not chosen:
+        return None
+    left, weights = _left(aim, white)
+    share = 1.0 - left / float(aim @ aim)
+    if share < EXPLAINS:
+        return None
+    cuts = np.cumsum([0, *(p.columns.shape[1] for p in chosen)])
+    parts = [p.text(weights[a:b]) for p, a, b in zip(chosen, cuts[:-1], cuts[1:], strict=True)]
+    return Formula(" + ".join(parts).replace("+ -", "- "), share)
+
+
+def _price(pieces: list[Piece]) -> float:
+    return math.fsum(2.0 * p.columns.shape[1] + p.price for p in pieces)
+
+
+def _left(aim: Array, columns: list[Array]) -> tuple[float, Array]:
+    basis = np.hstack(columns)
+    weights = np.linalg.lstsq(basis, aim, rcond=1e-10)[0]
+    return float(np.sum((aim - basis @ weights) ** 2)), np.asarray(weights, dtype=float)
+
+
+def _pieces(at: Array, over: Axis) -> Iterator[Piece]:
+    """Yield what a formula may be made of: powers, the sign, a wave, a bump."""
+    x, middle, half = over.symbol, 0.5 * float(at[0] + at[-1]), 0.5 * float(at[-1] - at[0])
+    yield Piece(np.ones((len(at), 1)), 0.0, lambda w: _number(w[0], _unit(over, 0)))
+    powers = {x: at, f"{x}|{x}|": at * np.abs(at), f"{x}^2": at**2, f"{x}^3": at**3}
+    for (name, values), power in zip(powers.items(), (1, 2, 2, 3), strict=True):
+        yield Piece(values[:, None], 0.0, _power(name, _unit(over, power)))
+    if at[0] < 0.0 < at[-1]:
+        yield Piece(np.sign(at)[:, None], 0.0, lambda w: f"{_number(w[0], _unit(over, 0))} sign({x})")
+    for turns in TURNS:
+        angles = math.pi * turns * at / half
+        waves = np.stack([np.sin(angles), np.cos(angles)], axis=1)
+        yield Piece(waves, 2.0 * math.log(len(TURNS)), _wave(2.0 * half / turns, over))
+    for place, width in itertools.product(MIDDLES, WIDTHS):
+        bump = np.exp(-(((at - middle - place * half) / (width * half)) ** 2))
+        yield Piece(
+            bump[:, None], 2.0 * math.log(len(MIDDLES) * len(WIDTHS)), _bump(middle + place * half, width * half, over)
+        )
+
+
+def _unit(over: Axis, power: int) -> str:
+    own, of = over.dimension, over.of
+    return Dimension(of.force, of.length - power * own.length, of.time - power * own.time).unit(over.motion)
+
+
+def _number(value: float, unit: str) -> str:
+    return f"{value:.3g} {unit}"
+
+
+def _power(name: str, unit: str) -> Callable[[Array], str]:
+    return lambda w: f"{_number(w[0], unit)} {name}"
+
+
+def _wave(period: float, over: Axis) -> Callable[[Array], str]:
+    length = over.dimension.unit(over.motion)
+
+    def text(w: Array) -> str:
+        phase = math.atan2(w[1], w[0])
+        return f"{_number(math.hypot(*w), _unit(over, 0))} sin(2 pi {over.symbol} / {period:.3g} {length} {phase:+.2f})"
+
+    return text
+
+
+def _bump(middle: float, width: float, over: Axis) -> Callable[[Array], str]:
+    length = over.dimension.unit(over.motion)
+    return lambda w: (
+        f"{_number(w[0], _unit(over, 0))} exp(-(({over.symbol} {-middle:+.3g} {length}) / {width:.3g} {length})^2)"
+    )

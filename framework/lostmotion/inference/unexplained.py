@@ -1,0 +1,151 @@
+"""Unknown is an answer: whether a learned curve explains what the library does not, or better than the library does.
+
+Curves compete with the terms by log evidence, each at a price: a curve may bend as it likes, and pays for it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from lostmotion.inference.candidates import slopes_of
+from lostmotion.inference.curves import CHOICES, fit_curve, shape_of, transplanted
+from lostmotion.inference.fit import Fit, maximise
+from lostmotion.inference.learned import Learned
+from lostmotion.inference.problem import RANDOM, Problem
+from lostmotion.inference.selection import DECISIVE, EXTRA, WORTH, significant_random_force
+from lostmotion.system import key_of
+
+MOST_CURVES = 2
+FITTED = 2
+"""So many curves are fitted on top of each set: a score test ranks covariates that go together only roughly."""
+
+Progress = Callable[[str], None]
+
+
+@dataclass(frozen=True)
+class Unknown:
+    """A fit with learned curves: their keys, and the log odds by which it beats the best that the library has.
+
+    `alone` says that they take the place of what the library had found.
+    """
+
+    fit: Fit
+    keys: tuple[str, ...]
+    gain: float
+    alone: bool
+
+    @property
+    def probability(self) -> float:
+        """The posterior probability that the curves are at work."""
+        return 1.0 / (1.0 + math.exp(-min(self.gain, 500.0)))
+
+    @property
+    def terms(self) -> tuple[Learned, ...]:
+        """The learned terms, in the order in which they were taken."""
+        system = self.fit.problem.system
+        return tuple(t for key in self.keys for t in system.terms if key_of(t) == key and isinstance(t, Learned))
+
+
+@dataclass
+class Search:
+    """The course of a search: `many` candidates of the library, and the price of each set of terms and curves."""
+
+    many: int
+    say: Progress = lambda _: None
+    visits: dict[frozenset[str], tuple[Fit, float]] = field(default_factory=dict)
+
+    def visit(self, fit: Fit) -> float:
+        """Note a fit and return its weight: log evidence less the price of its terms and curves."""
+        weight = fit.log_evidence - sum(self.price(fit.problem, key) for key in fit.problem.active)
+        known = self.visits.get(fit.problem.active)
+        if known is None or weight > known[1]:
+            self.visits[fit.problem.active] = (fit, weight)
+        return weight
+
+    def price(self, problem: Problem, key: str) -> float:
+        """Return the log price of a term, as in the selection, or of a curve, for the smoothness that was chosen."""
+        system = problem.system
+        term = system.terms[system.keys.index(key)]
+        one = math.log(max(self.many, 1)) + 1.0
+        if isinstance(term, Learned):
+            return one + CHOICES
+        choices = sum(math.log(len(q.choices)) for q in term.params if q.choices)
+        return one + EXTRA * (sum(not q.choices for q in term.params) - 1) + choices
+
+    def learn(self, fit: Fit, count: int = FITTED) -> None:
+        """Fit the curves that promise most on top of a fit, if they promise to be decisive."""
+        slopes = slopes_of(fit)
+        shapes = []
+        for key, term in zip(fit.problem.system.keys, fit.problem.system.terms, strict=True):
+            if isinstance(term, Learned) and key not in fit.problem.active:
+                self.say(f"score test of {key}")
+                shapes.append(shape_of(fit, slopes, key))
+        needed = math.log(self.many) + 1.0 + CHOICES + DECISIVE
+        shapes = sorted((s for s in shapes if s.gain > needed), key=lambda s: -s.gain)
+        for shape in shapes[:count]:
+            self.say(f"fit with {shape.key}")
+            self.visit(fit_curve(fit, shape))
+
+
+def unknown_of(nominal: Fit, chosen: Fit, many: int, say: Progress = lambda _: None) -> Unknown | None:
+    """Return the learned curves that explain decisively more than the terms of the library, or None.
+
+    `many` is the number of terms that were tried. Curves are tried on top of the chosen terms and of the nominal model
+    alone; where the terms bring nothing beside the curves, they are dropped.
+    """
+    before, after = transplanted(nominal, chosen.problem.active), transplanted(chosen, chosen.problem.active)
+    search = Search(many + len(before.problem.system.terms), say)
+    bar = max(search.visit(before), search.visit(after))
+    for fit in (after, before) if chosen.problem.active else (after,):
+        search.learn(fit)
+    best = _best(search)
+    while best and len(_curves(best.problem)) < MOST_CURVES and significant_random_force(best) > 0.0:
+        search.learn(best, 1)
+        further = _best(search)
+        if further is None or further.problem.active == best.problem.active:
+            break
+        best = further
+    if best is None:
+        return None
+    best = _without(search, best)
+    gain = search.visits[best.problem.active][1] - bar
+    if gain < DECISIVE or not _worth(best, after):
+        return None
+    alone = bool(chosen.problem.active) and best.problem.active == frozenset(_curves(best.problem))
+    return Unknown(best, _curves(best.problem), gain, alone)
+
+
+def _curves(problem: Problem) -> tuple[str, ...]:
+    pairs = zip(problem.system.keys, problem.system.terms, strict=True)
+    active = {key for key, term in pairs if isinstance(term, Learned) and key in problem.active}
+    seen = dict.fromkeys(f.key.rpartition(".")[0] for f in problem.free)
+    return tuple(key for key in seen if key in active)
+
+
+def _best(search: Search) -> Fit | None:
+    """Return the best fit with curves: one with a curve more has to be decisively better than the one without."""
+    ranked = [(w - DECISIVE * len(_curves(f.problem)), f) for f, w in search.visits.values() if _curves(f.problem)]
+    return max(ranked, key=lambda pair: pair[0])[1] if ranked else None
+
+
+def _without(search: Search, fit: Fit) -> Fit:
+    """Return the fit with the terms dropped that bring nothing decisive beside the curves."""
+    for key in sorted(fit.problem.active - set(_curves(fit.problem))):
+        known = search.visits.get(fit.problem.active - {key})
+        if known is None:
+            search.say(f"without {key}")
+            fewer = maximise(fit.problem.reduced(key, fit.values), rounds=15, tolerance=0.1)
+            search.visit(fewer)
+            known = search.visits[fewer.problem.active]
+        if known[1] + DECISIVE > search.visits[fit.problem.active][1]:
+            return _without(search, known[0])
+    return fit
+
+
+def _worth(fit: Fit, without: Fit) -> bool:
+    """Return whether curves take a share of at least `WORTH` off a random force that was beyond the usual."""
+    at, then = (f.theta[f.problem.keys.index(RANDOM)] for f in (fit, without))
+    cap = without.problem.free[without.problem.keys.index(RANDOM)].mean + 2.0 * math.log(3.0)
+    return bool(then <= cap or at < then + math.log(1.0 - WORTH))

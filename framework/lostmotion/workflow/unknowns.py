@@ -1,0 +1,155 @@
+"""The entry of what no mechanism explains: what it depends on, the curve that was learned, a formula as a proposal."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from lostmotion.inference.curves import Band, band_of
+from lostmotion.inference.learned import names_of
+from lostmotion.inference.proposal import Axis, proposed
+from lostmotion.inference.shares import LEVEL, SURROGATES, significant
+from lostmotion.inference.unexplained import Unknown
+from lostmotion.quantities import LENGTH, NUMBER, SPEED, TIME, Dimension
+from lostmotion.results import Interval
+from lostmotion.stages.diagnose import Diagnosis, Located
+
+OVER: dict[str, tuple[str, Dimension]] = {
+    "position": ("x", LENGTH),
+    "velocity": ("v", SPEED),
+    "time": ("t", TIME),
+    "phase": ("phase", NUMBER),
+}
+"""Symbol and dimension of what a curve runs over; a phase counts in periods of the drive."""
+NOT_FOUND = "A proposal, not a finding: the curve is what was found, and the formula is only one that fits it."
+NONE_FITS = "No short formula fits the curve: it stands for itself."
+BAND = 1.96
+
+
+def learned_entry(d: Diagnosis) -> dict[str, Any]:
+    """Return the entry of a mismatch that learned curves explain where the library does not."""
+    unknown = d.learned
+    if unknown is None:
+        raise ValueError("a diagnosis without learned curves has no entry for them")
+    bands = [band_of(unknown.fit, key) for key in unknown.keys]
+    curves = [_curve(d, band) for band in bands]
+    rms, sd = _size(d, unknown.keys, bands)
+    unit = _unit_of(d, Dimension(1, 0, 0))
+    size = Interval(rms, max(rms - BAND * sd, 0.0), rms + BAND * sd, unit)
+    depends = names_of(unknown.terms)
+    share = rms / d.after.problem.scales.force
+    text = f"A force of {rms:.3g} {unit} rms, {share:.2%} of the drive, is missing that no term of the library explains"
+    return {
+        "mechanism": "unknown",
+        "at": unknown.terms[0].at,
+        "probability": unknown.probability,
+        "log_odds": unknown.gain,
+        "depends_on": depends,
+        "parameters": {"rms": size.as_dict()},
+        "curve": curves[0],
+        "curves": curves,
+        "proposal": _proposal(d, bands),
+        "share_of_drive": share,
+        "says": f"{text}: it depends on {_listed(depends)} and is modelled by a learned curve.",
+    }
+
+
+def _listed(names: list[str]) -> str:
+    return " and ".join([", ".join(names[:-1]), names[-1]] if len(names) > 1 else names)
+
+
+def unnamed_entry(d: Diagnosis) -> dict[str, Any]:
+    """Return the entry of a force that neither a term nor a curve explains: structured ("unknown") or not."""
+    depends = d.located.structure
+    rms = float(np.std(d.located.missing.force))
+    unit = _unit_of(d, Dimension(1, 0, 0))
+    share = rms / d.after.problem.scales.force
+    on = f"depends on {_listed(depends)}" if depends else "depends on nothing that was recorded"
+    return {
+        "mechanism": "unknown" if depends else "random_force",
+        "probability": 1.0 - math.exp(-d.random_gain),
+        "parameters": {"rms": Interval(rms, rms, rms, unit).as_dict()},
+        "depends_on": depends,
+        "says": f"A force of {rms:.3g} {unit} rms, {share:.1%} of the drive, is missing; no term explains it; it {on}.",
+    }
+
+
+def _unit_of(d: Diagnosis, dimension: Dimension) -> str:
+    return dimension.unit(d.after.problem.system.model.motion)
+
+
+def _size(d: Diagnosis, keys: Sequence[str], bands: Sequence[Band]) -> tuple[float, float]:
+    """Return the rms of the learned force along the recording, and its standard error: that of the least sure curve."""
+    law = np.sum([d.laws[key] for key in keys], axis=0)
+    rms = float(np.sqrt(np.mean(law**2)))
+    return rms, rms * max(_doubt(band) for band in bands)
+
+
+def _doubt(band: Band) -> float:
+    """Return the relative standard error of the size of a curve: of its projection onto itself."""
+    norm = max(float(np.linalg.norm(band.mean)), 1e-300)
+    direction = band.mean / norm
+    return math.sqrt(max(float(direction @ band.covariance @ direction), 0.0)) / norm
+
+
+def _curve(d: Diagnosis, band: Band) -> dict[str, Any]:
+    """Return a learned curve with its band of 95 %, as lists in SI units."""
+    term = band.term
+    return {
+        "over": term.over,
+        "at_place": term.at,
+        "unit": _unit_of(d, OVER[term.over][1]),
+        "force_unit": _unit_of(d, term.params[0].dimension),
+        "times": term.times,
+        "at": band.at.tolist(),
+        "force": band.mean.tolist(),
+        "low": (band.mean - BAND * band.sd).tolist(),
+        "high": (band.mean + BAND * band.sd).tolist(),
+    }
+
+
+def _proposal(d: Diagnosis, bands: list[Band]) -> dict[str, Any]:
+    """Return the formula that a sparse regression proposes for each curve, marked as no more than that."""
+    parts, shares = [], []
+    for band in bands:
+        formula = _formula(d, band)
+        if formula is None:
+            return {"formula": None, "says": NONE_FITS}
+        parts.append(formula[0])
+        shares.append(formula[1])
+    return {"formula": " + ".join(parts), "share_of_curve": min(shares), "says": NOT_FOUND}
+
+
+def _formula(d: Diagnosis, band: Band) -> tuple[str, float] | None:
+    axis = Axis(*OVER[band.term.over], band.term.params[0].dimension, d.after.problem.system.model.motion)
+    found = proposed(band.at, band.mean, band.covariance, axis)
+    if found is None:
+        return None
+    return (f"{band.term.times} ({found.text})" if band.term.times else found.text), found.share
+
+
+def unknown_odds(d: Diagnosis) -> tuple[float, float]:
+    """Return the probability that something is at work which the library does not have, and the log evidence for it."""
+    if d.learned:
+        return d.learned.probability, d.learned.gain
+    if d.found or not d.unexplained:
+        return 0.0, 0.0
+    return 1.0 - math.exp(-d.random_gain), d.random_gain
+
+
+def where(located: Located, learned: Unknown | None = None) -> dict[str, Any]:
+    """Return what a force depends on: a sentence, shares of its variance, and whether noise would show them as well."""
+    explained, summary = located.explained, located.summary
+    if learned:
+        summary = f"a function of {_listed(names_of(learned.terms))}, as the learned curve has it; by itself: {summary}"
+    return {
+        "summary": summary,
+        "explained_by": located.shares,
+        "standard_error": {name: share.error for name, share in explained.items()},
+        "p_value": {name: share.p for name, share in explained.items()},
+        "significant": significant(explained),
+        "against": f"{SURROGATES} phase-randomised surrogates, at {LEVEL:.0%} over all covariates together",
+    }

@@ -1,0 +1,108 @@
+"""Unknown is an answer: curves that are learned, their kernels, their smoothness, and the formula that is proposed."""
+
+import re
+
+import numpy as np
+import pytest
+
+from lostmotion.inference.learned import KINDS, OverPhase, OverPosition, curves_for, names_of, spread
+from lostmotion.inference.proposal import Axis, proposed
+from lostmotion.quantities import DAMPING, FORCE, LENGTH, SPEED
+from lostmotion.registry import default
+
+X = Axis("x", LENGTH, FORCE, "translation")
+INPUT = np.zeros(1)
+
+
+def force(term, weights, at, velocity=1.0, needs=()):
+    """Return the force of a curve with range -1 to 1 at one place."""
+    own = (*weights, 0.0, 1.0, *needs)
+    return term.force(at if term.over == "time" else 0.3, at, velocity, INPUT, own, ())
+
+
+def curves():
+    return curves_for(default().make("model", "robot_joint"), driven=True)
+
+
+def test_there_is_a_curve_of_each_kind_at_each_place():
+    assert len(curves()) == 2 * len(KINDS) + 2
+    assert not any("omega" in t.needs for t in curves_for(default().make("model", "lin_backlash"), driven=False))
+
+
+@pytest.mark.parametrize("term", curves_for(default().make("model", "lin_backlash"), driven=True), ids=lambda t: t.name)
+def test_a_curve_without_weights_does_nothing_and_with_them_is_its_basis(term):
+    rng = np.random.default_rng(0)
+    needs = {"mobility": 1e-6, "omega": 2.0}
+    given = [needs[n] for n in term.needs]
+    assert force(term, np.zeros(term.count), 0.4, needs=given) == 0.0
+    weights = rng.standard_normal(term.count)
+    for at in (-0.8, 0.0, 0.4, 1.0, 3.0):
+        velocity = at if term.over == "velocity" else 1.0
+        z = 2.0 * 0.3 / (2.0 * np.pi) * 2.0 if term.over == "phase" else at
+        expected = float((term.basis(np.array([z])) @ weights)[0])
+        sign = -1.0 if term.times else 1.0
+        assert force(term, weights, at, velocity, given) == pytest.approx(sign * expected, abs=1e-9)
+
+
+def test_friction_of_a_place_opposes_the_motion_and_sticks():
+    term = next(t for t in curves() if t.name == "unknown_friction_over_position")
+    weights = np.eye(term.count)[0]
+    fast, back, slow = (force(term, weights, 0.1, v, (1e-3,)) for v in (1.0, -1.0, 1e-6))
+    assert fast == -back < 0.0
+    assert abs(slow) < 0.01 * abs(fast)
+
+
+def test_prior_widths_are_those_of_a_force_of_unit_size():
+    for term in (OverPosition(), OverPhase()):
+        z = np.linspace(-0.6, 0.6, 50)
+        for length in (0.12, 0.5):
+            variance = term.basis(z) ** 2 @ spread(term, length) ** 2
+            assert np.mean(variance) == pytest.approx(1.0, rel=0.35)
+
+
+def test_a_longer_correlation_makes_a_smoother_curve():
+    short, long_ = (spread(OverPosition(), length) for length in (0.06, 1.0))
+    assert long_[-1] / long_[0] < 1e-2 * short[-1] / short[0]
+
+
+def test_what_a_sum_depends_on_is_named_once():
+    over = {t.name + t.at: t for t in curves()}
+    both = [over["unknown_over_positionground"], over["unknown_drag_over_positionground"]]
+    assert names_of(both) == ["position", "velocity"]
+    assert names_of([over["unknown_over_positionbase"]]) == ["position at base"]
+
+
+def curve(law, sd=0.02, seed=0):
+    """Return places (m), a noisy curve of a law there, and its covariance."""
+    at = np.linspace(-0.01, 0.012, 81)
+    rng = np.random.default_rng(seed)
+    smooth = sd**2 * np.exp(-0.5 * ((at[:, None] - at) / 0.0008) ** 2)
+    root = np.linalg.cholesky(smooth + 1e-9 * np.eye(len(at)))
+    return at, law(at) + root @ rng.standard_normal(len(at)), smooth
+
+
+@pytest.mark.parametrize(
+    ("law", "text"),
+    [
+        (lambda x: 2e6 * x**3, r"^\S+ N/m\^3 x\^3$"),
+        (lambda x: np.sin(2.0 * np.pi * x / 0.004), r"^\S+ N sin\(2 pi x / 0\.00\d+ m "),
+        (lambda x: 2.0 * np.exp(-(((x - 0.003) / 0.0009) ** 2)), r"exp\(-\(\(x -0\.00\d+ m\) / "),
+        (lambda x: 1.5 * np.sign(x), r"^1\.\d+ N sign\(x\)"),
+    ],
+)
+def test_a_formula_is_proposed_for_a_curve_that_has_one(law, text):
+    found = proposed(*curve(law), X)
+    assert found.share > 0.9
+    assert re.search(text, found.text), found.text
+
+
+def test_no_formula_is_proposed_for_noise():
+    at, mean, covariance = curve(lambda x: 0.0 * x, seed=3)
+    found = proposed(at, mean, covariance, X)
+    assert found is None or len(found.text.split(" + ")) <= 3
+
+
+def test_a_formula_carries_the_units_of_its_curve():
+    axis = Axis("v", SPEED, DAMPING, "translation")
+    found = proposed(*curve(lambda x: 2e4 * x**2), axis)
+    assert "N s^3/m^3 v^2" in found.text
