@@ -9,6 +9,9 @@ says which of the two it wants. Beside them and `[model]` (`name`, `[model.known
 - `[sensor]`: `noise = "each"` when each of several recordings has its own measurement noise and random force (as it
   is when nothing is said), `noise = "shared"` when they have them in common; `offset = { a prior }` when the zero of
   the response sensor is unknown, in each recording anew (SI unit of the channel).
+- `[experiment]`: what the next experiment may ask of the machine, where a diagnosis proposes one: `max_level`, the
+  largest amplitude (SI unit of the excitation; a signal of another form has the rms of such a sine), and
+  `max_frequency` (Hz). Twice those of the recording when nothing is said.
 
 Per recording: `file`; `time` (a column in seconds) or `rate` (Hz); `excitation` and `response`; `name` (in results; the
 stem of the file otherwise); `hold = "step"` when a digital controller holds the excitation between samples ("smooth"
@@ -31,11 +34,11 @@ and with `each = true` each recording has a value of its own, where otherwise al
 """
 
 from lostmotion.case.levels import Level, Measured
-from lostmotion.case.load import Case, Sensor, load_case
+from lostmotion.case.load import Case, Experiment, Sensor, load_case
 from lostmotion.case.prior import Prior
 from lostmotion.case.write import dump_case
 from lostmotion.recording import Channel, RecordingSpec
 
 __all__ = [
-    "Case", "Channel", "Level", "Measured", "Prior", "RecordingSpec", "Sensor", "dump_case", "load_case",
+    "Case", "Channel", "Experiment", "Level", "Measured", "Prior", "RecordingSpec", "Sensor", "dump_case", "load_case",
 ]  # fmt: skip

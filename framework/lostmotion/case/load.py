@@ -17,11 +17,12 @@ from lostmotion.quantities import si_factor
 from lostmotion.recording import Channel, Hold, RecordingSpec
 from lostmotion.recording.spec import EXCITATIONS, RESPONSES
 
-TOP = ("title", "plugins", "recordings", "levels", "sensor", "model", "truth")
+TOP = ("title", "plugins", "recordings", "levels", "sensor", "experiment", "model", "truth")
 RECORDING = ("file", "time", "rate", "excitation", "response", "hold", "t_start", "t_end", "name")
 CHANNEL = ("column", "quantity", "unit", "factor")
 MODEL = ("name", "known", "estimate")
 SENSOR = ("noise", "offset")
+EXPERIMENT = ("max_level", "max_frequency")
 PRIOR = ("low", "high", "scale", "mean", "sd", "median", "sd_log", "half_sd")
 FORMS = ({"low", "high"}, {"mean", "sd"}, {"median", "sd_log"}, {"half_sd"})
 
@@ -37,6 +38,17 @@ class Sensor:
 
     noise: Sharing = "each"
     offset: Prior | None = None
+
+
+@dataclass(frozen=True)
+class Experiment:
+    """What the next experiment may ask: the largest amplitude (SI unit of the excitation), the highest frequency (Hz).
+
+    Where nothing is said, twice those of the recording.
+    """
+
+    max_level: float | None = None
+    max_frequency: float | None = None
 
 
 @dataclass(frozen=True)
@@ -59,6 +71,7 @@ class Case:
     digest: str
     sensor: Sensor = Sensor()
     levels: tuple[Level, ...] = ()
+    experiment: Experiment = Experiment()
 
 
 def load_case(path: Path) -> Case:
@@ -79,6 +92,7 @@ def load_case(path: Path) -> Case:
         digest=digest(path),
         sensor=_sensor(top),
         levels=levels_of(top),
+        experiment=_experiment(top),
     )
 
 
@@ -179,6 +193,11 @@ def _sensor(top: Fields) -> Sensor:
     noise = fields.choice("noise", get_args(Sharing)) if "noise" in fields.values else "each"
     offset = _prior(fields.table("offset")) if "offset" in fields.values else None
     return Sensor(cast(Sharing, noise), offset)
+
+
+def _experiment(top: Fields) -> Experiment:
+    fields = top.maybe_table("experiment").only(EXPERIMENT)
+    return Experiment(**{key: fields.positive(key) for key in fields.values})
 
 
 def _prior(fields: Fields, more: tuple[str, ...] = ()) -> Prior:

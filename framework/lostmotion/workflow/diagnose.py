@@ -21,12 +21,13 @@ from lostmotion.workflow.attractors import motions_of
 from lostmotion.workflow.findings import Outcome, draws_of
 from lostmotion.workflow.notes import notes_of
 from lostmotion.workflow.prepare import Prepared, prepare
+from lostmotion.workflow.rivals import confused_with, proposed
 from lostmotion.workflow.show import Seen, shown
 from lostmotion.workflow.verdict import verdict
 
 Say = Callable[[str], None]
-SHOW = 1
-"""The stream of random numbers for what is shown: no finding depends on it."""
+SHOW, NEXT = 1, 2
+"""The streams of random numbers for what is shown and proposed: no finding depends on them."""
 
 
 def run_diagnosis(
@@ -44,7 +45,15 @@ def run_diagnosis(
     motions = motions_of(diagnosis)
     say("attractors")
     show = shown(Seen(outcome, motions, prepared.tracks, registry), np.random.default_rng([seed, SHOW]))
-    content = {"title": prepared.case.title, **verdict(outcome), "show": show, **_background(prepared, outcome, seed)}
+    proposals = proposed(diagnosis, prepared.case.experiment, rng=np.random.default_rng([seed, NEXT]), say=say)
+    said = verdict(outcome)
+    content = {
+        "title": prepared.case.title,
+        **said,
+        "confused_with": confused_with(diagnosis, said["confused_with"], proposals),
+        "show": show,
+        **_background(prepared, outcome, seed),
+    }
     say("report")
     variables, coords = arrays_of(outcome, motions)
     save_arrays(folder / "arrays.nc", variables, coords, {"title": prepared.case.title})

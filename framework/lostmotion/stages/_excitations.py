@@ -1,0 +1,132 @@
+"""Excitations that may be proposed: levels, frequencies and waveforms within the limits of a machine."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from lostmotion.contracts import Array
+from lostmotion.forcing import Tone
+from lostmotion.inference.tracks import Track, period_samples
+
+FACTORS = (0.5, 0.7, 1.4, 2.0)
+"""Levels and frequencies that are tried, over those of the recording."""
+FEWEST = 10.0
+"""Samples a period below which a recording shows too little of a motion."""
+GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)
+LINES = 20
+REPEAT, HARMONIC, TONES, SWEEP, MULTISINE = "repeat", "harmonic", "two tones", "slow sweep", "random-phase multisine"
+
+
+class Limits(NamedTuple):
+    """The largest level (amplitude, SI unit of the input) and the highest frequency (Hz) that a machine bears."""
+
+    level: float
+    frequency: float
+
+
+@dataclass(frozen=True)
+class Excitation:
+    """What moves a machine: `inputs` (samples, inputs) every `dt` s, and how people call it.
+
+    `level` is sqrt(2) times the rms in the unit of the input, the amplitude of a sine; `band` (Hz) holds its lowest and
+    highest frequency.
+    """
+
+    waveform: str
+    level: float
+    band: tuple[float, float]
+    inputs: Array
+    tone: Tone
+
+
+def repeat_of(track: Track, samples: int, natural: float) -> Excitation:
+    """Return the beginning of what moved a recording; `natural` (Hz) stands for its frequency where it has none."""
+    frequency = frequency_of(track, natural)
+    return Excitation(REPEAT, track.travel, (frequency, frequency), track.inputs[:samples], track.tone)
+
+
+def frequency_of(track: Track, natural: float) -> float:
+    """Return the frequency (Hz) of the drive of a recording, or that of its motion where there is no single one."""
+    period = period_samples(track)
+    return 1.0 / (period * track.dt) if period else natural
+
+
+def usual_limits(track: Track, natural: float) -> Limits:
+    """Return twice the level and twice the frequency of a recording."""
+    return Limits(2.0 * track.travel, 2.0 * frequency_of(track, natural))
+
+
+def candidates_for(track: Track, samples: int, limits: Limits, rng: np.random.Generator) -> list[Excitation]:
+    """Return the excitations to compare, each of so many samples every `track.dt` s."""
+    natural = 0.5 * limits.frequency
+    frequency, level = frequency_of(track, natural), track.travel
+    top = min(limits.frequency, 1.0 / (FEWEST * track.dt))
+    levels, frequencies = _within(level, limits.level), _within(frequency, top)
+    found = [_made(track, samples, HARMONIC, a, _tones([f])) for a in levels for f in frequencies]
+    if period_samples(track):
+        found = [c for c in found if not (_near(c.level, level) and _near(c.band[0], frequency))]
+    band = (min(0.5 * frequency, 0.5 * top), min(2.0 * frequency, top))
+    for a in sorted({min(level, limits.level), max(levels)}):
+        found.append(_made(track, samples, TONES, a, _tones([GOLDEN * band[1], band[1]])))
+        found.append(_made(track, samples, SWEEP, a, band))
+        found.append(_made(track, samples, MULTISINE, a, _multisine(band, rng)))
+    return found
+
+
+def _near(a: float, b: float) -> bool:
+    return abs(a - b) < 0.05 * b
+
+
+def _within(usual: float, most: float) -> list[float]:
+    """Return what is tried about a usual value, and the limit itself where that is nearer."""
+    tried = [f * usual for f in (*FACTORS, 1.0) if f * usual <= most * 1.0001]
+    return sorted(tried if any(_near(t, most) for t in tried) or most > 2.0 * usual else [*tried, most])
+
+
+Wave = list[tuple[float, float, float]]
+"""Lines of a signal: share of the power, frequency (Hz), phase (rad)."""
+
+
+def _tones(frequencies: list[float]) -> Wave:
+    return [(1.0 / len(frequencies), f, 0.5 * k * math.pi) for k, f in enumerate(frequencies)]
+
+
+def _multisine(band: tuple[float, float], rng: np.random.Generator) -> Wave:
+    lines = np.linspace(*band, LINES)
+    return [
+        (1.0 / LINES, float(f), float(phase))
+        for f, phase in zip(lines, rng.uniform(0, 2 * math.pi, LINES), strict=True)
+    ]
+
+
+def _made(track: Track, samples: int, waveform: str, level: float, shape: Wave | tuple[float, float]) -> Excitation:
+    """Return an excitation about the mean of the old one; a `shape` that is a pair is the band (Hz) of a sweep."""
+    t: Array = np.arange(samples, dtype=float) * track.dt
+    if isinstance(shape, tuple):
+        rows, band = [_swept(t, shape)], shape
+    else:
+        rows = list(_waves(t, shape))
+        band = (min(f for _, f, _ in shape), max(f for _, f, _ in shape))
+    value, slope = (level * np.sum([row[k] for row in rows], axis=0) for k in (0, 1))
+    columns = [float(np.mean(track.inputs[:, 0])) + value, slope][: track.inputs.shape[1]]
+    omega = 2.0 * math.pi * band[0] if waveform == HARMONIC else 0.0
+    return Excitation(waveform, level, band, np.stack(columns, axis=1), Tone(omega, level))
+
+
+def _waves(t: Array, wave: Wave) -> Iterator[tuple[Array, Array]]:
+    for share, f, phase in wave:
+        omega, size = 2.0 * math.pi * f, math.sqrt(share)
+        yield size * np.cos(omega * t + phase), -size * omega * np.sin(omega * t + phase)
+
+
+def _swept(t: Array, band: tuple[float, float]) -> tuple[Array, Array]:
+    """Return a sine whose frequency goes evenly from one end of the band to the other, and its slope."""
+    first, last = (2.0 * math.pi * f for f in band)
+    pace = (last - first) / max(float(t[-1]), 1e-300)
+    angle = (first + 0.5 * pace * t) * t
+    return np.sin(angle), (first + pace * t) * np.cos(angle)

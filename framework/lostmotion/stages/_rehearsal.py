@@ -1,0 +1,162 @@
+"""Recordings that have not been made: simulated with all their noise, and what each model would make of them."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from lostmotion.contracts import Array
+from lostmotion.inference.fit import Fit, sensitivity, solved
+from lostmotion.inference.predict import observed
+from lostmotion.inference.problem import RANDOM, Problem
+from lostmotion.inference.tracks import Track
+from lostmotion.stages._excitations import Excitation
+
+PIECE = 4
+"""Samples between two kicks of the random force."""
+RAISED = (0.0, 2.0, 4.0, 6.0)
+"""By how much the log random force is raised to begin with: a model that is wrong needs more of it."""
+HALVINGS = 4
+
+
+@dataclass(frozen=True)
+class Model:
+    """A model with what the old recordings have taught of it.
+
+    The posterior is normal about `theta`, of the information `precision`. The random force belongs to each recording
+    alone: nothing but its prior is known of it.
+    """
+
+    fit: Fit
+    precision: Array
+
+    @classmethod
+    def of(cls, fit: Fit) -> Model:
+        """Return the model of a fit."""
+        shared = np.array([f.parameter != RANDOM for f in fit.problem.free])
+        precision = np.diag([1.0 / min(f.sd, f.high - f.low) ** 2 for f in fit.problem.free])
+        known = fit.local.covariance[np.ix_(shared, shared)]
+        precision[np.ix_(shared, shared)] = solved(known, np.eye(int(shared.sum())))
+        return cls(fit, 0.5 * (precision + precision.T))
+
+    def under(self, excitation: Excitation, z: Array | None = None) -> Problem:
+        """Return the problem of a new recording; the noise of the excitation grows with its level."""
+        problem, old = self.fit.problem, self.fit.problem.tracks[0]
+        seen = np.zeros(len(excitation.inputs)) if z is None else z
+        track = Track("experiment", seen, excitation.inputs, old.dt, old.channel, old.held, tone=excitation.tone)
+        shift = self._louder(excitation)
+        frees = [
+            replace(f, start=f.start + shift, low=f.low + shift, high=f.high + shift, mean=f.mean + shift)
+            if f.parameter == RANDOM
+            else f
+            for f in problem.free
+        ]
+        return replace(problem, tracks=(track,), free=tuple(frees))
+
+    def at(self, excitation: Excitation) -> Array:
+        """Return the coordinates under an excitation."""
+        random = np.array([f.parameter == RANDOM for f in self.fit.problem.free])
+        return np.asarray(self.fit.theta + self._louder(excitation) * random, dtype=float)
+
+    def _louder(self, excitation: Excitation) -> float:
+        return 2.0 * math.log(max(excitation.level, 1e-300) / max(self.fit.problem.tracks[0].travel, 1e-300))
+
+
+def simulated(model: Model, excitation: Excitation, rng: np.random.Generator) -> Array | None:
+    """Return what the sensor would show (samples,) of a model with its noise levels; None if it leaves all bounds."""
+    problem, theta = model.under(excitation), model.at(excitation)
+    system, drive = problem.system, problem.drive(0, theta)
+    base, own = system.pack(problem.full(theta), drive.dt / drive.nsub, drive.tone)
+    on, at = system.wiring(problem.active)
+    place = system.model.interfaces[0]
+    intensity, variance = problem.noise(theta)
+    kick = math.sqrt(intensity * PIECE * drive.dt) / base[[q.name for q in system.model.params].index(place.inertia)]
+    run, states = system.kernel(problem.active).run, np.zeros((drive.samples, system.states(problem.active)))
+    states[0] = model.fit.problem.initial(0, states.shape[1], model.fit.theta)[0]
+    for start in range(0, drive.samples - 1, PIECE):
+        part = states[start : start + PIECE + 1]
+        u = drive.u[3 * drive.nsub * start : 3 * drive.nsub * (start + len(part))]
+        run(part[0].copy(), u, drive.begin + start * drive.dt, drive.dt, drive.nsub, base, own, on, at, 0.0, part)
+        part[-1, place.row] += kick * rng.standard_normal()
+    if not np.all(np.isfinite(states)):
+        return None
+    return observed(problem, theta, states) + math.sqrt(variance) * rng.standard_normal(drive.samples)
+
+
+@dataclass(frozen=True)
+class Asked:
+    """How a recording is judged: it counts `share` times, as a longer one would; `rounds` of Fisher scoring at most."""
+
+    share: float
+    rounds: int
+
+
+def evidence(model: Model, excitation: Excitation, z: Array, asked: Asked) -> float:
+    """Return the log probability of a new recording, given the old ones, by Laplace's method; -inf if it diverges.
+
+    With no rounds, the maximum is what the first step promises.
+    """
+    problem, middle = model.under(excitation, z), model.at(excitation)
+    task = _Task(problem, middle, model.precision, asked.share)
+    point, height = task.warmest()
+    if not math.isfinite(height):
+        return -math.inf
+    steps = model.fit.local.steps
+    for turn in range(asked.rounds + 1):
+        slopes = sensitivity(problem, point, steps)
+        information = asked.share * slopes.information()
+        gradient = asked.share * slopes.gradient() - model.precision @ (point - middle)
+        whole = information + model.precision
+        if not (np.all(np.isfinite(gradient)) and np.all(np.isfinite(whole))):
+            return -math.inf
+        step = solved(whole, gradient)
+        promise = 0.5 * float(gradient @ step)
+        if turn == asked.rounds or promise < 0.05:
+            break
+        moved = task.climbed(point, height, step)
+        if moved is None:
+            promise = 0.0
+            break
+        point, height = moved
+    # What a fit gains from noise is counted once, however much longer than this the recording will be.
+    spare = 0.5 * (asked.share - 1.0) * float(np.trace(solved(whole, information)))
+    return height + max(promise, 0.0) - spare - 0.5 * _log_ratio(whole, model.precision)
+
+
+@dataclass(frozen=True)
+class _Task:
+    """The log posterior of a new recording, counted `share` times, with the old posterior as prior."""
+
+    problem: Problem
+    middle: Array
+    precision: Array
+    share: float
+
+    def height(self, theta: Array) -> float:
+        away = theta - self.middle
+        told = self.problem.innovations(theta).log_likelihood
+        return self.share * told - 0.5 * float(away @ self.precision @ away) if math.isfinite(told) else -math.inf
+
+    def warmest(self) -> tuple[Array, float]:
+        """Return where to begin: with as much random force as the recording asks for."""
+        random = np.array([f.parameter == RANDOM for f in self.problem.free])
+        starts = [self.problem.clip(self.middle + by * random) for by in RAISED]
+        heights = [self.height(start) for start in starts]
+        best = int(np.argmax(heights))
+        return starts[best], heights[best]
+
+    def climbed(self, point: Array, height: float, step: Array) -> tuple[Array, float] | None:
+        """Return a higher point along a step, or None."""
+        for k in range(HALVINGS):
+            trial = self.problem.clip(point + 0.5**k * step)
+            reached = self.height(trial)
+            if reached > height:
+                return trial, reached
+        return None
+
+
+def _log_ratio(a: Array, b: Array) -> float:
+    """Return the logarithm of the ratio of two determinants."""
+    return float(np.linalg.slogdet(a)[1] - np.linalg.slogdet(b)[1])

@@ -1,0 +1,132 @@
+"""The next experiment: which excitation would tell two models apart that the recording at hand cannot."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from lostmotion.inference.fit import Fit
+from lostmotion.inference.tracks import Track
+from lostmotion.stages._excitations import Excitation, Limits, candidates_for, repeat_of, usual_limits
+from lostmotion.stages._rehearsal import Asked, Model, evidence, simulated
+
+__all__ = ["Excitation", "Limits", "Proposal", "natural_of", "news", "propose", "usual_limits"]
+SAMPLES = 4000
+"""Simulated recordings are this long at most, and count for as much as the recording at hand."""
+ROUNDS, HALFWAY = 4, 2
+GOOD, BEST = 8, 2
+"""So many candidates are looked at again with fits that have gone half of their way, and so many with whole ones."""
+PLAIN, IMITATED, SURE = 5.0, 0.2, 12.0
+"""One model can imitate the other where its absence never gains 5, or 0.2 of what its presence gains: what is left is
+the price of its parameters. A gain of 12 is none of these."""
+Ways = tuple[float, float]
+"""The expected log Bayes factor in favour of the truth: the chosen model being true, and the rival."""
+
+
+@dataclass(frozen=True)
+class Proposal:
+    """An excitation and what it is expected to tell, in log Bayes factor, over a repeat of the old one.
+
+    `ways` and `repeat_ways` hold the gain with the chosen model true, and with the rival; `counted` says which of the
+    two count: both, unless one model can imitate the other whatever the excitation.
+    """
+
+    excitation: Excitation
+    ways: Ways
+    repeat_ways: Ways
+    counted: tuple[int, ...]
+
+    @property
+    def gain(self) -> float:
+        """The lesser gain of those that count."""
+        return min(self.ways[k] for k in self.counted)
+
+    @property
+    def repeat(self) -> float:
+        """The lesser gain of a repeat, of those that count, and no less than nothing."""
+        return max(min(self.repeat_ways[k] for k in self.counted), 0.0)
+
+
+def propose(
+    chosen: Fit,
+    rival: Fit,
+    *,
+    limits: Limits | None = None,
+    rng: np.random.Generator,
+    say: Callable[[str], None] = lambda _: None,
+) -> Proposal | None:
+    """Return the excitation within `limits` that separates two fits best; None where no simulation gets through."""
+    track = chosen.problem.tracks[0]
+    natural = natural_of(chosen)
+    samples = min(SAMPLES, track.samples)
+    share = track.samples / samples
+    offered = candidates_for(track, samples, limits or usual_limits(track, natural), rng)
+    weighed = _Weighed((Model.of(chosen), Model.of(rival)), share, rng)
+    rough = []
+    for number, excitation in enumerate(offered, start=1):
+        say(f"what another excitation would tell ({number} of {len(offered)})")
+        rough.append((excitation, weighed.ways(excitation, 0)))
+    say("what the best ones and a repeat would tell")
+    good = [(e, weighed.ways(e, HALFWAY)) for e, _ in _best(rough, (0, 1), GOOD, max)]
+    counted = _counted([ways for _, ways in good if ways])
+    fine = [(e, weighed.ways(e, ROUNDS)) for e, _ in _best(good, counted, BEST, min)]
+    found = _best(fine, counted, 1, min)
+    if not found:
+        return None
+    (best, ways), repeat = found[0], weighed.ways(repeat_of(track, samples, natural), ROUNDS)
+    return Proposal(best, ways or (0.0, 0.0), repeat or (0.0, 0.0), counted)
+
+
+def natural_of(fit: Fit) -> float:
+    """Return the rms frequency (Hz) of the recorded motion."""
+    return 1.0 / (2.0 * math.pi * fit.problem.scales.time)
+
+
+def news(chosen: Fit, rival: Fit, track: Track) -> float:
+    """Return the log Bayes factor, chosen over rival, that a new recording adds to that of the old ones."""
+    natural = natural_of(chosen)
+    whole = repeat_of(track, track.samples, natural)
+    asked = Asked(1.0, 3 * ROUNDS)
+    told = [evidence(Model.of(fit), whole, track.z, asked) for fit in (chosen, rival)]
+    return told[0] - told[1]
+
+
+@dataclass(frozen=True)
+class _Weighed:
+    """Two models between which an excitation is to decide, over a recording that is `share` times as long."""
+
+    models: tuple[Model, Model]
+    share: float
+    rng: np.random.Generator
+
+    def ways(self, excitation: Excitation, rounds: int) -> Ways | None:
+        """Return the gains of an excitation with each model true, or None where one does not get through."""
+        gains, asked = [], Asked(self.share, rounds)
+        for truth, other in (self.models, self.models[::-1]):
+            z = simulated(truth, excitation, self.rng)
+            gain = math.nan
+            if z is not None:
+                gain = evidence(truth, excitation, z, asked) - evidence(other, excitation, z, asked)
+            if not math.isfinite(gain):
+                return None
+            gains.append(gain)
+        return gains[0], gains[1]
+
+
+_Tried = tuple[Excitation, Ways | None]
+
+
+def _best(tried: Sequence[_Tried], counted: tuple[int, ...], most: int, of: Callable[..., float]) -> list[_Tried]:
+    """Return the best of what got through, by the `of` (least, largest) of the gains that count."""
+    through = [(e, ways) for e, ways in tried if ways]
+    return sorted(through, key=lambda pair: -of(pair[1][k] for k in counted))[:most]  # type: ignore[return-value]
+
+
+def _counted(found: Sequence[Ways]) -> tuple[int, ...]:
+    """Return which truths an experiment can show: both, unless one model imitates the other."""
+    tops = [max((ways[k] for ways in found), default=0.0) for k in (0, 1)]
+    shown = tuple(k for k in (0, 1) if tops[k] > min(max(PLAIN, IMITATED * tops[1 - k]), SURE))
+    return shown or (0, 1)

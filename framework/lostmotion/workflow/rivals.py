@@ -1,0 +1,141 @@
+"""What a recording cannot tell apart, and the experiment that would."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from lostmotion.case import Experiment
+from lostmotion.contracts import Term
+from lostmotion.inference.candidates import term_of
+from lostmotion.inference.selection import Visit
+from lostmotion.stages.diagnose import Diagnosis
+from lostmotion.stages.experiment import Limits, Proposal, natural_of, propose, usual_limits
+from lostmotion.system import key_of
+from lostmotion.workflow.verdict import WORTH_NAMING
+
+RELATED = 0.02
+"""A relative of what was found is named from this share of its posterior weight on."""
+MOST = 2
+"""So many rivals, the heaviest ones, are worth an experiment of their own."""
+LITTLE = 3.0
+"""A gain of less than this, a factor of twenty in the odds, decides nothing."""
+
+Proposals = Mapping[str, Proposal | None]
+
+
+def rivals_of(d: Diagnosis) -> dict[str, Visit]:
+    """Return the best set of terms with each term that may be at work in place of what was found, heaviest first.
+
+    There is none where more was found than the selection chose: a force without a name has no rivals with one.
+    """
+    course = d.selection
+    problem = course.chosen.problem
+    if set(d.found) != problem.active:
+        return {}
+    weights, rows = course.probabilities(), {}
+    for term in problem.system.terms:
+        key = key_of(term)
+        sets = [k for k in weights if key in k and math.isfinite(course.visits[k].weight)]
+        if key in problem.active or not sets:
+            continue
+        best = max(sets, key=lambda k: weights[k])
+        stands_in = any(_related(term, term_of(problem, mine)[0]) for mine in problem.active - best)
+        close = stands_in and weights[best] > RELATED * weights.get(problem.active, 0.0)
+        if course.inclusion(key) > WORTH_NAMING or close:
+            rows[key] = course.visits[best]
+    return dict(sorted(rows.items(), key=lambda row: -row[1].weight))
+
+
+def _related(a: Term, b: Term) -> bool:
+    return a.at == b.at and (b.name in a.resembles or a.name in b.resembles)
+
+
+def proposed(
+    d: Diagnosis, allowed: Experiment, *, rng: np.random.Generator, say: Callable[[str], None] = lambda _: None
+) -> dict[str, Proposal | None]:
+    """Return the experiment that would decide between what was found and each of its heaviest rivals, by key."""
+    chosen = d.selection.chosen
+    usual = usual_limits(chosen.problem.tracks[0], natural_of(chosen))
+    limits = Limits(allowed.max_level or usual.level, allowed.max_frequency or usual.frequency)
+    fits = {key: visit.fit for key, visit in list(rivals_of(d).items())[:MOST]}
+    return {
+        key: propose(chosen, fit, limits=limits, rng=rng, say=lambda step, key=key: say(f"{key}: {step}"))  # type: ignore[misc]
+        for key, fit in fits.items()
+    }
+
+
+def confused_with(d: Diagnosis, rows: Sequence[Mapping[str, Any]], proposals: Proposals) -> list[dict[str, Any]]:
+    """Return the `rows` of what a verdict cannot tell apart, with close relatives, and the experiments that decide."""
+    told = {}
+    for key, proposal in proposals.items():
+        term, _ = term_of(d.selection.chosen.problem, key)
+        p = d.selection.inclusion(key)
+        row = {"mechanism": term.name, "at": term.at, "probability": p}
+        if proposal is None:
+            told[term.name, term.at] = {**row, "says": f"{_opening(term, p)} Another drive level would decide."}
+        else:
+            says = _says(d, term, p, proposal)
+            told[term.name, term.at] = {**row, "excitation": _excitation(d, proposal), "says": says}
+    rest = [dict(row) for row in rows if (row["mechanism"], row["at"]) not in told]
+    return [*told.values(), *rest]
+
+
+def _unit(d: Diagnosis) -> str:
+    """Return the SI unit of what moves the machine."""
+    model = d.selection.chosen.problem.system.model
+    force, base = ("N m", "rad") if model.motion == "rotation" else ("N", "m")
+    return force if "force" in model.inputs else base
+
+
+def _excitation(d: Diagnosis, proposal: Proposal) -> dict[str, Any]:
+    e = proposal.excitation
+    return {
+        "waveform": e.waveform,
+        "level": e.level,
+        "frequency": e.band[1],
+        "band": list(e.band),
+        "unit": _unit(d),
+        "expected_log_gain": proposal.gain,
+        "repeat_log_gain": proposal.repeat,
+        "if_found_is_true": proposal.ways[0],
+        "if_this_is_true": proposal.ways[1],
+    }
+
+
+def _opening(term: Term, p: float) -> str:
+    return f"This recording gives {term.name} a probability of {p:.2g}."
+
+
+def _says(d: Diagnosis, term: Term, p: float, proposal: Proposal) -> str:
+    opening = _opening(term, p)
+    gain, repeat = proposal.gain, proposal.repeat
+    if gain < LITTLE:
+        return (
+            f"{opening} No excitation within the limits is expected to separate them by more than {max(gain, 0.0):.1f}"
+            " in log-likelihood: measure this part of the machine by itself."
+        )
+    against = f"{gain / repeat:.2g} times as much as a repeat" if repeat >= 1.0 else "and a repeat by less than one"
+    whose = ""
+    if proposal.counted == (1,):
+        whose = f" if it is {term.name} (if it is not, by {max(proposal.ways[0], 0.0):.2g})"
+    if proposal.counted == (0,):
+        whose = f" if it is not {term.name} (if it is, by {max(proposal.ways[1], 0.0):.2g})"
+    return (
+        f"{opening} {_asked(d, proposal)}: this should separate them by {gain:.2g} in log-likelihood{whose}, {against}."
+    )
+
+
+def _asked(d: Diagnosis, proposal: Proposal) -> str:
+    """Return the experiment in the imperative."""
+    e, old = proposal.excitation, d.selection.chosen.problem.tracks[0].travel
+    change = e.level / old if old else 1.0
+    verb = "Raise the drive to" if change > 1.05 else "Lower the drive to" if change < 0.95 else "Keep the drive at"
+    low, high = (f"{f:.3g}" for f in e.band)
+    shape = f"at {low} Hz" if low == high else f"and make it a {e.waveform} from {low} to {high} Hz"
+    if e.waveform == "two tones":
+        shape = f"and make it two tones, of {low} and {high} Hz"
+    return f"{verb} {e.level:.3g} {_unit(d)} {shape}"
