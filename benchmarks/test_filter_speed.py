@@ -30,7 +30,7 @@ def filter_of(samples, *, compiled=True):
 
     def call():
         return track(
-            z, drive.u, 0.0, drive.dt, SUBSTEPS, base, own, *system.wiring(active), 0.0, 1e-4, noise**2,
+            z, drive.u, 0.0, drive.dt, SUBSTEPS, base, own, *system.wiring(active), 0.0, 1e-4, noise**2, 0.0, 0.0,
             truth[:1].repeat(2), np.diag([1e-6, 1.0]),
             *system.channel("position"), errors, variances, False, *spare, *spare, spare[1],
         )  # fmt: skip

@@ -62,7 +62,7 @@ class SensorTerm(Term):
 
     @staticmethod
     def marks(z: Array) -> tuple[Values, Values]:
-        """Return the parameters that the stored values (samples,) betray by themselves, with their errors, or nothing."""
+        """Return the parameters that the stored values (samples,) betray, with their errors; or nothing."""
         return (), ()
 
     @staticmethod

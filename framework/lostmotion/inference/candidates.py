@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import itertools
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -67,11 +66,19 @@ def screen(fit: Fit, slopes: Sensitivity, key: str) -> Hint:
     _, slots = term_of(problem, key)
     amplitudes = [s for s in slots if s.param.null is not None]
     shapes = [s for s in slots if s.param.null is None]
+    grids = [tried_of(s.param, problem.scales) for s in shapes]
     hints = []
-    for values in itertools.product(*(tried_of(s.param, problem.scales) for s in shapes)):
+    for values in star(grids):
         shape = {s.key: value for s, value in zip(shapes, values, strict=True)}
         hints.append(_score(fit, slopes, Trial(key, amplitudes, shape)))
     return max(hints, key=lambda h: h.gain)
+
+
+def star(grids: Sequence[Sequence[float]]) -> list[tuple[float, ...]]:
+    """Return the points at which shapes are tried: each over its grid while the others stay in the middle of theirs."""
+    middle = tuple(grid[len(grid) // 2] for grid in grids)
+    points = [(*middle[:i], value, *middle[i + 1 :]) for i, grid in enumerate(grids) for value in grid]
+    return list(dict.fromkeys(points)) or [()]
 
 
 def tried_of(param: Param, scales: Scales) -> tuple[float, ...]:

@@ -17,9 +17,11 @@ RANDOM = "log_random_force"
 NOISE = "log_noise"
 PACE = "log_random_pace"
 OFFSET = "offset"
-LEVELS = (RANDOM, NOISE, PACE, OFFSET)
-"""The free parameters that are no physics: intensity and pace of a random force, the measurement noise, and the zero
-of the response sensor."""
+SLOW = "log_slow_noise"
+FADE = "log_noise_memory"
+LEVELS = (RANDOM, NOISE, PACE, OFFSET, SLOW, FADE)
+"""The free parameters that are no physics: intensity and pace of a random force, the measurement noise, the zero of
+the response sensor, and measurement noise with a memory: its size and how long it lasts (s)."""
 _UNIT = NormalDist()
 
 
@@ -100,6 +102,26 @@ class Free:
         """The shares of the whole normal distribution that lie beyond `low` and `high`, seen from `_side`."""
         first, last = (self._side * (end - self.mean) / self.sd / math.sqrt(2) for end in (self.low, self.high))
         return 0.5 * math.erfc(-first), 0.5 * math.erfc(-last)
+
+
+@dataclass(frozen=True)
+class Scales:
+    """The natural sizes of a recorded motion, as amplitudes: generalised force, length, time.
+
+    `usual` is the log intensity (N^2 s) of the random force that the usual noise of a measured excitation makes;
+    `span` is the length of the recording, in s.
+    """
+
+    force: float
+    length: float
+    time: float
+    usual: float = 0.0
+    span: float = 1.0
+
+    @property
+    def velocity(self) -> float:
+        """The amplitude of the velocity."""
+        return self.length / self.time
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,7 @@ import numpy as np
 
 from lostmotion.contracts import Array
 from lostmotion.forcing import Drive
-from lostmotion.inference.free import LEVELS, NOISE, OFFSET, PACE, RANDOM, Free, Route
+from lostmotion.inference.free import FADE, LEVELS, NOISE, OFFSET, PACE, RANDOM, SLOW, Free, Route, Scales
 from lostmotion.inference.tracks import Track, seat
 from lostmotion.system import System
 
@@ -31,26 +31,6 @@ _NONE3 = np.zeros((1, 1, 1))
 @cache
 def _pool(jobs: int) -> ThreadPoolExecutor:
     return ThreadPoolExecutor(jobs)
-
-
-@dataclass(frozen=True)
-class Scales:
-    """The natural sizes of a recorded motion, as amplitudes: generalised force, length, time.
-
-    `usual` is the log intensity (N^2 s) of the random force that the usual noise of a measured excitation makes;
-    `span` is the length of the recording, in s.
-    """
-
-    force: float
-    length: float
-    time: float
-    usual: float = 0.0
-    span: float = 1.0
-
-    @property
-    def velocity(self) -> float:
-        """The amplitude of the velocity."""
-        return self.length / self.time
 
 
 @dataclass(frozen=True)
@@ -189,6 +169,17 @@ class Problem:
         route = self.routes[index]
         return math.exp(route.at(theta, RANDOM)), math.exp(2.0 * route.at(theta, NOISE))
 
+    def slow(self, theta: Array, index: int = 0) -> tuple[float, float]:
+        """Return the variance of measurement noise with a memory, and by how much it fades from sample to sample."""
+        route = self.routes[index]
+        if SLOW not in route.columns:
+            return 0.0, 0.0
+        return math.exp(2.0 * route.at(theta, SLOW)), math.exp(-self.tracks[index].dt / math.exp(route.at(theta, FADE)))
+
+    def measurement(self, theta: Array, index: int = 0) -> float:
+        """Return the variance of all measurement noise, the white and the slow."""
+        return self.noise(theta, index)[1] + self.slow(theta, index)[0]
+
     def offset(self, theta: Array, index: int = 0) -> float:
         """Return what the response sensor shows at zero, in the unit of the channel."""
         route = self.routes[index]
@@ -267,12 +258,12 @@ class Problem:
         if self.coloured:
             cov[-1, -1] = 0.5 * intensity / pace
         arrays = kept or (_NONE, _NONE3, _NONE, _NONE3, _NONE3)
-        gain = self.gain(theta, index)
+        gain, (slow, fade) = self.gain(theta, index), self.slow(theta, index)
         z = track.z - offset if offset else track.z
         done: int = system.kernel(self.active, latent=self.coloured).track(
             z if gain == 1.0 else z / gain, drive.u, drive.begin, drive.dt, drive.nsub, base, own, on, at, pace,
-            intensity, self.noise(theta, index)[1] / gain**2, y0, cov, channel, direct, errors, variances,
-            kept is not None, *arrays,
+            intensity, self.noise(theta, index)[1] / gain**2, slow / gain**2, fade, y0, cov, channel, direct, errors,
+            variances, kept is not None, *arrays,
         )  # fmt: skip
         if gain != 1.0:
             errors *= gain

@@ -27,6 +27,7 @@ CERTAIN = 3.0
 """An amplitude counts when it is this many robust standard deviations from nothing."""
 REMEMBERS = 2.0
 WORTH = 0.2
+RICH = 4
 SAME = 1e-4
 """Below this share of its own information a term cannot be told from parameters that are estimated anyway."""
 
@@ -165,9 +166,11 @@ class Selector:
     def _additions(self, fit: Fit) -> None:
         """Fit the terms whose score tests promise most on top of a fit, those first that promise most."""
         slopes = slopes_of(fit)
-        hints = []
-        for key in self.candidates:
+        hints: list[Hint] = []
+        for key in sorted(self.candidates, key=lambda k: self._rich(fit, k)):
             if key in fit.problem.active or self._kin(fit, key) or fit.problem.active | {key} in self.course.visits:
+                continue
+            if self._rich(fit, key) and not any(h.gain > PROMISING and self._related(fit, key, h.key) for h in hints):
                 continue
             self.say(f"score test of {key}")
             hints.append(screen(fit, slopes, key))
@@ -217,6 +220,11 @@ class Selector:
                 self.course.chosen = visit.fit
                 return True
         return False
+
+    @staticmethod
+    def _rich(fit: Fit, key: str) -> bool:
+        """Return whether a term has so many parameters that it is tried only where a simpler relative promises much."""
+        return len(term_of(fit.problem, key)[1]) >= RICH
 
     def _kin(self, fit: Fit, key: str) -> bool:
         return any(self._related(fit, mine, key) for mine in fit.problem.active)

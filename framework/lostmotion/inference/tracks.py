@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 from scipy.interpolate import CubicSpline
-from scipy.optimize import brentq
+from scipy.optimize import brentq, minimize_scalar
 
 from lostmotion.beside import Input
 from lostmotion.contracts import Array, Model
@@ -176,6 +176,14 @@ def period_samples(track: Track) -> float | None:
     peak = int(np.argmax(power))
     if peak < 2 or power[max(peak - 3, 0) : peak + 4].sum() < 0.5 * power.sum():
         return None
-    left, middle, right = np.log(power[peak - 1 : peak + 2] + 1e-300)
-    shift = 0.5 * (left - right) / (left - 2.0 * middle + right)
-    return float(size / (peak + shift))
+    return float(size / _refined(u * np.hanning(size), peak))
+
+
+def _refined(windowed: Array, peak: int) -> float:
+    """Return where between the bins the line next to bin `peak` is highest: two hundred times finer than a bin."""
+    angle = 2.0j * math.pi * np.arange(len(windowed)) / len(windowed)
+
+    def depth(place: float) -> float:
+        return -float(np.abs(np.sum(windowed * np.exp(-angle * place))))
+
+    return float(minimize_scalar(depth, bounds=(peak - 1.0, peak + 1.0), method="bounded", options={"xatol": 1e-6}).x)

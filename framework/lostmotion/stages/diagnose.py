@@ -15,8 +15,9 @@ from lostmotion.inference.fit import Fit
 from lostmotion.inference.latent import Missing, missing_force
 from lostmotion.inference.learned import Learned
 from lostmotion.inference.locate import Curve, covariates, curve, edges_of, further, summary
+from lostmotion.inference.memory import selected
 from lostmotion.inference.problem import LEVELS, Problem
-from lostmotion.inference.selection import Selection, Selector, significant_random_force
+from lostmotion.inference.selection import Selection, significant_random_force
 from lostmotion.inference.setup import polish, problem_of, search, split, stepped
 from lostmotion.inference.shares import Covariate, Share, shares_of, significant
 from lostmotion.inference.tracks import Track
@@ -129,7 +130,7 @@ def diagnose(
     train, held = split(tracks)
     say("fit of the nominal model")
     nominal = search(problem_of(system, case, train, jobs=jobs), rng)
-    selection = Selector(nominal, fitted_keys(system), say).run()
+    selection = selected(nominal, fitted_keys(system), say)
     say("final estimates")
     before = polish(selection.nominal)
     after = polish(selection.chosen) if selection.chosen.problem.active else before
@@ -153,7 +154,7 @@ def diagnose(
 def marks_of(fit: Fit) -> dict[str, tuple[Values, Values]]:
     """Return the sensor terms that the stored values betray and that make up a share of the noise, by key."""
     tracks, found = fit.problem.tracks, {}
-    noise = max(fit.problem.noise(fit.theta, i)[1] for i in range(len(tracks)))
+    noise = max(fit.problem.measurement(fit.theta, i) for i in range(len(tracks)))
     for key, term in fit.problem.system.beside.items():
         if isinstance(term, SensorTerm) and term.marked:
             seen = [term.marks(track.z) for track in tracks]

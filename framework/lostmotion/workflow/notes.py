@@ -18,7 +18,20 @@ EDGE = 1e-3
 def notes_of(outcome: Outcome, said: Sequence[str]) -> list[str]:
     """Return the notes of a diagnosis: what the recordings `said` of themselves, and what a reader should doubt."""
     d = outcome.diagnosis
-    return [*said, *_declined(d), *_on_the_edge(d), *_far_off(outcome), *_drifting(d)]
+    return [*said, *_declined(d), *_on_the_edge(d), *_far_off(outcome), *_drifting(d), *_slow(d)]
+
+
+def _slow(d: Diagnosis) -> list[str]:
+    """Return a note where the measurement noise has a memory, which white noise and a random force would imitate."""
+    problem, theta = d.after.problem, d.after.theta
+    slow, fade = problem.slow(theta)
+    if not slow:
+        return []
+    lasts = -problem.tracks[0].dt / np.log(fade)
+    share = slow / problem.measurement(theta)
+    return [
+        f"{share:.0%} of the variance of the measurement noise has a memory of {lasts:.2g} s; the fit allows for it."
+    ]
 
 
 def _declined(d: Diagnosis) -> list[str]:
@@ -46,7 +59,7 @@ def _on_the_edge(d: Diagnosis) -> list[str]:
 
 def _far_off(outcome: Outcome) -> list[str]:
     d = outcome.diagnosis
-    noise = d.after.problem.noise(d.after.theta)[1] ** 0.5
+    noise = d.after.problem.measurement(d.after.theta) ** 0.5
     far = outcome.after.nrmse * float(np.nanstd(d.shown.z)) / noise
     if far < FAR:
         return []

@@ -67,7 +67,7 @@ def shown(seen: Seen, rng: np.random.Generator) -> dict[str, Any]:
             "whiteness": {"p": prediction.white},
         }
     last = both.get("after", both["before"])
-    noise = math.sqrt(last[1].problem.noise(last[1].theta)[1])
+    noise = math.sqrt(last[1].problem.measurement(last[1].theta))
     table["noise_floor"] = {
         "heldout_log_score": last[0].expected_score,
         "free_run_error": noise / float(np.nanstd(d.shown.z)),
@@ -117,7 +117,7 @@ def _dimensions(seen: Seen, rng: np.random.Generator) -> dict[str, Estimate]:
         recorded = embed(finite, seen.registry.make("embedder", EMBEDDER), dt=track.dt, period=seconds)
     except LostMotionError as err:
         return dict.fromkeys(("recorded", *fits), Estimate.refused("failed", str(err)))
-    noise = math.sqrt(d.after.problem.noise(d.after.theta)[1]) / max(float(np.std(finite)), 1e-300)
+    noise = math.sqrt(d.after.problem.measurement(d.after.theta)) / max(float(np.std(finite)), 1e-300)
     found = {"recorded": _dimension(recorded, seen.registry, rng, noise)}
     exponents = {"before": outcome.before.exponent, "after": outcome.after.exponent}
     for name, fit in fits.items():

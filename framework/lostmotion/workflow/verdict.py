@@ -94,7 +94,7 @@ def _fit(outcome: Outcome) -> dict[str, Any]:
         }
 
     d = outcome.diagnosis
-    noise = math.sqrt(d.after.problem.noise(d.after.theta)[1])
+    noise = math.sqrt(d.after.problem.measurement(d.after.theta))
     floor = noise / float(np.nanstd(d.shown.z))
     unit = {"horizon_unit": outcome.horizon.unit, "horizon_unit_time": outcome.horizon.unit_time}
     return {"before": entry(outcome.before), "after": entry(outcome.after), "noise_floor_nrmse": floor, **unit}

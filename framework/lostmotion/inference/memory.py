@@ -1,0 +1,90 @@
+"""Measurement noise with a memory: tried where something seems to be missing, since it can pose as a force.
+
+A sensor behind a filter, or one that wanders, leaves noise whose samples depend on one another. White noise and a
+random force together imitate that, and so the machine gets the blame.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import replace
+
+import numpy as np
+
+from lostmotion.inference.fit import Fit, maximise
+from lostmotion.inference.free import FADE, NOISE, RANDOM, SLOW, Free
+from lostmotion.inference.problem import Problem
+from lostmotion.inference.selection import Progress, Selection, Selector, significant_random_force
+
+SHORTEST, LONGEST = 0.7, 0.5
+"""The memory lasts at least so many samples, and at most this share of the natural time of the motion: what is slower
+is a motion of the machine, or a zero that drifts."""
+WORTH = math.log(20.0) + 3.0
+"""It is believed when it raises the log evidence by this: odds of twenty, and the price of two parameters."""
+GAIN = 8.0
+"""And the log-likelihood by this: where the noise is white the two are flat, and Laplace's method overrates them."""
+STARTS = (1.5, 5.0)
+NOTICED = 4.0
+"""A random force that gains this much is reason enough to look for a memory."""
+
+
+def selected(nominal: Fit, candidates: Iterable[str], say: Progress) -> Selection:
+    """Return the selection among `candidates`, made again with a memory of the measurement noise where it has one."""
+    keys = tuple(candidates)
+    course = Selector(nominal, keys, say).run()
+    chosen = course.chosen
+    if not chosen.problem.active and significant_random_force(chosen) < NOTICED:
+        return course
+    say("measurement noise with a memory")
+    if not believed(chosen, remembering(chosen)):
+        return course
+    hung = remembering(nominal)
+    return Selector(hung, keys, say).run() if hung is not None and hung.status != "diverged" else course
+
+
+def remembering(fit: Fit) -> Fit | None:
+    """Return the fit with measurement noise that has a memory beside the white one, or None where it cannot be told.
+
+    Begun at a few lengths of the memory, with the random force at what is usual, since it need not imitate any more.
+    """
+    problem = fit.problem
+    frees = _frees(problem, fit)
+    if not frees or SLOW in problem.keys:
+        return None
+    wider = replace(problem, free=(*problem.free, *frees))
+    fits = [maximise(wider, _start(wider, fit, samples)) for samples in STARTS]
+    return max(fits, key=lambda f: f.log_evidence)
+
+
+def believed(plain: Fit, hung: Fit | None) -> bool:
+    """Return whether a memory of the noise is worth its two parameters."""
+    if hung is None or hung.status == "diverged":
+        return False
+    higher = hung.log_likelihood - plain.log_likelihood > GAIN
+    return higher and hung.log_evidence > plain.log_evidence + WORTH
+
+
+def _frees(problem: Problem, fit: Fit) -> tuple[Free, ...]:
+    dt = problem.tracks[0].dt
+    low, high = math.log(SHORTEST * dt), math.log(LONGEST * problem.scales.time)
+    if high < low + 1.0:
+        return ()
+    noise = float(np.mean([c for f, c in zip(problem.free, fit.theta, strict=True) if f.parameter == NOISE]))
+    middle = min(math.log(3.0 * dt), high)
+    return (
+        Free(SLOW, "1", noise - 0.5, noise - 5.0, noise + 3.0),
+        Free(FADE, "1", middle, low, high, mean=middle, sd=1.0),
+    )
+
+
+def _start(wider: Problem, fit: Fit, samples: float) -> np.ndarray:
+    theta = np.concatenate([fit.theta, wider.start[len(fit.theta) :]])
+    for i, f in enumerate(wider.free):
+        if f.parameter == RANDOM:
+            theta[i] = min(theta[i], f.mean)
+        if f.parameter == NOISE:
+            theta[i] -= 0.35
+        if f.parameter == FADE:
+            theta[i] = math.log(samples * wider.tracks[0].dt)
+    return wider.clip(theta)
