@@ -1,4 +1,4 @@
-"""The log evidence by sampling beside Laplace's: exact where the posterior is normal, honest where it is cut or skewed."""
+"""The log evidence by sampling beside Laplace's: exact for a normal posterior, honest for one that is cut."""
 
 import math
 from dataclasses import dataclass, replace

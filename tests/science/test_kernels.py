@@ -57,8 +57,8 @@ def track_all(system, full, drive, channel, *, latent, compiled):
     errors, variances, *kept = written
     track = system.kernel(active, latent=latent, compiled=compiled).track
     done = track(
-        z, drive.u, drive.begin, drive.dt, drive.nsub, base, own, *system.wiring(active), 20.0, 1e-3, 1e-10, 4e-10, 0.7, y0, cov,
-        *system.channel(channel), errors, variances, True, *kept,
+        z, drive.u, drive.begin, drive.dt, drive.nsub, base, own, *system.wiring(active), 20.0, 1e-3, 1e-10, 4e-10, 0.7,
+        y0, cov, *system.channel(channel), errors, variances, True, *kept,
     )  # fmt: skip
     assert done == SAMPLES
     return written
