@@ -146,6 +146,26 @@ def test_an_unknown_mismatch_says_what_it_depends_on(tmp_path):
     assert "Mismatch, unknown" in page
 
 
+def test_what_was_learned_is_drawn_with_its_band_and_its_proposal(tmp_path):
+    facts, at = made.unknown(), [-0.01, 0.0, 0.01]
+    low, force, high = [-1.5, -0.2, 0.5], [-1.0, 0.0, 1.0], [-0.5, 0.2, 1.5]
+    curve = {"over": "position", "unit": "m", "at": at, "force": force, "low": low, "high": high}
+    facts["found"][0] |= {
+        "curve": curve,
+        "proposal": {"formula": "1e+06 N/m^3 x^3", "says": "A proposal, not a finding."},
+    }
+    page = _page(tmp_path, facts)
+    assert "section-learned" in page
+    assert "A proposal, not a finding. It reads 1e+06 N/m^3 x^3." in page
+
+
+def test_what_noise_would_show_as_well_is_told_from_what_it_would_not(data, tmp_path):
+    facts = made.mismatch()
+    facts["where"] |= {"significant": ["velocity"], "against": "199 surrogates"}
+    page = _page(tmp_path, facts, data)
+    assert "A star marks what goes further than 199 surrogates do." in page
+
+
 def test_a_mismatch_without_sentences_is_told_from_its_numbers(tmp_path):
     page = _page(tmp_path, made.mismatch() | {"says": []})
     assert _heading(page) == "Dry friction of 3.01 N [2.97, 3.05] opposes the motion, 3.0 % of the drive."

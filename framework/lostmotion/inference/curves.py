@@ -174,7 +174,7 @@ class Band:
         return np.sqrt(np.maximum(np.diag(self.covariance), 0.0))
 
 
-def band_of(fit: Fit, key: str, points: int = 81) -> Band:
+def band_of(fit: Fit, key: str, points: int = 161) -> Band:
     """Return a learned curve over the range of the data, with the robust covariance of its coefficients."""
     problem, term = fit.problem, _learned(fit.problem, key)
     columns = [problem.keys.index(f"{key}.v{i}") for i in range(term.count)]

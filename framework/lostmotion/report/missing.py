@@ -39,7 +39,7 @@ def caption(evidence: Evidence) -> str:
     """Return what to see in the figure."""
     summary = evidence.fact("where", "summary")
     opening = f"The missing force: {summary}. " if summary else ""
-    body = "Lines are the mean in each bin, bands hold 95 % of the samples. "
+    body = f"Lines are the mean in each bin, bands hold 95 % of the samples. {_tested(evidence)}"
     if len(versions(evidence)) == 1 or not evidence.has("after_mean"):
         return f"{opening}{body}A force that was left out would show as a curve that leaves zero."
     return f"{opening}{body}" + (
@@ -47,6 +47,12 @@ def caption(evidence: Evidence) -> str:
         "taken out, blue what is left with it"
         + (", and the dashed green line is the law that was learnt." if evidence.has("law_mean") else ".")
     )
+
+
+def _tested(evidence: Evidence) -> str:
+    """Return what a star means, or an empty string where nothing was tested."""
+    against = evidence.fact("where", "against")
+    return f"A star marks what goes further than {against} do. " if against else ""
 
 
 def curve_of(evidence: Evidence, name: str, covariate: str) -> Array:
@@ -88,8 +94,16 @@ def _draw_band(axes: Axes, evidence: Evidence, what: tuple[Version, str], at: Ar
 
 def _name_share(axes: Axes, evidence: Evidence, covariate: str) -> None:
     share = evidence.number("where", "explained_by", covariate)
-    if np.isfinite(share):
-        axes.set_title(f"{percent(share)} explained by {NAMES.get(covariate, covariate)}", color="#444444")
+    if not np.isfinite(share):
+        return
+    said = f"{percent(share)} explained by {NAMES.get(covariate, covariate)}"
+    known = evidence.fact("where", "significant")
+    if known is None:
+        axes.set_title(said, color="#444444")
+    elif covariate in known:
+        axes.set_title(f"{said} *", color="black", fontweight="bold")
+    else:
+        axes.set_title(f"{said}: as noise would be", color="#8c8c8c")
 
 
 def _unit(evidence: Evidence, covariate: str) -> str:

@@ -9,7 +9,19 @@ from typing import NamedTuple
 
 from markupsafe import Markup
 
-from lostmotion.report import growth, missing, opening, portraits, posteriors, prediction, ranking, show, style, tables
+from lostmotion.report import (
+    growth,
+    learned,
+    missing,
+    opening,
+    portraits,
+    posteriors,
+    prediction,
+    ranking,
+    show,
+    style,
+    tables,
+)
 from lostmotion.report.evidence import Evidence, read_evidence
 from lostmotion.report.pages import Section, template
 
@@ -31,6 +43,7 @@ PROSE = ("show",)
 SECTIONS = (
     Section("prediction", "Recording and prediction", prediction.draw, prediction.caption),
     Section("missing", "The force that the model does not explain", missing.draw, missing.caption),
+    Section("learned", "The force that was learned", learned.draw, learned.caption),
     Section("ranking", "Which physics it may be", ranking.draw, ranking.caption),
     Section("parameters", "Parameters", posteriors.draw, posteriors.caption),
     Section("portraits", "Phase portrait and Poincaré section", portraits.draw, portraits.caption),
