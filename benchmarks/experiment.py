@@ -57,7 +57,7 @@ class Machine:
     noise: float
 
 
-@numba.njit(cache=True)
+@numba.njit
 def moved(u, h, fine, m, c, law, state):
     """Return the position (samples,) under the force `u` at the middle of each step."""
     k, k0, x0, k3, drag, friction, excess, slow, travel = law

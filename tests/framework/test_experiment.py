@@ -115,7 +115,7 @@ def test_a_machine_that_runs_away_is_not_proposed(springs):
 
 
 def test_proposed_experiment_separates_springs_and_a_repeat_hardly(bench, springs):
-    """Cubic or linear spring: at one level the one stands in for the other. Expected 106 and 20; found 99 and 13."""
+    """Cubic or linear spring: at one level the one stands in for the other. Expected 108 and 15; found 100 and 11."""
     machine, inputs, (truth, other) = springs
     steps = []
     proposal = propose(truth, other, rng=np.random.default_rng(2), say=steps.append)
@@ -132,7 +132,7 @@ def test_proposed_experiment_separates_springs_and_a_repeat_hardly(bench, spring
 
 @pytest.mark.slow
 def test_proposed_experiment_shows_a_stribeck_effect_that_the_recording_does_not(bench):
-    """At hand the wrong law is 4 ahead; a repeat adds 1 to 8, the proposed experiment 28. One fixed machine."""
+    """At hand the wrong law is 2 ahead; a repeat adds 0 to 2, the proposed experiment 30 to 36. One fixed machine."""
     r = bench.studied(bench.MACHINES[0], draws=2)
     assert abs(r["at_hand"]) < 6.0
     assert min(r["found"]) > 15.0
@@ -208,6 +208,21 @@ def test_without_an_experiment_that_decides_it_says_so(diagnosed):
     proposals = {"linear_stiffness": Proposal(offered[0], (1.0, 0.5), (0.0, 0.0), (0, 1))}
     says = rivals.confused_with(diagnosed, [], proposals)[0]["says"]
     assert "No excitation within the limits" in says
+
+
+def test_a_relative_is_named_by_its_evidence_and_not_by_its_price(diagnosed, monkeypatch):
+    """A set with a further parameter pays for it: what the recording cannot rule out is named all the same."""
+    monkeypatch.setattr(rivals, "_related", lambda a, b: True)
+    visits = diagnosed.selection.visits
+    (other,) = [v for v in visits.values() if v.terms != diagnosed.selection.chosen.problem.active]
+    visits[other.terms] = replace(other, weight=-9.0)
+    level = diagnosed.selection.chosen.log_evidence
+    for short, named in ((2.0, True), (5.0, False)):
+        local = replace(
+            other.fit.local, log_posterior=other.fit.local.log_posterior + level - short - other.fit.log_evidence
+        )
+        visits[other.terms] = replace(other, weight=-9.0, fit=replace(other.fit, local=local))
+        assert bool(rivals.rivals_of(diagnosed)) is named
 
 
 def test_no_rival_no_experiment(springs):

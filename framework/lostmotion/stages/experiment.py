@@ -14,11 +14,12 @@ from lostmotion.stages._excitations import Excitation, Limits, candidates_for, r
 from lostmotion.stages._rehearsal import Asked, Model, evidence, simulated
 
 __all__ = ["Excitation", "Limits", "Proposal", "natural_of", "news", "propose", "usual_limits"]
-SAMPLES = 4000
+SAMPLES = 3000
 """Simulated recordings are this long at most, and count for as much as the recording at hand."""
 ROUNDS, HALFWAY = 4, 2
-GOOD, BEST = 8, 2
-"""So many candidates are looked at again with fits that have gone half of their way, and so many with whole ones."""
+GOOD, BEST, DRAWS = 6, 2, 2
+"""So many candidates are looked at again with fits that have gone half of their way, and so many with whole ones, the
+mean of so many recordings."""
 PLAIN, IMITATED, SURE = 5.0, 0.2, 12.0
 """One model can imitate the other where its absence never gains 5, or 0.2 of what its presence gains: what is left is
 the price of its parameters. A gain of 12 is none of these."""
@@ -72,11 +73,11 @@ def propose(
     say("what the best ones and a repeat would tell")
     good = [(e, weighed.ways(e, HALFWAY)) for e, _ in _best(rough, (0, 1), GOOD, max)]
     counted = _counted([ways for _, ways in good if ways])
-    fine = [(e, weighed.ways(e, ROUNDS)) for e, _ in _best(good, counted, BEST, min)]
+    fine = [(e, weighed.mean(e)) for e, _ in _best(good, counted, BEST, min)]
     found = _best(fine, counted, 1, min)
     if not found:
         return None
-    (best, ways), repeat = found[0], weighed.ways(repeat_of(track, samples, natural), ROUNDS)
+    (best, ways), repeat = found[0], weighed.mean(repeat_of(track, samples, natural))
     return Proposal(best, ways or (0.0, 0.0), repeat or (0.0, 0.0), counted)
 
 
@@ -101,6 +102,12 @@ class _Weighed:
     models: tuple[Model, Model]
     share: float
     rng: np.random.Generator
+
+    def mean(self, excitation: Excitation) -> Ways | None:
+        """Return the gains after whole fits, the mean of several recordings."""
+        drawn = [self.ways(excitation, ROUNDS) for _ in range(DRAWS)]
+        through = [ways for ways in drawn if ways]
+        return (float(np.mean([a for a, _ in through])), float(np.mean([b for _, b in through]))) if through else None
 
     def ways(self, excitation: Excitation, rounds: int) -> Ways | None:
         """Return the gains of an excitation with each model true, or None where one does not get through."""

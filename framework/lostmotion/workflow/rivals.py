@@ -17,8 +17,8 @@ from lostmotion.stages.experiment import Limits, Proposal, natural_of, propose, 
 from lostmotion.system import key_of
 from lostmotion.workflow.verdict import WORTH_NAMING
 
-RELATED = 0.02
-"""A relative of what was found is named from this share of its posterior weight on."""
+RELATED = math.log(20.0)
+"""A relative of what was found is named where the evidence, without the price of its parameters, is so close."""
 MOST = 2
 """So many rivals, the heaviest ones, are worth an experiment of their own."""
 LITTLE = 3.0
@@ -44,7 +44,8 @@ def rivals_of(d: Diagnosis) -> dict[str, Visit]:
             continue
         best = max(sets, key=lambda k: weights[k])
         stands_in = any(_related(term, term_of(problem, mine)[0]) for mine in problem.active - best)
-        close = stands_in and weights[best] > RELATED * weights.get(problem.active, 0.0)
+        short = course.chosen.log_evidence - course.visits[best].fit.log_evidence
+        close = stands_in and short < RELATED
         if course.inclusion(key) > WORTH_NAMING or close:
             rows[key] = course.visits[best]
     return dict(sorted(rows.items(), key=lambda row: -row[1].weight))
@@ -107,7 +108,16 @@ def _excitation(d: Diagnosis, proposal: Proposal) -> dict[str, Any]:
 
 
 def _opening(term: Term, p: float) -> str:
-    return f"This recording gives {term.name} a probability of {p:.2g}."
+    if p > WORTH_NAMING:
+        return f"This recording gives {_called(term)} a probability of {p:.2f}."
+    return (
+        f"This recording does not rule out {_called(term)}: only the price of its further parameters brings it to a"
+        f" probability of {p:.2g}."
+    )
+
+
+def _called(term: Term) -> str:
+    return term.name.replace("_", " ")
 
 
 def _says(d: Diagnosis, term: Term, p: float, proposal: Proposal) -> str:
@@ -121,9 +131,9 @@ def _says(d: Diagnosis, term: Term, p: float, proposal: Proposal) -> str:
     against = f"{gain / repeat:.2g} times as much as a repeat" if repeat >= 1.0 else "and a repeat by less than one"
     whose = ""
     if proposal.counted == (1,):
-        whose = f" if it is {term.name} (if it is not, by {max(proposal.ways[0], 0.0):.2g})"
+        whose = f" if it is {_called(term)} (if it is not, by {max(proposal.ways[0], 0.0):.2g})"
     if proposal.counted == (0,):
-        whose = f" if it is not {term.name} (if it is, by {max(proposal.ways[1], 0.0):.2g})"
+        whose = f" if it is not {_called(term)} (if it is, by {max(proposal.ways[1], 0.0):.2g})"
     return (
         f"{opening} {_asked(d, proposal)}: this should separate them by {gain:.2g} in log-likelihood{whose}, {against}."
     )
