@@ -16,7 +16,7 @@ from lostmotion.quantities import Dimension
 MOST = 3
 RIDGE = 0.02
 """A curve is smooth, so its covariance is close to singular: this share of its mean variance is added."""
-TURNS = np.arange(1.0, 20.01, 0.25)
+TURNS = np.arange(1.0, 20.01, 0.1)
 """Spatial frequencies that are tried, in periods over the range of the curve."""
 MIDDLES = np.linspace(-0.9, 0.9, 73)
 WIDTHS = (0.06, 0.08, 0.1, 0.15, 0.25, 0.4)

@@ -27,6 +27,8 @@ from lostmotion.system import System
 SIGNIFICANT = 8.0
 """A random force beyond the usual noise of the drive counts when it gains this much log-likelihood."""
 STRUCTURED = 0.1
+MANY = 3
+"""So many terms together may stand in for one curve: then curves are tried although nothing is left over."""
 MARKED = 0.05
 """What marks in the stored values bring with them counts from this share of the noise variance on."""
 LARGEST = 1e100
@@ -141,7 +143,8 @@ def diagnose(
     marks = marks_of(after)
     bare = Diagnosis(before, after, selection, shown, _NOWHERE, None, _NO, {}, {}, gain, train, held, marks)
     known = _located(bare, chance)
-    if not (known.unexplained or (known.left or known.located).structure):
+    suspicious = known.unexplained or bool((known.left or known.located).structure) or len(known.found) >= MANY
+    if not suspicious:
         return known
     learned = unknown_of(selection.nominal, selection.chosen, len(system.keys), say)
     if learned is None:

@@ -1,0 +1,93 @@
+"""Forces that no term of the library has, hidden by an integrator of its own: learned as curves, and only if there."""
+
+from __future__ import annotations
+
+import math
+import re
+
+import numba
+import numpy as np
+import pytest
+from truths import case_of
+
+from lostmotion.forcing import Tone
+from lostmotion.inference.curves import band_of
+from lostmotion.inference.proposal import Axis, proposed
+from lostmotion.inference.setup import problem_of, search
+from lostmotion.inference.tracks import Track
+from lostmotion.inference.unexplained import unknown_of
+from lostmotion.quantities import FORCE, LENGTH
+from lostmotion.registry import default
+from lostmotion.system import System
+
+CLEAN, RIPPLE, ROUGH = range(3)
+PERIOD, OMEGA, SAMPLES, SETTLING, FINE = 200, 40.0, 4000, 4000, 50
+LIBRARY = 27
+"""So many candidates are paid for, as in a diagnosis with all terms."""
+
+
+@numba.njit(cache=True)
+def moved(kind: int, samples: int) -> np.ndarray:
+    """Return position and velocity (samples, 2) of Case 1 with a hidden force, by leapfrog in 50 steps to a sample."""
+    step = 2.0 * math.pi / OMEGA / PERIOD / FINE
+    x, v, seen = 0.006, 0.0, np.zeros((samples, 2))
+    for k in range((samples + SETTLING) * FINE):
+        if k % FINE == 0 and k >= SETTLING * FINE:
+            seen[k // FINE - SETTLING] = x, v
+        middle = x + 0.5 * step * v
+        push = 100.0 * math.cos(OMEGA * (k + 0.5) * step)
+        push -= 4e4 * (middle - min(max(middle, -0.005), 0.005))
+        bound = 0.0
+        if kind == RIPPLE:
+            push += math.sin(2.0 * math.pi * middle / 0.002)
+        elif kind == ROUGH:
+            bound = step * 3.0 * (middle / 0.008) ** 2
+        free = (v * (1.0 - 4.0 * step) + step * push) / (1.0 + 4.0 * step)
+        v = free - min(max(free, -bound), bound)
+        x = middle + 0.5 * step * v
+    return seen
+
+
+def fitted(kind, *, seed=0):
+    """Return the fit of the nominal model to a recording with 1 % noise, and 0.1 % on the force."""
+    rng = np.random.default_rng(seed)
+    seen = moved(kind, SAMPLES)
+    dt = 2.0 * math.pi / OMEGA / PERIOD
+    force = 100.0 * np.cos(OMEGA * dt * np.arange(SAMPLES)) + 0.1 * rng.standard_normal(SAMPLES)
+    z = seen[:, 0] + 0.01 * np.std(seen[:, 0]) * rng.standard_normal(SAMPLES)
+    track = Track("seen", z, force[:, None], dt, "position", tone=Tone(OMEGA, 100.0))
+    problem = problem_of(System(default().make("model", "lin_backlash")), case_of(("c", "x0")), (track,))
+    return search(problem, rng, points=24, finalists=2)
+
+
+@pytest.mark.slow
+def test_a_ripple_over_position_is_learned_and_its_period_proposed():
+    """1 N with 13 periods over the travel: the curve is that of the truth where the mass spends its time."""
+    fit = fitted(RIPPLE)
+    found = unknown_of(fit, fit, LIBRARY)
+    assert found.keys == ("unknown_over_position",)
+    assert found.probability > 0.99
+    band = band_of(found.fit, found.keys[0])
+    truth = np.sin(2.0 * np.pi * band.at / 0.002)
+    inside = np.abs(truth - band.mean) < 1.96 * band.sd
+    assert inside.mean() > 0.8
+    middle = np.abs(band.at) < 0.004
+    assert np.sqrt(np.mean((truth - band.mean)[middle] ** 2)) < 0.4
+    formula = proposed(band.at, band.mean, band.covariance, Axis("x", LENGTH, FORCE, "translation"))
+    period = re.search(r"sin\(2 pi x / (\S+) m", formula.text)
+    assert period is not None, formula.text
+    assert float(period[1]) == pytest.approx(0.002, rel=0.02)
+
+
+@pytest.mark.slow
+def test_friction_that_depends_on_position_is_told_from_a_force_that_does():
+    found = unknown_of(*[fitted(ROUGH)] * 2, LIBRARY)
+    assert found.keys[0] == "unknown_friction_over_position"
+    assert found.fit.values["c"] == pytest.approx(8.0, abs=1.0)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(3))
+def test_nothing_is_learned_where_nothing_is_missing(seed):
+    fit = fitted(CLEAN, seed=seed)
+    assert unknown_of(fit, fit, LIBRARY) is None
