@@ -18,6 +18,7 @@ from lostmotion.storage import folder_for, save_arrays, save_json
 from lostmotion.system import System
 from lostmotion.workflow.arrays import arrays_of
 from lostmotion.workflow.attractors import motions_of
+from lostmotion.workflow.evidences import evidence_of
 from lostmotion.workflow.findings import Outcome, draws_of
 from lostmotion.workflow.notes import notes_of
 from lostmotion.workflow.prepare import Prepared, prepare
@@ -26,8 +27,8 @@ from lostmotion.workflow.show import Seen, shown
 from lostmotion.workflow.verdict import verdict
 
 Say = Callable[[str], None]
-SHOW, NEXT = 1, 2
-"""The streams of random numbers for what is shown and proposed: no finding depends on them."""
+SHOW, NEXT, EVIDENCE = 1, 2, 3
+"""The streams of random numbers for what is shown, proposed and checked: no finding depends on them."""
 
 
 def run_diagnosis(
@@ -46,12 +47,15 @@ def run_diagnosis(
     say("attractors")
     show = shown(Seen(outcome, motions, prepared.tracks, registry), np.random.default_rng([seed, SHOW]))
     proposals = proposed(diagnosis, prepared.case.experiment, rng=np.random.default_rng([seed, NEXT]), say=say)
+    say("evidence by sampling")
+    evidence = evidence_of(diagnosis, np.random.default_rng([seed, EVIDENCE]))
     said = verdict(outcome)
     content = {
         "title": prepared.case.title,
         **said,
         "confused_with": confused_with(diagnosis, said["confused_with"], proposals),
         "show": show,
+        "evidence": evidence,
         **_background(prepared, outcome, seed),
     }
     say("report")
