@@ -38,7 +38,7 @@ def table(evidence: Evidence) -> Table:
     """Return a row for each measure: before, after, the noise floor, and what it says."""
     models = ["Before", "After"] if evidence.augmented else ["Model as it stands"]
     rows = [_row(evidence, name) for name in NAMES]
-    kept = [row for row in rows if set(row[1:-1]) - {DASH}]
+    kept = [row for row in rows if row[-1] or set(row[1:-1]) - {DASH}]
     return Table(["", *models, "Noise floor or recording", "In words"], kept)
 
 
@@ -61,7 +61,7 @@ def _cell(name: str, entry: Any) -> str:
         return f"p = {figures(entry.get('p'), 2)}"
     if name == "attractor_distance":
         p = entry.get("p")
-        return DASH if p is None else f"{figures(entry.get('value'), 2)} (p = {figures(p, 2)})"
+        return DASH if p is None else f"{figures(entry.get('value'), 2)} {_whole(f'(p = {figures(p, 2)})')}"
     if name == "valid_prediction_time":
         more = "more than " if entry.get("or_longer") else ""
         return f"{more}{figures(entry.get('value'), 2)}"
@@ -74,5 +74,11 @@ def _between(entry: Mapping[str, Any]) -> str:
     if low is None or high is None or not high > low:
         return figures(value, 3)
     decimals = max(0, 1 - math.floor(math.log10(high - low)))
-    text = f"{value:.{decimals}f} [{low:.{decimals}f}, {high:.{decimals}f}]".replace("-", "−")
+    ends = _whole(f"[{low:.{decimals}f}, {high:.{decimals}f}]")
+    text = f"{value:.{decimals}f} {ends}".replace("-", "−")
     return f"{text}, uncertain" if entry.get("status") == "uncertain" else text
+
+
+def _whole(text: str) -> str:
+    """Return a text that no line break divides."""
+    return text.replace(" ", "\N{NO-BREAK SPACE}")
