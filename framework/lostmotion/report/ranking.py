@@ -31,14 +31,15 @@ def draw(evidence: Evidence) -> Figure | None:
 def caption(evidence: Evidence) -> str:
     """Return what to see in the figure."""
     hidden = len(evidence.fact("ranking") or []) - MOST
-    check = dict(evidence.fact("evidence") or {}).get("says", "")
+    check = evidence.fact("evidence", "says")
+    rest += f" {check}" if check else ""
     rest = f" The {hidden} candidates that rank lowest are not drawn." if hidden > 0 else ""
     gains = [_gain(entry, 0.0) for entry in ranked(evidence)]
     cut = " ◂ marks a bar that was cut short." if gains and min(gains) < _reach(gains)[1] else ""
     return (
         "Each candidate was fitted with all parameters of the model set free again. The bar is what the log evidence "
         "gains over the model as it stands; a gain of 5 is strong, and one near zero or below says that the term is "
-        "not needed. The column on the right is the posterior probability among all candidates." + cut + rest + (f" {check}" if check else "")
+        "not needed. The column on the right is the posterior probability among all candidates." + cut + rest
     )
 
 
