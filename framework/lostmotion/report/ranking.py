@@ -32,8 +32,8 @@ def caption(evidence: Evidence) -> str:
     """Return what to see in the figure."""
     hidden = len(evidence.fact("ranking") or []) - MOST
     check = evidence.fact("evidence", "says")
-    rest += f" {check}" if check else ""
     rest = f" The {hidden} candidates that rank lowest are not drawn." if hidden > 0 else ""
+    rest += f" {check}" if check else ""
     gains = [_gain(entry, 0.0) for entry in ranked(evidence)]
     cut = " ◂ marks a bar that was cut short." if gains and min(gains) < _reach(gains)[1] else ""
     return (
