@@ -12,10 +12,11 @@ import pytest
 from lostmotion.case import Experiment, load_case
 from lostmotion.errors import CaseError
 from lostmotion.forcing import Tone
+from lostmotion.inference.free import FADE, SLOW, Free
 from lostmotion.inference.selection import Selection, Visit
 from lostmotion.inference.tracks import Track
 from lostmotion.stages._excitations import Limits, candidates_for, usual_limits
-from lostmotion.stages._rehearsal import Asked, Model, evidence, simulated
+from lostmotion.stages._rehearsal import Asked, Model, _slow, evidence, simulated
 from lostmotion.stages.experiment import Proposal, _counted, natural_of, news, propose
 from lostmotion.workflow import rivals
 
@@ -104,6 +105,18 @@ def test_a_model_believes_what_it_has_made(springs):
         z = simulated(truth, loud, np.random.default_rng(1))
         asked = Asked(1.0, 4)
         assert evidence(truth, loud, z, asked) > evidence(other, loud, z, asked) + 10.0
+
+
+def test_simulated_noise_has_the_memory_that_was_found(springs):
+    """The slow part of the noise fades as it was estimated: 20000 samples know its correlation to 0.01."""
+    *_, (truth, _) = springs
+    slow = tuple(Free(key, "1", value, -30.0, 30.0) for key, value in ((SLOW, 0.0), (FADE, math.log(0.02))))
+    track = replace(sine(), z=np.zeros(20000), inputs=np.zeros((20000, 1)))
+    problem = replace(truth.problem, tracks=(track,), free=(*truth.problem.free, *slow))
+    noise = _slow(problem, problem.start, np.random.default_rng(0))
+    assert noise.std() == pytest.approx(1.0, abs=0.05)
+    assert np.corrcoef(noise[1:], noise[:-1])[0, 1] == pytest.approx(math.exp(-1 / RATE / 0.02), abs=0.02)
+    assert not _slow(truth.problem, truth.theta, np.random.default_rng(0)).any()
 
 
 def test_a_machine_that_runs_away_is_not_proposed(springs):

@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.signal import lfilter
 
 from lostmotion.contracts import Array
 from lostmotion.inference.fit import Fit, sensitivity, solved
@@ -82,7 +83,16 @@ def simulated(model: Model, excitation: Excitation, rng: np.random.Generator) ->
         part[-1, place.row] += kick * rng.standard_normal()
     if not np.all(np.isfinite(states)):
         return None
-    return observed(problem, theta, states) + math.sqrt(variance) * rng.standard_normal(drive.samples)
+    white = math.sqrt(variance) * rng.standard_normal(drive.samples)
+    return observed(problem, theta, states) + white + _slow(problem, theta, rng)
+
+
+def _slow(problem: Problem, theta: Array, rng: np.random.Generator) -> Array:
+    """Return measurement noise with a memory (samples,), of a model that has any."""
+    variance, fade = problem.slow(theta)
+    fresh = math.sqrt(variance * (1.0 - fade**2)) * rng.standard_normal(problem.tracks[0].samples)
+    fresh[0] = math.sqrt(variance) * rng.standard_normal()
+    return np.asarray(lfilter([1.0], [1.0, -fade], fresh), dtype=float)
 
 
 @dataclass(frozen=True)
