@@ -28,13 +28,18 @@ LENGTHS = (0.06, 0.12, 0.25, 0.5, 1.0)
 CHOICES = math.log(len(SIZES) * len(LENGTHS))
 """The log price of a smoothness that was chosen."""
 EDGE = 0.02
+TOLD = 0.1
+"""The information of the data over that of the prior from which on a coefficient is fitted."""
 NUDGE = 3e-4
 """Finite-difference step of a coefficient in units of the drive."""
 
 
 @dataclass(frozen=True)
 class Shape:
-    """What a score test says of a curve: the log evidence it promises, its prior widths and where to start (count,)."""
+    """What a score test says of a curve: the log evidence it promises, its prior widths and where to start (count,).
+
+    A coefficient of which the data tell next to nothing beside its prior has width zero: it is left out.
+    """
 
     key: str
     gain: float
@@ -106,7 +111,8 @@ def shape_of(fit: Fit, slopes: Sensitivity, key: str) -> Shape:
         inner = np.eye(term.count) + information * np.outer(widths, widths)
         pull = np.linalg.solve(inner, widths * gradient)
         gain = 0.5 * float(widths * gradient @ pull) - 0.5 * float(np.linalg.slogdet(inner)[1])
-        options.append(Shape(key, gain, widths, widths * pull))
+        told = widths**2 * np.diag(information) > TOLD
+        options.append(Shape(key, gain, np.where(told, widths, 0.0), np.where(told, widths * pull, 0.0)))
     return max(options, key=lambda s: s.gain)
 
 
@@ -140,13 +146,13 @@ def _projected(fit: Fit, slopes: Sensitivity, key: str) -> tuple[Array, Array]:
 
 
 def with_curve(problem: Problem, key: str, widths: Array, start: Array) -> Problem:
-    """Return a problem with one more curve: its coefficients normal about zero with `widths`, begun at `start`."""
+    """Return a problem with one more curve: coefficients normal about zero with `widths` > 0, begun at `start`."""
     term = _learned(problem, key)
     reach = np.where(np.isfinite(widths), 30.0 * widths, 1e3 * size_of(term, problem))
     unit = term.params[0].dimension.unit(problem.system.model.motion)
     frees = [
         Free(f"{key}.v{i}", unit, float(start[i]), -float(reach[i]), float(reach[i]), sd=float(widths[i]))
-        for i in range(term.count)
+        for i in np.flatnonzero(widths > 0.0)
     ]
     return problem.extended(frees, {key})
 
@@ -177,11 +183,13 @@ class Band:
 def band_of(fit: Fit, key: str, points: int = 161) -> Band:
     """Return a learned curve over the range of the data, with the robust covariance of its coefficients."""
     problem, term = fit.problem, _learned(fit.problem, key)
-    columns = [problem.keys.index(f"{key}.v{i}") for i in range(term.count)]
+    places = {name: i for i, name in enumerate(problem.keys)}
+    used = [i for i in range(term.count) if f"{key}.v{i}" in places]
+    columns = [places[f"{key}.v{i}"] for i in used]
     middle, half = (float(problem.known[problem.system.index[f"{key}.{n}"]]) for n in ("middle", "half"))
     phase = term.over == "phase"
     z = np.linspace(0.0, 2.0, points) if phase else np.linspace(-1.0, 1.0, points)
     at = 0.5 * z if phase else middle + half * z
-    basis = term.basis(z)
+    basis = term.basis(z)[:, used]
     covariance = robust_covariance(fit)[np.ix_(columns, columns)]
     return Band(term, at, basis @ fit.theta[columns], basis @ covariance @ basis.T)

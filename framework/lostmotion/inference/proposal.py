@@ -20,7 +20,8 @@ TURNS = np.arange(1.0, 20.01, 0.1)
 """Spatial frequencies that are tried, in periods over the range of the curve."""
 MIDDLES = np.linspace(-0.9, 0.9, 73)
 WIDTHS = (0.06, 0.08, 0.1, 0.15, 0.25, 0.4)
-EXPLAINS = 0.8
+EXPLAINS, ENOUGH = 0.8, 0.98
+"""A formula tells so much of a curve at least; once it tells so much, nothing is added."""
 MORE = 6.0
 """A further piece has to better Akaike's criterion by this."""
 
@@ -71,6 +72,8 @@ def proposed(at: Array, mean: Array, covariance: Array, over: Axis) -> Formula |
         best = scores[first]
         chosen.append(pieces[first][0])
         white.append(pieces[first][1])
+        if _left(aim, white)[0] < (1.0 - ENOUGH) * float(aim @ aim):
+            break
     if not chosen:
         return None
     left, weights = _left(aim, white)

@@ -18,8 +18,10 @@ from lostmotion.inference.selection import DECISIVE, EXTRA, WORTH, significant_r
 from lostmotion.system import key_of
 
 MOST_CURVES = 2
-FITTED = 2
-"""So many curves are fitted on top of each set: a score test ranks covariates that go together only roughly."""
+HOPE = 0.3
+FITTED, RIVAL = 2, 0.7
+"""So many curves are fitted on top of each set, those that promise this share of what the best one does: a score test
+ranks covariates that go together only roughly."""
 
 Progress = Callable[[str], None]
 
@@ -75,16 +77,20 @@ class Search:
         return one + EXTRA * (sum(not q.choices for q in term.params) - 1) + choices
 
     def learn(self, fit: Fit, count: int = FITTED) -> None:
-        """Fit the curves that promise most on top of a fit, if they promise to be decisive."""
+        """Fit the curves that promise most on top of a fit, if they promise to be decisive, and to reach the best set.
+
+        A score test promises too little where a large random force has to stand for what is missing.
+        """
         slopes = slopes_of(fit)
         shapes = []
         for key, term in zip(fit.problem.system.keys, fit.problem.system.terms, strict=True):
             if isinstance(term, Learned) and key not in fit.problem.active:
                 self.say(f"score test of {key}")
                 shapes.append(shape_of(fit, slopes, key))
-        needed = math.log(self.many) + 1.0 + CHOICES + DECISIVE
+        short = max(weight for _, weight in self.visits.values()) - self.visits[fit.problem.active][1]
+        needed = max(math.log(self.many) + 1.0 + CHOICES + DECISIVE, HOPE * short)
         shapes = sorted((s for s in shapes if s.gain > needed), key=lambda s: -s.gain)
-        for shape in shapes[:count]:
+        for shape in [s for s in shapes[:count] if s.gain > RIVAL * shapes[0].gain]:
             self.say(f"fit with {shape.key}")
             self.visit(fit_curve(fit, shape))
 
