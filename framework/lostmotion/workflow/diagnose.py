@@ -20,6 +20,7 @@ from lostmotion.workflow.arrays import arrays_of
 from lostmotion.workflow.attractors import motions_of
 from lostmotion.workflow.evidences import evidence_of
 from lostmotion.workflow.findings import Outcome, draws_of
+from lostmotion.workflow.mixed import draws_after
 from lostmotion.workflow.notes import notes_of
 from lostmotion.workflow.prepare import Prepared, prepare
 from lostmotion.workflow.rivals import confused_with, proposed
@@ -32,9 +33,19 @@ SHOW, NEXT, EVIDENCE = 1, 2, 3
 
 
 def run_diagnosis(
-    path: Path, out: Path, registry: Registry, *, seed: int = 0, jobs: int = 2, say: Say = lambda _: None
+    path: Path,
+    out: Path,
+    registry: Registry,
+    *,
+    seed: int = 0,
+    jobs: int = 2,
+    propose: bool = True,
+    say: Say = lambda _: None,
 ) -> Mapping[str, Any]:
-    """Return the content of `diagnosis.json` after writing it, `arrays.nc` and `report.html` into the folder `out`."""
+    """Return the content of `diagnosis.json` after writing it, `arrays.nc` and `report.html` into the folder `out`.
+
+    Unless it is to `propose` none, it looks for the experiment that would tell rivals apart.
+    """
     say("reading the case")
     prepared = prepare(path, registry)
     folder = folder_for(out)
@@ -46,7 +57,8 @@ def run_diagnosis(
     motions = motions_of(diagnosis)
     say("attractors")
     show = shown(Seen(outcome, motions, prepared.tracks, registry), np.random.default_rng([seed, SHOW]))
-    proposals = proposed(diagnosis, prepared.case.experiment, rng=np.random.default_rng([seed, NEXT]), say=say)
+    stream = np.random.default_rng([seed, NEXT])
+    proposals = proposed(diagnosis, prepared.case.experiment if propose else None, rng=stream, say=say)
     say("evidence by sampling")
     evidence = evidence_of(diagnosis, np.random.default_rng([seed, EVIDENCE]))
     said = verdict(outcome)
@@ -80,7 +92,7 @@ def judged(diagnosis: Diagnosis, prepared: Prepared, rng: np.random.Generator) -
     before = predicted(diagnosis.before, exponents[0])
     after = before if same else predicted(diagnosis.after, exponents[1])
     draws = draws_of(diagnosis.before, rng)
-    return Outcome(diagnosis, before, after, horizon, draws, draws if same else draws_of(diagnosis.after, rng))
+    return Outcome(diagnosis, before, after, horizon, draws, draws if same else draws_after(diagnosis, rng))
 
 
 def _background(prepared: Prepared, outcome: Outcome, seed: int) -> dict[str, Any]:

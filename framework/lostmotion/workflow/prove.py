@@ -38,7 +38,7 @@ class Diagnoser:
         shutil.rmtree(place / "diagnosis", ignore_errors=True)
         try:
             content = run_diagnosis(
-                place / "case.toml", place / "diagnosis", _registry(self.plugins), seed=number, jobs=1
+                place / "case.toml", place / "diagnosis", _registry(self.plugins), seed=number, jobs=1, propose=False
             )
         except (LostMotionError, ArithmeticError, ValueError) as err:
             shutil.rmtree(place / "diagnosis", ignore_errors=True)

@@ -56,10 +56,15 @@ def _related(a: Term, b: Term) -> bool:
 
 
 def proposed(
-    d: Diagnosis, allowed: Experiment, *, rng: np.random.Generator, say: Callable[[str], None] = lambda _: None
+    d: Diagnosis, allowed: Experiment | None, *, rng: np.random.Generator, say: Callable[[str], None] = lambda _: None
 ) -> dict[str, Proposal | None]:
-    """Return the experiment that would decide between what was found and each of its heaviest rivals, by key."""
+    """Return the experiment that would decide between what was found and each of its heaviest rivals, by key.
+
+    Where none is `allowed`, none is looked for.
+    """
     chosen = d.selection.chosen
+    if allowed is None:
+        return dict.fromkeys(list(rivals_of(d))[:MOST])
     usual = usual_limits(chosen.problem.tracks[0], natural_of(chosen))
     limits = Limits(allowed.max_level or usual.level, allowed.max_frequency or usual.frequency)
     fits = {key: visit.fit for key, visit in list(rivals_of(d).items())[:MOST]}
