@@ -5,6 +5,7 @@ import re
 import numpy as np
 import pytest
 
+from lostmotion.inference.curves import _told_apart
 from lostmotion.inference.learned import KINDS, OverPhase, OverPosition, curves_for, names_of, spread
 from lostmotion.inference.proposal import Axis, proposed
 from lostmotion.quantities import DAMPING, FORCE, LENGTH, SPEED
@@ -106,3 +107,12 @@ def test_a_formula_carries_the_units_of_its_curve():
     axis = Axis("v", SPEED, DAMPING, "translation")
     found = proposed(*curve(lambda x: 2e4 * x**2), axis)
     assert "N s^3/m^3 v^2" in found.text
+
+
+def test_what_free_parameters_cover_promises_nothing():
+    """Of the first direction a millionth of its information is left: a gradient there would promise a gain of 5e5."""
+    own = np.diag([1.0, 4.0])
+    left = np.diag([1e-6, 3.0])
+    gradient, information = _told_apart(np.array([1.0, 6.0]), left, own)
+    assert gradient == pytest.approx([0.0, 6.0], abs=1e-9)
+    assert information == pytest.approx(np.diag([0.0, 3.0]), abs=1e-9)

@@ -30,6 +30,8 @@ CHOICES = math.log(len(SIZES) * len(LENGTHS))
 EDGE = 0.02
 TOLD = 0.1
 """The information of the data over that of the prior from which on a coefficient is fitted."""
+COVERED = 1e-2
+"""A direction of which less than this share of its information is left is covered by what is free anyway."""
 NUDGE = 3e-4
 """Finite-difference step of a coefficient in units of the drive."""
 
@@ -139,10 +141,27 @@ def _projected(fit: Fit, slopes: Sensitivity, key: str) -> tuple[Array, Array]:
     joint = Sensitivity(
         zero, here, np.vstack([slopes.errors, de]), np.vstack([slopes.variances, dv]), np.full(len(zero), width)
     )
-    information, k = joint.information(), len(slopes.theta)
-    base = information[:k, :k] + np.diag([1.0 / f.sd**2 if math.isfinite(f.sd) else 0.0 for f in problem.free])
-    pulled = solved(base, information[:k, k:])
-    return joint.gradient()[k:], information[k:, k:] - information[k:, :k] @ pulled
+    gradient, information, k = joint.gradient(), joint.information(), len(slopes.theta)
+    pull = [1.0 / f.sd**2 if math.isfinite(f.sd) else 0.0 for f in problem.free]
+    gradient[:k] -= np.array(pull) * (slopes.theta - np.array([f.mean for f in problem.free]))
+    pulled = solved(information[:k, :k] + np.diag(pull), information[:k, k:])
+    own = information[k:, k:]
+    return _told_apart(gradient[k:] - pulled.T @ gradient[:k], own - information[k:, :k] @ pulled, own)
+
+
+def _told_apart(gradient: Array, left: Array, own: Array) -> tuple[Array, Array]:
+    """Return gradient and information without the directions that the free parameters of the fit cover already.
+
+    Of the information `own` nothing is `left` there but errors of the differences, by which the rest of a gradient that
+    is not quite zero would be divided: a curve over velocity would then promise what a change of damping does.
+    """
+    values, vectors = np.linalg.eigh(own)
+    root = vectors * np.sqrt(np.maximum(values, 1e-9 * values[-1]))
+    white = np.linalg.solve(root, np.linalg.solve(root, left).T)
+    shares, axes = np.linalg.eigh(0.5 * (white + white.T))
+    kept = axes[:, shares > COVERED]
+    turned = root @ kept
+    return turned @ (kept.T @ np.linalg.solve(root, gradient)), turned * shares[shares > COVERED] @ turned.T
 
 
 def with_curve(problem: Problem, key: str, widths: Array, start: Array) -> Problem:
