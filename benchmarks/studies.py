@@ -77,7 +77,7 @@ def findings(d):
         "status": {"+".join(sorted(k)): f"{v.fit.status} {v.fit.rounds}" for k, v in course.visits.items()},
         "declined": sorted(course.declined),
         "random_gain": d.random_gain,
-        "verdict": list(d.found) or (["unknown"] if d.unknown else ["random_force"] if d.unexplained else []),
+        "verdict": [*d.named, *["unknown"] * d.unknown] or ["random_force"] * d.unexplained,
         "levels": {n: dict(zip(f.problem.keys, map(float, f.theta), strict=True)) for n, f in wide.items()},
         "usual": {n: {k: float(s) for k, s in f.sd.items()} for n, f in wide.items()},
         "intervals": {n: {k: i.as_dict() for k, i in intervals(f, draws_of(f, rng)).items()} for n, f in wide.items()},
