@@ -21,6 +21,8 @@ MOST = 7
 FAINT = 5.0
 """Nodes are this far apart in log intensity, at most so many to each side, as long as their log weight is within this
 of the best."""
+MANY = 24
+"""With more free parameters, as learned curves bring, a grid takes minutes: draws are then from the maximum alone."""
 
 
 @dataclass(frozen=True)
@@ -60,7 +62,7 @@ def _root(local: Local) -> Array:
 
 def _nodes(fit: Fit) -> list[Node]:
     """Return the nodes from the maximum outwards, each started from its neighbour."""
-    if RANDOM not in fit.problem.keys:
+    if RANDOM not in fit.problem.keys or len(fit.theta) > MANY:
         return [Node(fit.local, 0.0)]
     at = fit.problem.keys.index(RANDOM)
     free = fit.problem.free[at]
