@@ -18,7 +18,8 @@ from lostmotion.system import key_of
 from lostmotion.workflow.verdict import WORTH_NAMING
 
 RELATED = math.log(20.0)
-"""A relative of what was found is named where the evidence, without the price of its parameters, is so close."""
+"""A relative of what was found is named where the evidence, without the price of its parameters, is so close; laws of
+friction with a memory contain one another, so among these the likelihood is asked."""
 MOST = 2
 """So many rivals, the heaviest ones, are worth an experiment of their own."""
 LITTLE = 3.0
@@ -45,7 +46,11 @@ def rivals_of(d: Diagnosis) -> dict[str, Visit]:
         best = max(sets, key=lambda k: weights[k])
         stands_in = any(_related(term, term_of(problem, mine)[0]) for mine in problem.active - best)
         short = course.chosen.log_evidence - course.visits[best].fit.log_evidence
-        close = stands_in and short < RELATED
+        remembers = (
+            stands_in and bool(term.states) and any(term_of(problem, k)[0].states for k in problem.active - best)
+        )
+        likely = course.chosen.log_likelihood - course.visits[best].fit.log_likelihood < RELATED
+        close = stands_in and (short < RELATED or (remembers and likely))
         if course.inclusion(key) > WORTH_NAMING or close:
             rows[key] = course.visits[best]
     return dict(sorted(rows.items(), key=lambda row: -row[1].weight))

@@ -16,7 +16,7 @@ from lostmotion.system import key_of
 from lostmotion.workflow.findings import Outcome, found_in, intervals
 from lostmotion.workflow.unknowns import unknown_odds, where
 
-WORTH_NAMING = 0.05
+WORTH_NAMING = 0.01
 
 
 def verdict(outcome: Outcome) -> dict[str, Any]:
