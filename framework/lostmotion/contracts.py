@@ -134,7 +134,8 @@ class Term(ABC):
     `force` returns the generalised force on the body in positive direction (friction is negative for v > 0), with
     `x`, `v` the relative motion at the interface `at`, `p` the own `params` followed by `needs`, `s` the own states.
     `physics` is a sentence with the parameters in braces; `formula` is the law in plain text. `resembles` names terms
-    that tell a similar story, `equals` those that no recording of a machine that does not age can tell from this one.
+    that tell a similar story, `equals` those that no recording of a machine that does not age can tell from this one. A
+    term that does the same at every place says so by `anywhere`, and is tried at the ground alone.
     """
 
     at: str
@@ -150,6 +151,7 @@ class Term(ABC):
     further: ClassVar[tuple[Param, ...]] = ()
     resembles: ClassVar[tuple[str, ...]] = ()
     equals: ClassVar[tuple[str, ...]] = ()
+    anywhere: ClassVar[bool] = False
 
     @staticmethod
     @abstractmethod

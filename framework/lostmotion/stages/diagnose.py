@@ -111,7 +111,12 @@ def candidates_of(model: Model, terms: Sequence[type[Term]], tracks: Sequence[Tr
 
     Of terms that equal each other the first is enough.
     """
-    tried = [term(at=place.name) for place in model.interfaces for term in terms if term.acts == "motion"]  # type: ignore[call-arg]
+    tried = [
+        term(at=place.name)  # type: ignore[call-arg]
+        for place in model.interfaces
+        for term in terms
+        if term.acts == "motion" and (not term.anywhere or place.name == "ground" or len(model.interfaces) == 1)
+    ]
     tried += [term(at=term.acts) for term in terms if term.acts != "motion"]  # type: ignore[call-arg]
     driven = all(track.tone.omega > 0.0 for track in tracks)
     tried = [term for term in tried if term.fits(model) and (driven or "omega" not in term.needs)]

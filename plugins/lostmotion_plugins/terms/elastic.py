@@ -52,6 +52,7 @@ class OffsetForce(Term):
     formula: ClassVar[str] = "force"
     paper: ClassVar[str] = "Janot, Gautier, Brunot, Nonlinear System Identification Benchmarks workshop (2019)"
     params = (Param("force", "constant force in positive direction", FORCE, null=0.0),)
+    anywhere = True
 
     @staticmethod
     def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
