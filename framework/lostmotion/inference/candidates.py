@@ -8,12 +8,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from lostmotion.contracts import Array, Param, Term
+from lostmotion.contracts import Array, Param, Term, place_of
 from lostmotion.errors import ContractError
 from lostmotion.inference.fit import Fit, Sensitivity, maximise, restarted, sensitivity, solved, warmed
 from lostmotion.inference.problem import Free, Problem, Scales
+from lostmotion.quantities import FORCE
 from lostmotion.system import Slot
 
+CREEP, FINEST = 0.02, 32
 SHAPES = (0.3, 1.0, 3.0)
 """Where a shape parameter is tried, in units of its typical value."""
 
@@ -93,7 +95,24 @@ def with_term(problem: Problem, hint: Hint, start: Mapping[str, float]) -> Probl
     for slot in slots:
         if slot.param.choices:
             known[problem.system.index[slot.key]] = hint.start[slot.key]
-    return replace(problem, known=known).extended(frees_of(slots, problem.scales, start), {hint.key})
+    wider = replace(problem, known=known).extended(frees_of(slots, problem.scales, start), {hint.key})
+    return replace(wider, nsub=max(wider.nsub, steps_for_sticking(wider, wider.start)))
+
+
+def steps_for_sticking(problem: Problem, theta: Array, *, creep: float = CREEP) -> int:
+    """Return how many steps between samples a law needs that jumps at rest, so that it hardly creeps where it sticks.
+
+    It creeps by at most `force * mobility`, which is to be the share `creep` of the velocity of the motion.
+    """
+    system, most, full = problem.system, 1.0, problem.full(theta)
+    for key in problem.active:
+        term, slots = term_of(problem, key)
+        if "mobility" in term.needs:
+            inertia = full[system.index[place_of(system.model, term).inertia]]
+            force = sum(abs(full[system.index[s.key]]) for s in slots if s.param.dimension == FORCE)
+            width = force * max(t.dt for t in problem.tracks) / inertia
+            most = max(most, width / (creep * problem.scales.velocity))
+    return min(math.ceil(most), FINEST)
 
 
 @dataclass(frozen=True)

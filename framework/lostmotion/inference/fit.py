@@ -141,13 +141,19 @@ def _difference(above: Array, below: Array, width: float) -> Array:
 
 
 def expand(problem: Problem, theta: Array, steps: Array) -> Local:
-    """Return the log posterior at `theta` with its gradient and its expected information."""
+    """Return the log posterior at `theta` with its gradient and its expected information.
+
+    A uniform prior counts with its variance: where the recording tells nothing of a parameter, its posterior is as wide
+    as its prior, and the evidence by Laplace's method neither gains nor loses by it.
+    """
     slopes = sensitivity(problem, theta, steps)
     gradient, information = slopes.gradient(), slopes.information()
     for i, f in enumerate(problem.free):
         if math.isfinite(f.sd):
             gradient[i] -= (theta[i] - f.mean) / f.sd**2
             information[i, i] += 1.0 / f.sd**2
+        elif f.high > f.low:
+            information[i, i] += 12.0 / (f.high - f.low) ** 2
     log_likelihood = slopes.here.log_likelihood
     return Local(theta, log_likelihood, log_likelihood + problem.log_prior(theta), gradient, information, steps)
 

@@ -79,7 +79,8 @@ def _nodes(fit: Fit) -> list[Node]:
             if not near.weight > max(n.weight for n in nodes) - FAINT:
                 break
             nodes.append(near)
-    return nodes
+    heavy = [node for node in nodes if math.isfinite(node.weight)]
+    return heavy or [Node(fit.local, 0.0)]
 
 
 def _node(fit: Fit, theta: Array, at: int) -> Node:

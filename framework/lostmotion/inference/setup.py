@@ -13,6 +13,7 @@ from lostmotion.case import Case, Prior, Sensor
 from lostmotion.contracts import Array
 from lostmotion.errors import CaseError, ContractError
 from lostmotion.forcing import substeps
+from lostmotion.inference.candidates import CREEP, steps_for_sticking
 from lostmotion.inference.fit import Fit, maximise, restarted, warmed
 from lostmotion.inference.free import LEVELS, NOISE, OFFSET, RANDOM, Free, keys_of
 from lostmotion.inference.modes import Tried, distinct
@@ -32,7 +33,7 @@ WITHIN = 20.0
 SLACK = 30.0
 """Before the final fits a hill may be this much lower, in log posterior."""
 
-FINE = 0.015
+COARSE, FINE = 0.06, 0.015
 """Final estimates take steps a quarter as long as those of the search: a kink makes RK4 first order."""
 
 
@@ -163,10 +164,11 @@ def rate_of(problem: Problem, theta: Array) -> float:
     return max(1.0 / scales.time, *(system.stiffness(full, problem.active, states, middle) for full in fulls))
 
 
-def stepped(problem: Problem, theta: Array, *, accuracy: float = 0.06) -> Problem:
+def stepped(problem: Problem, theta: Array, *, accuracy: float = COARSE) -> Problem:
     """Return the problem with as many steps between samples as the stiffness along the recorded motion asks for."""
     rate = rate_of(problem, theta)
-    return replace(problem, nsub=substeps(rate, max(t.dt for t in problem.tracks), accuracy=accuracy))
+    steps = substeps(rate, max(t.dt for t in problem.tracks), accuracy=accuracy)
+    return replace(problem, nsub=max(steps, steps_for_sticking(problem, theta, creep=CREEP * accuracy / COARSE)))
 
 
 def search(problem: Problem, rng: np.random.Generator, *, points: int = 48, finalists: int = 4) -> Fit:

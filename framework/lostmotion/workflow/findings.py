@@ -58,7 +58,7 @@ def found_in(outcome: Outcome) -> list[dict[str, Any]]:
     entries = [_entry(outcome, key, after) for key in d.named] + [_mark(d, key) for key in d.marks]
     if d.learned:
         entries.append(learned_entry(d))
-    elif not d.found and d.unexplained:
+    elif d.unexplained:
         entries.append(unnamed_entry(d))
     return entries
 

@@ -63,8 +63,9 @@ def _listed(names: list[str]) -> str:
 
 def unnamed_entry(d: Diagnosis) -> dict[str, Any]:
     """Return the entry of a force that neither a term nor a curve explains: structured ("unknown") or not."""
-    depends = d.located.structure
-    rms = float(np.std(d.located.missing.force))
+    located = d.left or d.located
+    depends = [] if d.found else located.structure
+    rms = float(np.std(located.missing.force))
     unit = _unit_of(d, Dimension(1, 0, 0))
     share = rms / d.after.problem.scales.force
     on = f"depends on {_listed(depends)}" if depends else "depends on nothing that was recorded"
