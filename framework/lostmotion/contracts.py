@@ -46,6 +46,7 @@ class Param:
     parameter in natural scales of the recording (drive force, rms position and velocity); `scale="log"` says that
     the parameter is positive and known by order of magnitude. One with `choices` is one of these numbers, tried in turn
     and then held. Of one that is `lasting` the natural time is the length of the recording, not that of the motion.
+    `far` lists multiples of the typical size at which an amplitude is tried, where its effect does not grow steadily.
     """
 
     name: str
@@ -59,6 +60,7 @@ class Param:
     aliases: tuple[str, ...] = ()
     choices: tuple[float, ...] = ()
     lasting: bool = False
+    far: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True)

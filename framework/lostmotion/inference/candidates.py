@@ -16,6 +16,8 @@ from lostmotion.quantities import FORCE
 from lostmotion.system import Slot
 
 CREEP, FINEST = 0.02, 32
+SHORT, CLEAR = 1500, 8.0
+"""Values far off are tried on so many samples, and count when the log-likelihood gains so much there."""
 SHAPES = (0.3, 1.0, 3.0)
 """Where a shape parameter is tried, in units of its typical value."""
 
@@ -73,7 +75,27 @@ def screen(fit: Fit, slopes: Sensitivity, key: str) -> Hint:
     for values in star(grids):
         shape = {s.key: value for s, value in zip(shapes, values, strict=True)}
         hints.append(_score(fit, slopes, Trial(key, amplitudes, shape)))
+    if len(amplitudes) == 1 and amplitudes[0].param.far:
+        hints.append(_afar(fit, amplitudes[0], key, hints[0].distinct))
     return max(hints, key=lambda h: h.gain)
+
+
+def _afar(fit: Fit, slot: Slot, key: str, distinct: float) -> Hint:
+    """Return the best of the values of an amplitude that are tried beyond the reach of a score test.
+
+    For each the other parameters take one step of Fisher scoring on the beginning of the recording.
+    """
+    short = fit.problem.on(tuple(t.part(0, min(t.samples, SHORT)) for t in fit.problem.tracks))
+    size = size_of(slot.param, fit.problem.scales)
+    best, gain, bottom = 0.0, 0.0, maximise(restarted(replace(fit, problem=short)), fit.theta, rounds=2)
+    for factor in slot.param.far:
+        known = short.known.copy()
+        known[short.system.index[slot.key]] = factor * size
+        trial = replace(short, known=known, active=short.active | {key})
+        found = maximise(trial, bottom.theta, rounds=4, tolerance=1.0)
+        if found.log_likelihood - bottom.log_likelihood > gain:
+            best, gain = factor * size, found.log_likelihood - bottom.log_likelihood
+    return Hint(key, gain if gain > CLEAR else 0.0, {slot.key: best}, distinct)
 
 
 def star(grids: Sequence[Sequence[float]]) -> list[tuple[float, ...]]:

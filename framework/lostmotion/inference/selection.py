@@ -21,6 +21,7 @@ BEAM = 3
 EXTRA = 1.5
 """The log price of each parameter of a term beyond its first."""
 CLOSE = 12.0
+NEARLY = 2.5
 DECISIVE = math.log(20.0)
 """A term is taken when it makes the posterior odds of the model twenty times better."""
 CERTAIN = 3.0
@@ -115,6 +116,8 @@ class Selector:
         for visit in self._beam(here):
             self._additions(visit.fit)
         self._swaps(here.fit)
+        for visit in self._nearly(here):
+            self._additions(visit.fit)
         self._settle()
         for visit in sorted(self.course.visits.values(), key=lambda v: -v.weight):
             needed = DECISIVE if visit.terms > here.terms else 0.0
@@ -126,6 +129,17 @@ class Selector:
                 return True
             self.course.declined.update(visit.terms - here.terms)
         return False
+
+    def _nearly(self, here: Visit) -> list[Visit]:
+        """Return the best sets of one more term, where none is decisive but some are not far from it.
+
+        Two small effects may be decisive together where neither is alone.
+        """
+        more = [v for v in self.course.visits.values() if v.terms > here.terms]
+        if any(v.weight > here.weight + DECISIVE for v in more):
+            return []
+        good = [v for v in more if v.fit.log_evidence > here.fit.log_evidence + NEARLY]
+        return sorted(good, key=lambda v: -v.weight)[: BEAM - 1]
 
     def _settle(self) -> None:
         """Fit the best sets again from a raised random force: some of them may have stopped at a false maximum."""

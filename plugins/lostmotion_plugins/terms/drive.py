@@ -12,6 +12,9 @@ from lostmotion.beside import DriveTerm, Input
 from lostmotion.contracts import Array, Param, Values
 from lostmotion.quantities import NUMBER, TIME
 
+FAR = (-2.0, -1.0, -0.5, -0.2, 0.2, 0.5, 1.0, 1.5, 2.0, 2.8, 4.0, 5.5)
+"""Delays in natural times of the motion, a radian of it: beyond a few tenths the response no longer grows with them."""
+
 
 @dataclass(frozen=True)
 class ExcitationHarmonic(DriveTerm):
@@ -74,7 +77,7 @@ class ExcitationDelay(DriveTerm):
     physics: ClassVar[str] = "The drive acts {delay} after it was recorded"
     formula: ClassVar[str] = "u(t - delay)"
     paper: ClassVar[str] = "Ljung, System Identification: Theory for the User (1999), section 4.2"
-    params = (Param("delay", "delay of the drive", TIME, null=0.0, typical=0.1),)
+    params = (Param("delay", "delay of the drive", TIME, null=0.0, far=FAR),)
     resembles = ("sensor_delay",)
     equals = ("sensor_delay",)
 

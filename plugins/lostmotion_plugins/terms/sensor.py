@@ -11,6 +11,7 @@ import numpy as np
 from lostmotion.beside import SensorTerm
 from lostmotion.contracts import Array, Param, Values
 from lostmotion.quantities import LENGTH, NUMBER, TIME
+from lostmotion_plugins.terms.drive import FAR
 
 _LEVELS = 30
 """At least so many differences of neighbouring values have to lie on the lattice."""
@@ -43,7 +44,7 @@ class SensorDelay(SensorTerm):
     physics: ClassVar[str] = "The sensor of the response is late by {delay}"
     formula: ClassVar[str] = "x(t - delay)"
     paper: ClassVar[str] = "Ljung, System Identification: Theory for the User (1999), section 4.2"
-    params = (Param("delay", "delay of the sensor", TIME, low=0.0, null=0.0, typical=0.1),)
+    params = (Param("delay", "delay of the sensor", TIME, low=0.0, null=0.0, far=FAR),)
     resembles = ("excitation_delay",)
     equals = ("excitation_delay",)
 
