@@ -78,7 +78,7 @@ def _banded(axes: Axes, places: Any, rows: list[Row]) -> None:
 
 def reliability(facts: Mapping[str, Any]) -> Figure:
     """Return how often a mechanism was at work, over the probability that was stated."""
-    figure = style.blank(3.4, 5.2)
+    figure = style.blank(3.6)
     axes = figure.subplots()
     rows = [row for row in facts["reliability"] if row["of"]]
     axes.plot([0.0, 1.0], [0.0, 1.0], color=EDGE, linewidth=0.8, linestyle=(0, (3, 2)))
