@@ -8,9 +8,10 @@ from typing import ClassVar
 import pytest
 
 from lostmotion import testing
+from lostmotion.beside import DriveTerm, SensorTerm
 from lostmotion.contracts import Denoiser, Interface, Model, Param, Term
 from lostmotion.errors import ContractError
-from lostmotion.quantities import DAMPING, INERTIA, NUMBER
+from lostmotion.quantities import DAMPING, INERTIA, NUMBER, TIME
 
 DRAG = Param("coefficient", "drag", DAMPING, low=0.0, null=0.0)
 MASS = Param("m", "mass", INERTIA, low=0.0, scale="log")
@@ -46,6 +47,38 @@ class Memory(Drag):
     @staticmethod
     def rate(t, x, v, u, p, s, dsdt):
         dsdt[0] = p[0] * v - s[0]
+
+
+@dataclass(frozen=True)
+class Late(DriveTerm):
+    """A good term of the drive."""
+
+    at: str = "drive"
+    name: ClassVar[str] = "late"
+    physics: ClassVar[str] = "The drive is late by {delay}"
+    formula: ClassVar[str] = "u(t - delay)"
+    paper: ClassVar[str] = "Ljung (1999)"
+    params = (Param("delay", "delay of the drive", TIME, null=0.0),)
+
+    @staticmethod
+    def true(u, t, p, order):
+        return u(t - p[0], order)
+
+
+@dataclass(frozen=True)
+class Gauge(SensorTerm):
+    """A good term of the sensor."""
+
+    at: str = "sensor"
+    name: ClassVar[str] = "gauge"
+    physics: ClassVar[str] = "The sensor shows too much by {error}"
+    formula: ClassVar[str] = "(1 + error) * x"
+    paper: ClassVar[str] = "Ljung (1999)"
+    params = (Param("error", "error of the gain", NUMBER, null=0.0),)
+
+    @staticmethod
+    def gain(p):
+        return 1.0 + p[0]
 
 
 @dataclass(frozen=True)
@@ -168,6 +201,24 @@ def ground(**changes):
 
 
 RANDOM = {"compiles_to_the_same_numbers"}
+
+
+def shifts_always(u, t, p, order):
+    return u(t - p[0] - 1.0, order)
+
+
+def leaves_as_it_is(u, t, p, order):
+    return u(t, order)
+
+
+def forgets_the_order(u, t, p, order):
+    return u(t - p[0], 0)
+
+
+def shows_twice(p):
+    return 2.0
+
+
 BAD = [
     ("name_is_snake_case", Drag, {"name": "Air Drag"}, set()),
     ("paper_is_cited", Drag, {"paper": ""}, set()),
@@ -211,6 +262,10 @@ BAD = [
     ("force_is_deterministic", Drag, {"force": staticmethod(trembles)}, RANDOM),
     ("compiles_to_the_same_numbers", Drag, {"force": staticmethod(makes_text_of_it)}, set()),
     ("rate_writes_every_state", Memory, {"rate": staticmethod(forgets_a_state)}, None),
+    ("input_is_as_recorded_at_null", Late, {"true": staticmethod(shifts_always)}, None),
+    ("input_is_changed", Late, {"true": staticmethod(leaves_as_it_is)}, set()),
+    ("derivative_is_that_of_the_input", Late, {"true": staticmethod(forgets_the_order)}, None),
+    ("sensor_is_true_at_null", Gauge, {"gain": staticmethod(shows_twice)}, set()),
 ]
 
 
