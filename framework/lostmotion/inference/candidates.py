@@ -75,7 +75,7 @@ def screen(fit: Fit, slopes: Sensitivity, key: str) -> Hint:
     for values in star(grids):
         shape = {s.key: value for s, value in zip(shapes, values, strict=True)}
         hints.append(_score(fit, slopes, Trial(key, amplitudes, shape)))
-    if len(amplitudes) == 1 and amplitudes[0].param.far:
+    if len(amplitudes) == 1 and amplitudes[0].param.far and not problem.active:
         hints.append(_afar(fit, amplitudes[0], key, hints[0].distinct))
     return max(hints, key=lambda h: h.gain)
 
@@ -83,7 +83,8 @@ def screen(fit: Fit, slopes: Sensitivity, key: str) -> Hint:
 def _afar(fit: Fit, slot: Slot, key: str, distinct: float) -> Hint:
     """Return the best of the values of an amplitude that are tried beyond the reach of a score test.
 
-    For each the other parameters take one step of Fisher scoring on the beginning of the recording.
+    For each the other parameters are refitted roughly, on the beginning of the recording. It is done for the nominal
+    model alone: what is so far off is missed by it at once.
     """
     short = fit.problem.on(tuple(t.part(0, min(t.samples, SHORT)) for t in fit.problem.tracks))
     size = size_of(slot.param, fit.problem.scales)
@@ -92,7 +93,7 @@ def _afar(fit: Fit, slot: Slot, key: str, distinct: float) -> Hint:
         known = short.known.copy()
         known[short.system.index[slot.key]] = factor * size
         trial = replace(short, known=known, active=short.active | {key})
-        found = maximise(trial, bottom.theta, rounds=4, tolerance=1.0)
+        found = maximise(trial, bottom.theta, rounds=3, tolerance=1.0)
         if found.log_likelihood - bottom.log_likelihood > gain:
             best, gain = factor * size, found.log_likelihood - bottom.log_likelihood
     return Hint(key, gain if gain > CLEAR else 0.0, {slot.key: best}, distinct)

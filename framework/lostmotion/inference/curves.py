@@ -27,6 +27,8 @@ LENGTHS = (0.06, 0.12, 0.25, 0.5, 1.0)
 """Correlation lengths that are tried, in half widths of the range."""
 CHOICES = math.log(len(SIZES) * len(LENGTHS))
 """The log price of a smoothness that was chosen."""
+ROUNDS = 6
+"""A curve is nearly linear in its coefficients and begins at a score estimate: a few rounds of scoring settle it."""
 EDGE = 0.02
 TOLD = 0.1
 """The information of the data over that of the prior from which on a coefficient is fitted."""
@@ -181,7 +183,7 @@ def fit_curve(fit: Fit, shape: Shape) -> Fit:
     base = restarted(fit)
     problems = [with_curve(base, shape.key, shape.widths, f * shape.start) for f in (1.0, 0.5, 0.2)]
     heights = [p.log_posterior(p.clip(p.start)) for p in problems]
-    return maximise(problems[int(np.argmax(heights))], rounds=15, tolerance=0.1)
+    return maximise(problems[int(np.argmax(heights))], rounds=ROUNDS, tolerance=0.3)
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from lostmotion.inference.candidates import slopes_of
-from lostmotion.inference.curves import CHOICES, fit_curve, shape_of, transplanted
+from lostmotion.inference.curves import CHOICES, ROUNDS, fit_curve, shape_of, transplanted
 from lostmotion.inference.fit import Fit, maximise
 from lostmotion.inference.learned import Learned
 from lostmotion.inference.problem import RANDOM, Problem
@@ -18,6 +18,8 @@ from lostmotion.inference.selection import DECISIVE, EXTRA, WORTH, significant_r
 from lostmotion.system import key_of
 
 MOST_CURVES = 2
+MOST_SAMPLES = 8000
+"""Curves are sought on so many samples, and then fitted to all."""
 HOPE = 0.3
 FITTED, RIVAL = 2, 0.7
 """So many curves are fitted on top of each set, those that promise this share of what the best one does: a score test
@@ -101,11 +103,13 @@ def unknown_of(nominal: Fit, chosen: Fit, many: int, say: Progress = lambda _: N
     `many` is the number of terms that were tried. Curves are tried on top of the chosen terms and of the nominal model
     alone; where the terms bring nothing beside the curves, they are dropped.
     """
-    before, after = transplanted(nominal, chosen.problem.active), transplanted(chosen, chosen.problem.active)
+    whole, samples = chosen.problem.tracks, sum(t.samples for t in chosen.problem.tracks)
+    before, after = (_shortened(transplanted(fit, chosen.problem.active)) for fit in (nominal, chosen))
     search = Search(many + len(before.problem.system.terms), say)
     bar = max(search.visit(before), search.visit(after))
-    for fit in (after, before) if chosen.problem.active else (after,):
-        search.learn(fit)
+    search.learn(after)
+    if chosen.problem.active:
+        search.learn(before, 1)
     best = _best(search)
     while best and len(_curves(best.problem)) < MOST_CURVES and significant_random_force(best) > 0.0:
         search.learn(best, 1)
@@ -119,8 +123,21 @@ def unknown_of(nominal: Fit, chosen: Fit, many: int, say: Progress = lambda _: N
     gain = search.visits[best.problem.active][1] - bar
     if gain < DECISIVE or not _worth(best, after):
         return None
+    if samples > sum(t.samples for t in best.problem.tracks):
+        say("learned curves on all of the recording")
+        best = maximise(best.problem.on(whole), best.theta, rounds=ROUNDS, tolerance=0.3)
     alone = bool(chosen.problem.active) and best.problem.active == frozenset(_curves(best.problem))
     return Unknown(best, _curves(best.problem), gain, alone)
+
+
+def _shortened(fit: Fit) -> Fit:
+    """Return the fit on the beginnings of its recordings where they are long: curves have dozens of coefficients."""
+    tracks = fit.problem.tracks
+    share = MOST_SAMPLES / sum(t.samples for t in tracks)
+    if share >= 1.0:
+        return fit
+    parts = tuple(t.part(0, round(share * t.samples)) for t in tracks)
+    return maximise(fit.problem.on(parts), fit.theta, rounds=ROUNDS)
 
 
 def _curves(problem: Problem) -> tuple[str, ...]:
@@ -137,15 +154,15 @@ def _best(search: Search) -> Fit | None:
 
 
 def _without(search: Search, fit: Fit) -> Fit:
-    """Return the fit with the terms dropped that bring nothing decisive beside the curves."""
+    """Return the fit with the terms dropped without which it has more weight: a name is kept while it costs nothing."""
     for key in sorted(fit.problem.active - set(_curves(fit.problem))):
         known = search.visits.get(fit.problem.active - {key})
         if known is None:
             search.say(f"without {key}")
-            fewer = maximise(fit.problem.reduced(key, fit.values), rounds=15, tolerance=0.1)
+            fewer = maximise(fit.problem.reduced(key, fit.values), rounds=ROUNDS, tolerance=0.3)
             search.visit(fewer)
             known = search.visits[fewer.problem.active]
-        if known[1] + DECISIVE > search.visits[fit.problem.active][1]:
+        if known[1] > search.visits[fit.problem.active][1]:
             return _without(search, known[0])
     return fit
 
