@@ -28,7 +28,7 @@ CERTAIN = 3.0
 """An amplitude counts when it is this many robust standard deviations from nothing."""
 REMEMBERS = 2.0
 WORTH = 0.2
-RICH = 4
+RICH, MANY = 4, 20
 SAME = 1e-4
 """Below this share of its own information a term cannot be told from parameters that are estimated anyway."""
 
@@ -277,5 +277,5 @@ def significant_random_force(fit: Fit) -> float:
             theta[i], frees[i] = cap, replace(free, high=cap, start=cap)
     if np.array_equal(theta, fit.theta):
         return 0.0
-    capped = maximise(replace(problem, free=tuple(frees)), theta)
+    capped = maximise(replace(problem, free=tuple(frees)), theta, rounds=6 if len(theta) > MANY else 40)
     return float(np.maximum(fit.log_likelihood - capped.log_likelihood, 0.0))

@@ -101,7 +101,7 @@ def unknown_of(nominal: Fit, chosen: Fit, many: int, say: Progress = lambda _: N
     """Return the learned curves that explain decisively more than the terms of the library, or None.
 
     `many` is the number of terms that were tried. Curves are tried on top of the chosen terms and of the nominal model
-    alone; where the terms bring nothing beside the curves, they are dropped.
+    alone: where the curves do without the terms, these are dropped, and else the names are kept.
     """
     whole, samples = chosen.problem.tracks, sum(t.samples for t in chosen.problem.tracks)
     before, after = (_shortened(transplanted(fit, chosen.problem.active)) for fit in (nominal, chosen))
@@ -119,7 +119,6 @@ def unknown_of(nominal: Fit, chosen: Fit, many: int, say: Progress = lambda _: N
         best = further
     if best is None:
         return None
-    best = _without(search, best)
     gain = search.visits[best.problem.active][1] - bar
     if gain < DECISIVE or not _worth(best, after):
         return None
@@ -151,20 +150,6 @@ def _best(search: Search) -> Fit | None:
     """Return the best fit with curves: one with a curve more has to be decisively better than the one without."""
     ranked = [(w - DECISIVE * len(_curves(f.problem)), f) for f, w in search.visits.values() if _curves(f.problem)]
     return max(ranked, key=lambda pair: pair[0])[1] if ranked else None
-
-
-def _without(search: Search, fit: Fit) -> Fit:
-    """Return the fit with the terms dropped without which it has more weight: a name is kept while it costs nothing."""
-    for key in sorted(fit.problem.active - set(_curves(fit.problem))):
-        known = search.visits.get(fit.problem.active - {key})
-        if known is None:
-            search.say(f"without {key}")
-            fewer = maximise(fit.problem.reduced(key, fit.values), rounds=ROUNDS, tolerance=0.3)
-            search.visit(fewer)
-            known = search.visits[fewer.problem.active]
-        if known[1] > search.visits[fit.problem.active][1]:
-            return _without(search, known[0])
-    return fit
 
 
 def _worth(fit: Fit, without: Fit) -> bool:
