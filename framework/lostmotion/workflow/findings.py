@@ -83,7 +83,7 @@ def _entry(outcome: Outcome, key: str, after: Mapping[str, Interval]) -> dict[st
 
 def _mark(d: Diagnosis, key: str) -> dict[str, Any]:
     """Return the entry of a term that the stored values themselves betray."""
-    term, slots = term_of(d.after.problem, key)
+    term, slots = term_of(d.selection.nominal.problem, key)
     rows = zip(slots, *d.marks[key], strict=True)
     unit = (SI if d.after.problem.system.model.motion == "translation" else ANGULAR)[d.shown.channel]
     own = {s.param.name: Interval(v, v - 1.96 * sd, v + 1.96 * sd, unit) for s, v, sd in rows}
