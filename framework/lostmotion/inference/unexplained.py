@@ -18,6 +18,7 @@ from lostmotion.inference.selection import DECISIVE, EXTRA, WORTH, significant_r
 from lostmotion.system import key_of
 
 MOST_CURVES = 2
+KEPT = 0.2
 MOST_SAMPLES = 8000
 """Curves are sought on so many samples, and then fitted to all."""
 HOPE = 0.3
@@ -122,6 +123,8 @@ def unknown_of(nominal: Fit, chosen: Fit, many: int, say: Progress = lambda _: N
     gain = search.visits[best.problem.active][1] - bar
     if gain < DECISIVE or not _worth(best, after):
         return None
+    if _takes_over(best, after):
+        return None
     if samples > sum(t.samples for t in best.problem.tracks):
         say("learned curves on all of the recording")
         best = maximise(best.problem.on(whole), best.theta, rounds=ROUNDS, tolerance=0.3)
@@ -150,6 +153,17 @@ def _best(search: Search) -> Fit | None:
     """Return the best fit with curves: one with a curve more has to be decisively better than the one without."""
     ranked = [(w - DECISIVE * len(_curves(f.problem)), f) for f, w in search.visits.values() if _curves(f.problem)]
     return max(ranked, key=lambda pair: pair[0])[1] if ranked else None
+
+
+def _takes_over(fit: Fit, without: Fit) -> bool:
+    """Return whether curves change the size of a named law by more than `KEPT`: then they are its shape, and no more.
+
+    A curve over velocity can be a part of dry friction; where the law is named, its size is to be that of the law.
+    """
+    old, new = without.values, fit.values
+    sizes = [key for key in old if "." in key and key in new and abs(old[key]) > 0.0]
+    amplitudes = [key for key in sizes if not next(f for f in without.problem.free if f.key == key).log]
+    return any(abs(new[key] - old[key]) > KEPT * abs(old[key]) for key in amplitudes)
 
 
 def _worth(fit: Fit, without: Fit) -> bool:

@@ -58,9 +58,14 @@ def found_in(outcome: Outcome) -> list[dict[str, Any]]:
     entries = [_entry(outcome, key, after) for key in d.named] + [_mark(d, key) for key in d.marks]
     if d.learned:
         entries.append(learned_entry(d))
-    elif d.unexplained:
+    elif d.unexplained and (not d.found or _shapeless(d)):
         entries.append(unnamed_entry(d))
     return entries
+
+
+def _shapeless(d: Diagnosis) -> bool:
+    """Return whether what is left beside terms is a random force: with no structure, and no memory that was doubted."""
+    return not (d.left and d.left.structure) and not d.selection.declined
 
 
 def _entry(outcome: Outcome, key: str, after: Mapping[str, Interval]) -> dict[str, Any]:
