@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 import warnings
+import zipfile
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
@@ -12,9 +13,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lostmotion.errors import DataError
+from lostmotion.recording.limits import TEXT, check_bytes
 from lostmotion.recording.text import read_text
+from lostmotion.recording.unpacked import check_hdf5, check_mat, check_npz
 
 Array = NDArray[np.float64]
+KINDS = "fiub"
+"""Kinds of numbers that a column can be made of: real, whole, true or false."""
 
 
 def read_columns(path: Path) -> dict[str, Array]:
@@ -55,8 +60,11 @@ def _must_be_file(path: Path) -> None:
         raise DataError(f"{path.name} is a folder: give the recording inside it")
     if not path.exists():
         raise DataError(f"{path.name} does not exist in {path.parent.name or '.'}{_neighbour(path)}: correct the name")
+    if not path.is_file():
+        raise DataError(f"{path.name} is no ordinary file: give a file that holds the recording")
     if path.stat().st_size == 0:
         raise DataError(f"{path.name} is empty (0 bytes): record or export it again")
+    check_bytes(path.stat().st_size, path.name)
 
 
 def _neighbour(path: Path) -> str:
@@ -70,6 +78,8 @@ def _first_line(err: Exception) -> str:
 
 
 def _read_npz(path: Path) -> dict[str, Array]:
+    if zipfile.is_zipfile(path):
+        check_npz(path)
     archive = np.load(path, allow_pickle=False)
     if not isinstance(archive, np.lib.npyio.NpzFile):
         raise DataError(f"{path.name} holds a single array: wanted an archive of named ones, as np.savez writes it")
@@ -92,9 +102,13 @@ def _read_mat(path: Path) -> dict[str, Array]:
     import h5py
     import pymatreader
 
-    with path.open("rb") as raw:
-        if raw.read(6) != b"MATLAB" and h5py.is_hdf5(path):  # HDF5 of another program under the ending of MATLAB
-            return _read_h5(path)
+    if h5py.is_hdf5(path):
+        with path.open("rb") as raw:
+            if raw.read(6) != b"MATLAB":  # HDF5 of another program under the ending of MATLAB
+                return _read_h5(path)
+        check_hdf5(path)
+    else:
+        check_mat(path)
     content = pymatreader.read_mat(path)
     return dict(_flat_all({k: v for k, v in content.items() if not k.startswith("__")}))
 
@@ -107,6 +121,7 @@ def _read_nc(path: Path) -> dict[str, Array]:
     if classic:  # netCDF 3 knows no groups
         with xr.open_dataset(path, engine="scipy", decode_times=False) as data:
             return dict(_flat_all({str(n): v.values for n, v in data.variables.items()}))
+    check_hdf5(path)
     groups = xr.open_groups(path, engine="h5netcdf", decode_times=False)
     try:
         found = {_inside(g, n): v.values for g, data in groups.items() for n, v in data.variables.items()}
@@ -123,17 +138,23 @@ def _inside(group: str, name: object) -> str:
 def _read_h5(path: Path) -> dict[str, Array]:
     import h5py
 
+    check_hdf5(path)
     with h5py.File(path, "r") as file:
         if "_NCProperties" not in file.attrs:
             found: dict[str, Any] = {}
-            file.visititems(lambda name, item: found.update({name: item[()]} if isinstance(item, h5py.Dataset) else {}))
+            file.visititems(lambda name, item: found.update({name: item[()]} if _numeric(item) else {}))
             return dict(_flat_all(found))
     return _read_nc(path)
+
+
+def _numeric(item: Any) -> bool:
+    return getattr(item, "dtype", None) is not None and item.dtype.kind in KINDS
 
 
 def _read_uff(path: Path) -> dict[str, Array]:
     import pyuff
 
+    check_bytes(path.stat().st_size, path.name, TEXT)
     with path.open("rb") as raw:
         if sum(line.rstrip() == b"    -1" for line in raw) % 2:  # pyuff skips a set without an end, and says nothing
             raise DataError(f"{path.name}: the last data set has no end: the file is cut short, export it again")
@@ -163,7 +184,7 @@ def _flat(name: str, value: Any) -> Iterator[tuple[str, Array]]:
 
 
 def _series(name: str, array: NDArray[Any]) -> Iterator[tuple[str, Array]]:
-    if array.dtype.kind not in "fiub":
+    if array.dtype.kind not in KINDS:
         return
     if array.ndim == 1:
         yield name, array.astype(np.float64)

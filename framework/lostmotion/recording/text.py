@@ -1,32 +1,86 @@
-"""Columns of a text file: a header line, then numbers between commas, semicolons, tabs or blanks."""
+"""Columns of a text file: a header line, then numbers between commas, semicolons, tabs or blanks.
+
+The file is read line by line, twice or three times, so that memory is spent on its numbers and on little else.
+"""
 
 from __future__ import annotations
 
+import codecs
 import csv
 import re
-from dataclasses import dataclass
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from itertools import islice
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from lostmotion.errors import DataError
+from lostmotion.recording.limits import check_columns, check_line, check_numbers
 
 Array = NDArray[np.float64]
 MISSPELT = re.compile(r"[+-]?\d[\d.,' ]*([eE][+-]?\d+)?")
 """A cell that was meant to be a number, with separators of thousands perhaps, and not a word or a date."""
 MISSING = {"", "nan", "na", "n/a", "null", "none", "-"}
+AT_ONCE = 4096
+"""Lines that are held as text at one time, where each cell is looked at."""
+_BLOCK = 1 << 20
+_UTF_16 = (b"\xff\xfe", b"\xfe\xff")
 
 
 @dataclass(frozen=True)
 class _Table:
-    """A text file taken apart: `rows` are the lines below the header, the first of them is line `first`."""
+    """A text file taken apart: the numbers begin at line `first`; `commas` are decimal ones."""
 
-    file: str
+    path: Path
+    encoding: str
     names: list[str]
     separator: str | None
-    rows: list[str]
+    commas: bool
     first: int
+
+    @contextmanager
+    def rows(self) -> Iterator[Iterator[str]]:
+        """Yield the lines below the header, with decimal points."""
+        with self.path.open(encoding=self.encoding) as stream:
+            below = islice(stream, self.first - 1, None)
+            yield (line.replace(",", ".") for line in below) if self.commas else below
+
+
+@dataclass
+class _Column:
+    """What is known of one column so far: its values, the first cell that is no number, whether one was meant."""
+
+    name: str
+    parts: list[Array] = field(default_factory=list)
+    wrong: tuple[int, str] | None = None
+    meant: bool = False
+    numbers: bool = False
+
+    def add(self, lines: list[int], cells: Iterable[str]) -> None:
+        """Take in the cells that stand in some lines of the file."""
+        values = np.empty(len(lines))
+        for k, cell in enumerate(cells):
+            value = _number(cell)
+            values[k] = np.nan if value is None else value
+            if value is None:
+                self.wrong = self.wrong or (lines[k], cell.strip())
+                self.meant = self.meant or bool(MISSPELT.fullmatch(cell.strip()))
+        self.numbers = self.numbers or bool(np.isfinite(values).any() or np.isinf(values).any())
+        self.parts.append(values)
+
+    def settled(self, file: str) -> Array | None:
+        """Return the column (n,), or None when none of its cells is a number: a column of words is left out."""
+        if self.wrong and not self.meant and not self.numbers:
+            return None
+        if self.wrong:
+            line, cell = self.wrong
+            hint = "write decimal points" if re.fullmatch(r"[+-]?\d+,\d+", cell) else "correct or empty it"
+            raise DataError(f"{file}, line {line}, column {self.name!r}: {cell[:40]!r} is not a number: {hint}")
+        return np.concatenate(self.parts)
 
 
 def read_text(path: Path) -> dict[str, Array]:
@@ -34,47 +88,72 @@ def read_text(path: Path) -> dict[str, Array]:
 
     Comma, semicolon, tab or blank separate the cells; with any but the comma, a decimal comma is understood.
     """
-    table = _table(path.name, _decode(path).splitlines())
-    return _fast(table) or _careful(table)
+    table = _table(path)
+    found = _fast(table)
+    return _careful(table) if found is None else found
 
 
-def _decode(path: Path) -> str:
-    raw = path.read_bytes()
-    if raw.startswith((b"\xff\xfe", b"\xfe\xff")):
-        return raw.decode("utf-16")
-    if any(byte < 32 and byte not in b"\t\n\r\f" for byte in raw[:4096]):
-        raise DataError(f"{path.name} is not text: give the file its true ending, or export the recording as csv")
-    try:
-        return raw.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        return raw.decode("latin-1")
+def _encoding(path: Path) -> str:
+    """Return the encoding of a text: UTF-16 with its mark, UTF-8 if it is valid, else Latin-1."""
+    with path.open("rb") as raw:
+        head = raw.read(4096)
+        if head.startswith(_UTF_16):
+            return "utf-16"
+        if any(byte < 32 and byte not in b"\t\n\r\f" for byte in head):
+            raise DataError(f"{path.name} is not text: give the file its true ending, or export the recording as csv")
+        raw.seek(0)
+        decoder = codecs.getincrementaldecoder("utf-8")()
+        try:
+            while block := raw.read(_BLOCK):
+                decoder.decode(block)
+            decoder.decode(b"", final=True)
+        except UnicodeDecodeError:
+            return "latin-1"
+    return "utf-8-sig"
 
 
-def _table(file: str, lines: list[str]) -> _Table:
-    top = _header_line(file, lines)
-    below = lines[top + 1 :]
-    header = lines[top].lstrip("# \t")
-    separator = _separator(header, next((line for line in below if line.strip()), ""))
+def _table(path: Path) -> _Table:
+    encoding = _encoding(path)
+    with path.open(encoding=encoding) as stream:
+        top, line, held = _header_line(path.name, stream)
+        below = held or next((row for row in stream if row.strip()), "")
+        lines, commas = 1, "," in below
+        for row in stream:
+            check_line(len(row), path.name)
+            lines += 1
+            commas = commas or "," in row
+    header = line.lstrip("# \t")
+    separator = _separator(header, below)
     names = [name.strip() for name in _cells(header, separator)]
-    if not any(line.strip() for line in below):
-        raise DataError(f"{file} has a header line and no numbers below it: record or export it again")
-    _check_names(file, names)
-    if separator != "," and any("," in line for line in below):
-        below = [line.replace(",", ".") for line in below]
-    return _Table(file, names, separator, below, top + 2)
+    if not below:
+        raise DataError(f"{path.name} has a header line and no numbers below it: record or export it again")
+    check_columns(len(names), path.name)
+    check_numbers(lines * len(names), path.name)
+    _check_names(path.name, names)
+    return _Table(path, encoding, names, separator, commas and separator != ",", top + 2)
 
 
-def _header_line(file: str, lines: list[str]) -> int:
-    """Return the index of the header: the first line, or after comments the last of them if numbers follow."""
-    filled = [i for i, line in enumerate(lines) if line.strip()]
-    plain = [i for i in filled if not lines[i].lstrip().startswith("#")]
-    if not filled:
+def _header_line(file: str, lines: Iterable[str]) -> tuple[int, str, str]:
+    """Return index and text of the header, and the line of numbers where one had to be read to know.
+
+    The header is the first line that is no comment, or the last comment if numbers follow it.
+    """
+    comment: tuple[int, str] | None = None
+    for i, line in enumerate(lines):
+        check_line(len(line), file)
+        if line.lstrip().startswith("#"):
+            comment = i, line
+        elif line.strip():
+            if not _all_numbers(line):
+                return i, line, ""
+            if comment is None:
+                raise DataError(
+                    f"{file} starts with numbers: wanted a header line that names the columns, as time,force,x"
+                )
+            return *comment, line
+    if comment is None:
         raise DataError(f"{file} holds only blank lines: record or export it again")
-    if not plain or (plain[0] != filled[0] and _all_numbers(lines[plain[0]])):
-        return max(i for i in filled if not plain or i < plain[0])
-    if _all_numbers(lines[plain[0]]):
-        raise DataError(f"{file} starts with numbers: wanted a header line that names the columns, as time,force,x")
-    return plain[0]
+    return *comment, ""
 
 
 def _separator(header: str, row: str) -> str | None:
@@ -95,7 +174,7 @@ def _all_numbers(line: str) -> bool:
 
 
 def _check_names(file: str, names: list[str]) -> None:
-    twice = sorted({name for name in names if name and names.count(name) > 1})
+    twice = sorted(name for name, count in Counter(names).items() if name and count > 1)
     if twice:
         raise DataError(f"{file} has two columns named {twice[0]!r}: give each column its own name")
 
@@ -111,7 +190,8 @@ def _number(cell: str) -> float | None:
 def _fast(table: _Table) -> dict[str, Array] | None:
     """Return the columns of a file with nothing but numbers, or None: then each cell is looked at."""
     try:
-        numbers = np.loadtxt(table.rows, delimiter=table.separator, comments=None, ndmin=2, quotechar='"')
+        with table.rows() as rows:
+            numbers = np.loadtxt(rows, delimiter=table.separator, comments=None, ndmin=2, quotechar='"')
     except ValueError:
         return None
     if numbers.shape[1] != len(table.names) or "" in table.names:
@@ -120,12 +200,24 @@ def _fast(table: _Table) -> dict[str, Array] | None:
 
 
 def _careful(table: _Table) -> dict[str, Array]:
-    lines = [(table.first + i, row) for i, row in enumerate(table.rows) if row.strip()]
-    rows = [(number, _cells(row, table.separator)) for number, row in lines]
-    for number, cells in rows:
+    columns = [_Column(name) for name in table.names]
+    with table.rows() as rows:
+        filled = ((table.first + i, row) for i, row in enumerate(rows) if row.strip())
+        while block := list(islice(filled, AT_ONCE)):
+            _take(table, columns, block)
+    settled = ((c.name, c.settled(table.path.name)) for c in columns if c.name)
+    return {name: found for name, found in settled if found is not None}
+
+
+def _take(table: _Table, columns: list[_Column], block: list[tuple[int, str]]) -> None:
+    """Share the cells of some lines out among the columns."""
+    rows = [_cells(row, table.separator) for _, row in block]
+    numbers = [number for number, _ in block]
+    for number, cells in zip(numbers, rows, strict=True):
         _check_width(table, number, cells)
-    columns = {name: [(number, cells[k]) for number, cells in rows] for k, name in enumerate(table.names) if name}
-    return {name: found for name, cells in columns.items() if (found := _column(table.file, name, cells)) is not None}
+    for column, cells_of in zip(columns, zip(*rows, strict=True), strict=True):
+        if column.name:
+            column.add(numbers, cells_of)
 
 
 def _check_width(table: _Table, number: int, cells: list[str]) -> None:
@@ -133,21 +225,7 @@ def _check_width(table: _Table, number: int, cells: list[str]) -> None:
     if wanted == got:
         return
     hint = "complete or remove the line"
-    if table.separator == "," and got == 2 * wanted:
+    if table.separator == "," and got > wanted and all(re.fullmatch(r"[+-]?\d+", cell.strip()) for cell in cells):
         hint = "these look like decimal commas; separate the columns by ';' or write decimal points"
-    raise DataError(f"{table.file}, line {number}: {got} cells where the header names {wanted} columns: {hint}")
-
-
-def _column(file: str, name: str, cells: list[tuple[int, str]]) -> Array | None:
-    """Return one column (n,), or None when none of its cells is a number: a column of words is left out."""
-    values = [_number(cell) for _, cell in cells]
-    wrong = [k for k, value in enumerate(values) if value is None]
-    meant = any(MISSPELT.fullmatch(cells[k][1].strip()) for k in wrong)
-    if wrong and not meant and all(v is None or np.isnan(v) for v in values):
-        return None
-    if wrong:
-        number, cell = cells[wrong[0]]
-        raise DataError(
-            f"{file}, line {number}, column {name!r}: {cell.strip()!r} is not a number: correct or empty it"
-        )
-    return np.array(values, dtype=np.float64)
+    name = table.path.name
+    raise DataError(f"{name}, line {number}: {got} cells where the header names {wanted} columns: {hint}")
