@@ -10,6 +10,10 @@ def lostmotion_models() -> dict[str, str]:
     """Return the built-in models."""
     return {
         "backlash_slider": f"{_HERE}.models.slider:BacklashSlider",
+        "clearance_chain": f"{_HERE}.models.clearance_chain:ClearanceChain",
+        "duffing": f"{_HERE}.models.duffing:Duffing",
+        "gear_pair": f"{_HERE}.models.gear_pair:GearPair",
+        "impact_oscillator": f"{_HERE}.models.impact_oscillator:ImpactOscillator",
         "lin_backlash": f"{_HERE}.models.lin:LinBacklash",
         "linear_oscillator": f"{_HERE}.models.basic:LinearOscillator",
         "rigid_drive": f"{_HERE}.models.basic:RigidDrive",

@@ -1,0 +1,63 @@
+"""Two bodies in a row, with play in the joint between them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from lostmotion.contracts import Array, Interface, Model, Param
+from lostmotion.quantities import DAMPING, INERTIA, LENGTH, STIFFNESS
+from lostmotion_plugins.models.lin import ground
+
+
+def second(y: Array, u: Array) -> tuple[float, float]:
+    """Return position and velocity of the second body relative to the ground."""
+    return y[2], y[3]
+
+
+@dataclass(frozen=True)
+class ClearanceChain(Model):
+    """m1 x1'' + c1 x1' + k1 x1 + J = force and m2 x2'' + c2 x2' + k2 x2 = J, with J = c0 (x1' - x2') + F(x1 - x2).
+
+    F is zero inside the gap |x1 - x2| < x0 and k0 (|x1 - x2| - x0) beyond, with the sign of x1 - x2. The force, and the
+    channels "position", "velocity" and "acceleration", are those of the first body. A term acts between the first body
+    and its guide (`ground`), or between the second body and its own (`second`).
+    """
+
+    name: ClassVar[str] = "clearance_chain"
+    paper: ClassVar[str] = "Nordin, Gutman, Automatica 38 (2002) 1633-1649, section 2: two masses with backlash"
+    motion = "translation"
+    states = ("position", "velocity", "second_position", "second_velocity")
+    inputs = ("force",)
+    channels = ("position", "velocity", "acceleration", "second_position")
+    params = (
+        Param("m1", "mass of the first body", INERTIA, low=0.0, scale="log", aliases=("m",)),
+        Param("c1", "viscous damping of the first body", DAMPING, low=0.0),
+        Param("k1", "stiffness from the first body to the ground", STIFFNESS, low=0.0),
+        Param("m2", "mass of the second body", INERTIA, low=0.0, scale="log"),
+        Param("c2", "viscous damping of the second body", DAMPING, low=0.0),
+        Param("k2", "stiffness from the second body to the ground", STIFFNESS, low=0.0),
+        Param("k0", "stiffness of the joint in contact", STIFFNESS, low=0.0, scale="log", aliases=("stiffness",)),
+        Param("c0", "viscous damping across the joint", DAMPING, low=0.0),
+        Param("x0", "half gap of the joint", LENGTH, low=0.0, scale="log", aliases=("gap", "backlash")),
+    )
+    interfaces = (
+        Interface("ground", row=1, inertia="m1", motion=ground, holds=("k1",), stiffness="k1"),
+        Interface("second", row=3, inertia="m2", motion=second, holds=("k2",), stiffness="k2"),
+    )
+
+    @staticmethod
+    def rhs(t: float, y: Array, u: Array, p: Array, dydt: Array) -> None:
+        lean = y[0] - y[2]
+        joint = p[7] * (y[1] - y[3]) + p[6] * (lean - min(max(lean, -p[8]), p[8]))
+        dydt[0] = y[1]
+        dydt[1] = (u[0] - p[1] * y[1] - p[2] * y[0] - joint) / p[0]
+        dydt[2] = y[3]
+        dydt[3] = (joint - p[4] * y[3] - p[5] * y[2]) / p[3]
+
+    @staticmethod
+    def observe(t: float, y: Array, dydt: Array, u: Array, p: Array, seen: Array) -> None:
+        seen[0] = y[0]
+        seen[1] = y[1]
+        seen[2] = dydt[1]
+        seen[3] = y[2]

@@ -1,0 +1,58 @@
+"""An oscillator that hits a stop on one side."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import ClassVar
+
+from lostmotion.contracts import Array, Group, Interface, Model, Param
+from lostmotion.quantities import DAMPING, INERTIA, LENGTH, STIFFNESS, Dimension
+from lostmotion_plugins.models.lin import LinBacklash, ground
+
+
+@dataclass(frozen=True)
+class ImpactOscillator(Model):
+    """m x'' + c x' + k x + P = force, where the stop pushes with P = k0 (x - x0) (1 + loss x') from x > x0 on.
+
+    The stop never pulls: P is zero where the formula falls below it. As the loss grows with the depth (Hunt, Crossley),
+    the force does not jump at the first touch, and the restitution is one for slow impacts and falls with their speed:
+    a body that comes with v leaves with w, where s - ln(1 + s) is the same for s = loss v and s = -loss w.
+    """
+
+    name: ClassVar[str] = "impact_oscillator"
+    paper: ClassVar[str] = (
+        "Shaw, Holmes, J. Sound and Vibration 90 (1983) 129-155; Hunt, Crossley, J. Applied Mechanics 42 (1975) 440-445"
+    )
+    motion = "translation"
+    states = ("position", "velocity")
+    inputs = ("force",)
+    channels = ("position", "velocity", "acceleration")
+    params = (
+        Param("m", "mass", INERTIA, low=0.0, scale="log", aliases=("mass",)),
+        Param("c", "viscous damping", DAMPING, low=0.0, scale="log", aliases=("damping",)),
+        Param("k", "stiffness of the spring", STIFFNESS, low=0.0, scale="log", aliases=("k1", "stiffness")),
+        Param("k0", "stiffness of the stop", STIFFNESS, low=0.0, scale="log"),
+        Param("x0", "distance of the stop from the middle", LENGTH, low=0.0, scale="log", aliases=("gap",)),
+        Param("loss", "loss of the stop: its drag over its stiffness and depth", Dimension(0, -1, 1), low=0.0),
+    )
+    interfaces = (Interface("ground", row=1, inertia="m", motion=ground, holds=("k",), stiffness="k"),)
+    groups = (
+        Group("zeta", "damping ratio", "c / (2 sqrt(k m))", "c", lambda q, n: 2.0 * n * math.sqrt(q["k"] * q["m"])),
+        Group(
+            "frequency_ratio", "frequency of the drive", "omega / sqrt(k / m)", "drive.omega",
+            lambda q, n: n * math.sqrt(q["k"] / q["m"]),
+        ),
+        Group("alpha", "amplitude of the drive", "A / (k x0)", "drive.amplitude", lambda q, n: n * q["k"] * q["x0"]),
+        Group("stiffness_ratio", "stiffness of the stop", "k0 / k", "k0", lambda q, n: n * q["k"]),
+    )  # fmt: skip
+
+    @staticmethod
+    def rhs(t: float, y: Array, u: Array, p: Array, dydt: Array) -> None:
+        push = 0.0
+        if y[0] > p[4]:
+            push = max(p[3] * (y[0] - p[4]) * (1.0 + p[5] * y[1]), 0.0)
+        dydt[0] = y[1]
+        dydt[1] = (u[0] - p[1] * y[1] - p[2] * y[0] - push) / p[0]
+
+    observe = staticmethod(LinBacklash.observe)
