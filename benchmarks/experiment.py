@@ -25,7 +25,7 @@ from lostmotion.forcing import Tone
 from lostmotion.inference.candidates import fit_with, screen, slopes_of
 from lostmotion.inference.fit import maximise
 from lostmotion.inference.setup import problem_of, search
-from lostmotion.inference.tracks import Track, period_samples
+from lostmotion.inference.tracks import Track
 from lostmotion.registry import Registry
 from lostmotion.stages.experiment import news, propose
 from lostmotion.system import System, key_of
@@ -115,7 +115,7 @@ def recorded(machine, inputs, rng, tone=None):
     seen = x + machine.noise * SIZES[machine.name] * rng.standard_normal(n)
     force = inputs + 1e-3 * math.sqrt(2.0) * float(np.std(inputs)) * rng.standard_normal(n)
     bare = Track("recording", seen, force[:, None], dt, "position")
-    period = period_samples(bare)
+    period = bare.period
     found = Tone(2.0 * math.pi / (period * dt) if period else 0.0, bare.travel)
     return Track("recording", seen, force[:, None], dt, "position", tone=tone or found)
 

@@ -169,6 +169,11 @@ class Term(ABC):
         """Return the numbers that `further` names: what a reader asks for beside the parameters, such as a phase."""
         return ()
 
+    @property
+    def marked(self) -> bool:
+        """Whether the stored values themselves tell of this term, so that it is not fitted."""
+        return False
+
     def null(self) -> dict[str, float]:
         """Return the parameters, with their values, at which the term does nothing."""
         return {q.name: q.null for q in self.params if q.null is not None}

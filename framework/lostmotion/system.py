@@ -165,7 +165,7 @@ class System:
 
     def shaping(self, active: Iterable[str]) -> tuple[str, ...]:
         """Return the keys of those terms that change the input which acts: of the drive, and delays of the sensor."""
-        return tuple(k for k, t in self.beside.items() if k in set(active) and not getattr(t, "marked", False))
+        return tuple(k for k, t in self.beside.items() if k in set(active) and not t.marked)
 
     def acting(self, u: Input, full: Array, active: Iterable[str], tone: Tone) -> Input:
         """Return the input that acts in place of the recorded `u`, in the time of what the sensor shows."""

@@ -225,7 +225,7 @@ def test_without_an_experiment_that_decides_it_says_so(diagnosed):
 
 def test_a_relative_is_named_by_its_evidence_and_not_by_its_price(diagnosed, monkeypatch):
     """A set with a further parameter pays for it: what the recording cannot rule out is named all the same."""
-    monkeypatch.setattr(rivals, "_related", lambda a, b: True)
+    monkeypatch.setattr(rivals, "related", lambda a, b: True)
     visits = diagnosed.selection.visits
     (other,) = [v for v in visits.values() if v.terms != diagnosed.selection.chosen.problem.active]
     visits[other.terms] = replace(other, weight=-9.0)

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from lostmotion.inference.tracks import Track
 from lostmotion.report import show
 from lostmotion.report.evidence import Evidence
 from lostmotion.signals.distances import distances, energy_distance, same_chance
@@ -12,13 +13,10 @@ from lostmotion.workflow.show_words import said
 PERIOD = 40.0
 
 
-class Drive:
-    """As much of a track as sections need: a harmonic drive of 40 samples a period, or none."""
-
-    def __init__(self, samples, driven=True):
-        t = np.arange(samples)
-        self.samples, self.dt = samples, 0.01
-        self.inputs = np.cos(2 * np.pi * t / PERIOD)[:, None] if driven else np.zeros((samples, 1))
+def recorded(samples, driven=True):
+    """A track of which only the drive counts: 40 samples a period, or none."""
+    u = np.cos(2 * np.pi * np.arange(samples) / PERIOD) if driven else np.zeros(samples)
+    return Track("sections", np.zeros(samples), u[:, None], 0.01, "position")
 
 
 def wandering(seed, samples=8000, middle=0.0):
@@ -60,7 +58,7 @@ def test_chance_is_even_for_equal_clouds_and_small_for_others():
 
 def test_model_with_the_right_orbit_is_at_the_floor_and_another_is_not():
     motions = {"recorded": wandering(1), "before": wandering(2, middle=0.3), "after": wandering(3)}
-    apart, strobed = distances_between(motions, Drive(8000), np.random.default_rng(0))
+    apart, strobed = distances_between(motions, recorded(8000), np.random.default_rng(0))
     assert strobed
     assert apart["before"].chance < 0.01 < apart["after"].chance
     assert apart["before"].value > 3.0 * apart["noise_floor"].value
@@ -69,7 +67,7 @@ def test_model_with_the_right_orbit_is_at_the_floor_and_another_is_not():
 
 def test_without_a_drive_looks_at_the_whole_orbit_are_compared():
     motions = {"recorded": wandering(1), "before": wandering(2, middle=0.5)}
-    apart, strobed = distances_between(motions, Drive(8000, driven=False), np.random.default_rng(0))
+    apart, strobed = distances_between(motions, recorded(8000, driven=False), np.random.default_rng(0))
     assert not strobed
     assert apart["before"].status == "ok"
     assert apart["before"].chance < 0.01
@@ -78,10 +76,12 @@ def test_without_a_drive_looks_at_the_whole_orbit_are_compared():
 def test_short_recordings_and_runaways_have_a_status():
     runaway = wandering(2)
     runaway[500:] = np.nan
-    apart, _ = distances_between({"recorded": wandering(1), "before": runaway}, Drive(8000), np.random.default_rng(0))
+    apart, _ = distances_between(
+        {"recorded": wandering(1), "before": runaway}, recorded(8000), np.random.default_rng(0)
+    )
     assert apart["before"].status == "diverged"
     apart, _ = distances_between(
-        {"recorded": wandering(1, 400), "before": wandering(2, 400)}, Drive(400), np.random.default_rng(0)
+        {"recorded": wandering(1, 400), "before": wandering(2, 400)}, recorded(400), np.random.default_rng(0)
     )
     assert apart["before"].status == apart["noise_floor"].status == "too_short"
 

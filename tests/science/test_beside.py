@@ -15,7 +15,7 @@ from lostmotion.inference.free import Free
 from lostmotion.inference.problem import Problem, Scales
 from lostmotion.inference.selection import Selector
 from lostmotion.inference.setup import noise_frees
-from lostmotion.inference.tracks import Track, period_samples
+from lostmotion.inference.tracks import Track
 from lostmotion.system import System
 from lostmotion_plugins.models.basic import LinearOscillator
 from lostmotion_plugins.terms.drive import ExcitationDelay, ExcitationGain, ExcitationHarmonic
@@ -48,7 +48,7 @@ def course_of(response, seed):
     track = Track(
         "run", response + 0.01 * response.std() * rng.standard_normal(SAMPLES), force[:, None], DT, "position"
     )
-    track = replace(track, tone=Tone(2.0 * math.pi / (period_samples(track) * DT), AMPLITUDE))
+    track = replace(track, tone=Tone(2.0 * math.pi / (track.period * DT), AMPLITUDE))
     faults = (ExcitationDelay(), ExcitationGain(), ExcitationHarmonic())
     system = System(LinearOscillator(), (*faults, CoulombFriction(), CubicStiffness(), OffsetForce()))
     scales = Scales(AMPLITUDE, 1.2, 1.0 / OMEGA, usual=math.log((1e-3 * AMPLITUDE) ** 2 * DT), span=SAMPLES * DT)

@@ -90,9 +90,8 @@ def _afar(fit: Fit, slot: Slot, key: str, distinct: float) -> Hint:
     size = size_of(slot.param, fit.problem.scales)
     best, gain, bottom = 0.0, 0.0, maximise(restarted(replace(fit, problem=short)), fit.theta, rounds=2)
     for factor in slot.param.far:
-        known = short.known.copy()
-        known[short.system.index[slot.key]] = factor * size
-        trial = replace(short, known=known, active=short.active | {key})
+        trial = short.knowing({slot.key: factor * size})
+        trial = replace(trial, active=trial.active | {key})
         found = maximise(trial, bottom.theta, rounds=3, tolerance=1.0)
         if found.log_likelihood - bottom.log_likelihood > gain:
             best, gain = factor * size, found.log_likelihood - bottom.log_likelihood
@@ -113,13 +112,15 @@ def tried_of(param: Param, scales: Scales) -> tuple[float, ...]:
 
 def with_term(problem: Problem, hint: Hint, start: Mapping[str, float]) -> Problem:
     """Return a problem with one more term, its choices held at what the score test chose."""
-    _, slots = term_of(problem, hint.key)
-    known = problem.known.copy()
-    for slot in slots:
-        if slot.param.choices:
-            known[problem.system.index[slot.key]] = hint.start[slot.key]
-    wider = replace(problem, known=known).extended(frees_of(slots, problem.scales, start), {hint.key})
+    wider = joined(problem, hint.key, {**hint.start, **start})
     return replace(wider, nsub=max(wider.nsub, steps_for_sticking(wider, wider.start)))
+
+
+def joined(problem: Problem, key: str, start: Mapping[str, float]) -> Problem:
+    """Return a problem with one more term, begun at `start`, its choices held at what is said there."""
+    _, slots = term_of(problem, key)
+    choices = {s.key: start[s.key] for s in slots if s.param.choices and s.key in start}
+    return problem.knowing(choices).extended(frees_of(slots, problem.scales, start), {key})
 
 
 def steps_for_sticking(problem: Problem, theta: Array, *, creep: float = CREEP) -> int:
@@ -149,10 +150,7 @@ class Trial:
 
 def _score(fit: Fit, slopes: Sensitivity, trial: Trial) -> Hint:
     problem = fit.problem
-    known = problem.known.copy()
-    for name, value in trial.shape.items():
-        known[problem.system.index[name]] = value
-    wider = replace(problem, known=known).extended(frees_of(trial.amplitudes, problem.scales, {}), {trial.key})
+    wider = problem.knowing(trial.shape).extended(frees_of(trial.amplitudes, problem.scales, {}), {trial.key})
     sizes = np.array([size_of(s.param, problem.scales) for s in trial.amplitudes])
     widths = 1e-3 * sizes
     for _ in range(2):

@@ -14,11 +14,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from lostmotion.contracts import Array, Interface, place_of
+from lostmotion.inference.candidates import term_of
 from lostmotion.inference.fit import Fit, Sensitivity, maximise, restarted, robust_covariance, solved
 from lostmotion.inference.latent import kept_by
 from lostmotion.inference.learned import Learned, curves_for, spread
 from lostmotion.inference.problem import Free, Problem
-from lostmotion.inference.tracks import Track
 from lostmotion.system import System, key_of
 
 SIZES = (0.002, 0.006, 0.02, 0.06, 0.2)
@@ -85,13 +85,9 @@ def _ends(problem: Problem, theta: Array, index: int, place: Interface, column: 
     track = problem.tracks[index]
     single = replace(problem.on((track,)), jobs=1)
     (states, *_), _, _ = kept_by(single, theta)
-    moved = _motion(track, states, place)[:, column]
+    moved = track.motion_at(place, states)[column]
     low, high = np.quantile(moved[len(moved) // 50 :], [1e-3, 1.0 - 1e-3])
     return float(low), float(high)
-
-
-def _motion(track: Track, states: Array, place: Interface) -> Array:
-    return np.array([place.motion(y, u) for y, u in zip(states, track.inputs, strict=True)])
 
 
 def size_of(term: Learned, problem: Problem) -> float:
@@ -121,7 +117,7 @@ def shape_of(fit: Fit, slopes: Sensitivity, key: str) -> Shape:
 
 
 def _learned(problem: Problem, key: str) -> Learned:
-    term = problem.system.terms[problem.system.keys.index(key)]
+    term, _ = term_of(problem, key)
     if not isinstance(term, Learned):
         raise TypeError(f"{key} is no learned curve")
     return term

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from lostmotion.contracts import Array, Interface, Model
+from lostmotion.contracts import Array, Model
 from lostmotion.inference.latent import Missing
 from lostmotion.inference.shares import Covariate, Share, significant
-from lostmotion.inference.tracks import Track, period_samples
+from lostmotion.inference.tracks import Track
 
 BINS = 25
 WORTH_SAYING = 0.05
@@ -37,9 +37,9 @@ def covariates(model: Model, track: Track, missing: Missing) -> dict[str, Array]
     table = {"position": missing.position, "velocity": missing.velocity}
     for place in model.interfaces:
         if place.name != "ground" and len(model.interfaces) > 1:
-            moved = _motion(place, track, missing)
+            moved = track.motion_at(place, missing.states)
             table[f"position at {place.name}"], table[f"velocity at {place.name}"] = moved
-    period = period_samples(track)
+    period = track.period
     if period:
         table["phase"] = ((track.begin + np.arange(track.samples)) / period) % 1.0
     table["time"] = track.time
@@ -90,7 +90,9 @@ def further(
     """
     found = {}
     for place in model.interfaces:
-        x, v = (missing.position, missing.velocity) if place.name == "ground" else _motion(place, track, missing)
+        x, v = (
+            (missing.position, missing.velocity) if place.name == "ground" else track.motion_at(place, missing.states)
+        )
         tail = "" if place.name == "ground" or len(model.interfaces) == 1 else f" at {place.name}"
         found[f"sign of velocity{tail}"] = Covariate((np.sign(v),), classes=True)
         play = (plays or {}).get(place.name, 0.0)
@@ -98,11 +100,6 @@ def further(
             found[f"contact{tail}"] = Covariate((np.asarray(np.abs(x) > play, dtype=float),), classes=True)
         found[f"history{tail}"] = Covariate((x, v, _earlier(x, v, track.dt)))
     return found
-
-
-def _motion(place: Interface, track: Track, missing: Missing) -> Array:
-    """Return relative position and velocity (2, samples) at a place."""
-    return np.array([place.motion(y, u) for y, u in zip(missing.states, track.inputs, strict=True)]).T
 
 
 def _earlier(x: Array, v: Array, dt: float) -> Array:
@@ -126,13 +123,14 @@ def summary(table: Mapping[str, Array], force: Array, found: Mapping[str, Share]
     how = "a function of" if kind == "neither" else f"{kind} in"
     sure = f"{values[name]:.0%} +- {found[name].error:.0%} of its variance"
     more = [f"{k} ({values[k]:.0%})" for k in known if k not in name and name not in k and k != name]
-    also = f"; with it go {_listed(more)}" if more else ""
+    also = f"; with it go {listed(more)}" if more else ""
     absent = [k for k in table if k not in known and k not in name]
     nothing = f"; nothing of it goes with {' or '.join(absent)}" if absent else ""
     return f"{how} {name}, which explains {sure}{also}{nothing}"
 
 
-def _listed(names: list[str]) -> str:
+def listed(names: Sequence[str]) -> str:
+    """Return names as they stand in a sentence: "a, b and c"."""
     return " and ".join([", ".join(names[:-1]), names[-1]] if len(names) > 1 else names)
 
 

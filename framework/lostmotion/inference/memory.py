@@ -37,9 +37,10 @@ def selected(nominal: Fit, candidates: Iterable[str], say: Progress) -> Selectio
     if not chosen.problem.active and significant_random_force(chosen) < NOTICED:
         return course
     say("measurement noise with a memory")
-    if not believed(chosen, remembering(chosen)):
+    hung = remembering(chosen)
+    if not believed(chosen, hung):
         return course
-    hung = remembering(nominal)
+    hung = hung if chosen is nominal else remembering(nominal)
     return Selector(hung, keys, say).run() if hung is not None and hung.status != "diverged" else course
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from lostmotion.contracts import Array
 from lostmotion.inference.latent import kept_by
 from lostmotion.inference.problem import Problem
-from lostmotion.inference.tracks import Track, period_samples
+from lostmotion.inference.tracks import Track
 
 ENOUGH = 0.4
 """A prediction is valid until its error exceeds this share of the standard deviation of the response."""
@@ -153,7 +153,7 @@ class Horizon:
 
 def horizon_of(track: Track, exponent: float, natural: float) -> Horizon:
     """Return half a Lyapunov time when the motion is chaotic, else one drive period, else one natural cycle."""
-    period = period_samples(track)
+    period = track.period
     cycle = period * track.dt if period else 2.0 * math.pi * natural
     if math.isfinite(exponent) and exponent * cycle > 0.1:
         return Horizon(_steps(0.5 / exponent, track), 0.5, "Lyapunov times", 1.0 / exponent)

@@ -274,6 +274,12 @@ class Problem:
         """Return the problem with further free parameters and terms."""
         return replace(self, free=(*self.free, *more), active=self.active | frozenset(active))
 
+    def knowing(self, values: Mapping[str, float]) -> Problem:
+        """Return the problem with further parameters held at `values`."""
+        known = self.known.copy()
+        known[[self.system.index[key] for key in values]] = list(values.values())
+        return replace(self, known=known)
+
     def reduced(self, key: str, values: Mapping[str, float]) -> Problem:
         """Return the problem without the term `key`; `values` become the new starting points."""
         kept = tuple(

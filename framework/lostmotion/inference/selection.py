@@ -98,12 +98,9 @@ class Selector:
         return self.course
 
     def _visit(self, fit: Fit) -> Visit:
-        """Note a fitted set; by the prior a term costs the number of candidates, a factor e, and its complexity."""
+        """Note a fitted set, weighted by its evidence and the prices of its terms."""
         terms = fit.problem.active
-        slots = [slot for key in terms for slot in term_of(fit.problem, key)[1]]
-        choices = sum(math.log(len(slot.param.choices)) for slot in slots if slot.param.choices)
-        extra = sum(not slot.param.choices for slot in slots) - len(terms)
-        price = len(terms) * (math.log(max(len(self.candidates), 1)) + 1.0) + EXTRA * extra + choices
+        price = sum(price_of(term_of(fit.problem, key)[0], len(self.candidates)) for key in terms)
         visit = Visit(terms, fit, fit.log_evidence - price)
         known = self.course.visits.get(terms)
         if known is None or visit.weight > known.weight:
@@ -245,13 +242,19 @@ class Selector:
 
     @staticmethod
     def _related(fit: Fit, mine: str, other: str) -> bool:
-        """Return whether two terms tell the same story at the same place."""
-        a, b = term_of(fit.problem, mine)[0], term_of(fit.problem, other)[0]
-        return a.at == b.at and _same_story(a, b)
+        return related(term_of(fit.problem, mine)[0], term_of(fit.problem, other)[0])
 
 
-def _same_story(a: Term, b: Term) -> bool:
-    return b.name in a.resembles or a.name in b.resembles
+def related(one: Term, other: Term) -> bool:
+    """Return whether two terms tell the same story at the same place."""
+    return one.at == other.at and (other.name in one.resembles or one.name in other.resembles)
+
+
+def price_of(term: Term, many: int) -> float:
+    """Return the log price of a term by the prior: one of `many`, a factor e, its further parameters and choices."""
+    choices = [len(q.choices) for q in term.params if q.choices]
+    further = len(term.params) - len(choices) - 1
+    return math.log(max(many, 1)) + 1.0 + EXTRA * further + sum(math.log(count) for count in choices)
 
 
 def _standing(fit: Fit) -> tuple[float, float]:

@@ -11,7 +11,7 @@ from scipy.interpolate import CubicSpline
 from scipy.optimize import brentq, minimize_scalar
 
 from lostmotion.beside import Input
-from lostmotion.contracts import Array, Model
+from lostmotion.contracts import Array, Interface, Model
 from lostmotion.errors import CaseError
 from lostmotion.forcing import SILENT, Drive, Tone
 from lostmotion.inference.splines import smoothing_spline
@@ -44,6 +44,10 @@ class Track:
     def time(self) -> Array:
         """The time of each sample from the start of the recording, in s."""
         return np.asarray((self.begin + np.arange(self.samples)) * self.dt, dtype=float)
+
+    def motion_at(self, place: Interface, states: Array) -> Array:
+        """Return relative position and velocity (2, samples) at a place of the model, along `states` (samples, n)."""
+        return np.array([place.motion(y, u) for y, u in zip(states, self.inputs, strict=True)]).T
 
     def part(self, start: int, stop: int) -> Track:
         """Return the samples from `start` up to `stop` as a track of its own."""
@@ -79,6 +83,11 @@ class Track:
             return (np.interp(middle + half, edges, sums) - np.interp(middle - half, edges, sums)) / (2.0 * half)
 
         return mean
+
+    @cached_property
+    def period(self) -> float | None:
+        """The period of the drive in samples, or None where no line stands out of the spectrum of the input."""
+        return period_of(self.inputs[:, 0])
 
     @cached_property
     def noise(self) -> float:
@@ -149,8 +158,12 @@ def track_of(recording: Recording, model: Model, *, held: bool = False) -> Track
         inputs = np.stack([spline(t), spline.derivative()(t)], axis=1)
     z = np.asarray(recording.data["response"].values, dtype=float)
     bare = Track(recording.name, z, inputs, recording.dt, _channel(recording, model), held)
-    period = period_samples(bare)
-    return replace(bare, tone=Tone(2.0 * math.pi / (period * bare.dt) if period else 0.0, bare.travel))
+    return replace(bare, tone=tone_of(bare))
+
+
+def tone_of(track: Track) -> Tone:
+    """Return the frequency (rad/s, 0 where there is none) and the amplitude of what drives a recording."""
+    return Tone(2.0 * math.pi / (track.period * track.dt) if track.period else 0.0, track.travel)
 
 
 def _channel(recording: Recording, model: Model) -> str:
@@ -165,9 +178,9 @@ def _channel(recording: Recording, model: Model) -> str:
     return channel
 
 
-def period_samples(track: Track) -> float | None:
-    """Return the period of the drive in samples, or None where no line stands out of the spectrum of the input."""
-    u = track.inputs[:, 0] - track.inputs[:, 0].mean()
+def period_of(signal: Array) -> float | None:
+    """Return the period of a signal in samples, or None where no line stands out of its spectrum."""
+    u = signal - signal.mean()
     if not u.any():
         return None
     size = len(u)

@@ -9,13 +9,12 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
-from lostmotion.inference.candidates import slopes_of
+from lostmotion.inference.candidates import slopes_of, term_of
 from lostmotion.inference.curves import CHOICES, ROUNDS, fit_curve, shape_of, transplanted
 from lostmotion.inference.fit import Fit, maximise
 from lostmotion.inference.learned import Learned
 from lostmotion.inference.problem import RANDOM, Problem
-from lostmotion.inference.selection import DECISIVE, EXTRA, WORTH, significant_random_force
-from lostmotion.system import key_of
+from lostmotion.inference.selection import DECISIVE, WORTH, price_of, significant_random_force
 
 MOST_CURVES = 2
 KEPT = 0.2
@@ -49,8 +48,8 @@ class Unknown:
     @property
     def terms(self) -> tuple[Learned, ...]:
         """The learned terms, in the order in which they were taken."""
-        system = self.fit.problem.system
-        return tuple(t for key in self.keys for t in system.terms if key_of(t) == key and isinstance(t, Learned))
+        terms = [term_of(self.fit.problem, key)[0] for key in self.keys]
+        return tuple(term for term in terms if isinstance(term, Learned))
 
 
 @dataclass
@@ -71,13 +70,10 @@ class Search:
 
     def price(self, problem: Problem, key: str) -> float:
         """Return the log price of a term, as in the selection, or of a curve, for the smoothness that was chosen."""
-        system = problem.system
-        term = system.terms[system.keys.index(key)]
-        one = math.log(max(self.many, 1)) + 1.0
+        term, _ = term_of(problem, key)
         if isinstance(term, Learned):
-            return one + CHOICES
-        choices = sum(math.log(len(q.choices)) for q in term.params if q.choices)
-        return one + EXTRA * (sum(not q.choices for q in term.params) - 1) + choices
+            return math.log(max(self.many, 1)) + 1.0 + CHOICES
+        return price_of(term, self.many)
 
     def learn(self, fit: Fit, count: int = FITTED) -> None:
         """Fit the curves that promise most on top of a fit, if they promise to be decisive, and to reach the best set.

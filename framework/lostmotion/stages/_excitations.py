@@ -11,7 +11,7 @@ import numpy as np
 
 from lostmotion.contracts import Array
 from lostmotion.forcing import Tone
-from lostmotion.inference.tracks import Track, period_samples
+from lostmotion.inference.tracks import Track
 
 FACTORS = (0.5, 0.7, 1.4, 2.0)
 """Levels and frequencies that are tried, over those of the recording."""
@@ -52,7 +52,7 @@ def repeat_of(track: Track, samples: int, natural: float) -> Excitation:
 
 def frequency_of(track: Track, natural: float) -> float:
     """Return the frequency (Hz) of the drive of a recording, or that of its motion where there is no single one."""
-    period = period_samples(track)
+    period = track.period
     return 1.0 / (period * track.dt) if period else natural
 
 
@@ -68,7 +68,7 @@ def candidates_for(track: Track, samples: int, limits: Limits, rng: np.random.Ge
     top = min(limits.frequency, 1.0 / (FEWEST * track.dt))
     levels, frequencies = _within(level, limits.level), _within(frequency, top)
     found = [_made(track, samples, HARMONIC, a, _tones([f])) for a in levels for f in frequencies]
-    if period_samples(track):
+    if track.period:
         found = [c for c in found if not (_near(c.level, level) and _near(c.band[0], frequency))]
     band = (min(0.5 * frequency, 0.5 * top), min(2.0 * frequency, top))
     for a in sorted({min(level, limits.level), max(levels)}):

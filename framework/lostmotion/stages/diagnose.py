@@ -37,7 +37,7 @@ LARGEST = 1e100
 
 def fitted_keys(system: System) -> tuple[str, ...]:
     """Return the keys of the terms that are found by likelihood; the others leave marks in the values themselves."""
-    return tuple(k for k, t in zip(system.keys, system.terms, strict=True) if not getattr(t, "marked", False))
+    return tuple(k for k, t in zip(system.keys, system.terms, strict=True) if not t.marked)
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,6 @@ from collections.abc import Mapping
 import numpy as np
 
 from lostmotion.contracts import Array
-from lostmotion.inference.tracks import period_samples
 from lostmotion.stages.diagnose import Diagnosis, Located, base_keys
 from lostmotion.storage import Column
 from lostmotion.workflow.attractors import section
@@ -120,7 +119,7 @@ def _draws(outcome: Outcome) -> dict[str, Column]:
 
 def _portraits(d: Diagnosis, motions: Mapping[str, Array]) -> dict[str, Column]:
     """Return phase portraits and stroboscopic sections of the recording and of free runs of both models."""
-    units, period = units_of(d), period_samples(d.shown)
+    units, period = units_of(d), d.shown.period
     table = {}
     for name, states in motions.items():
         tail = states[-PORTRAIT:] if period else states[:: max(1, len(states) // PORTRAIT)]

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from lostmotion.contracts import Array
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.predict import filtered, free_run
-from lostmotion.inference.tracks import Track, period_samples
+from lostmotion.inference.tracks import Track
 from lostmotion.signals.distances import distances, energy_distance, same_chance
 from lostmotion.stages.diagnose import Diagnosis
 
@@ -66,7 +66,7 @@ def distances_between(
     "noise_floor" is the distance between the halves of the recorded one. Where nothing drives the machine evenly, the
     points are looks at the whole orbit.
     """
-    period = period_samples(track)
+    period = track.period
     spacing = period or max(track.samples / MOST, 1.0)
     recorded = motions["recorded"]
     scale = recorded[:, :2].std(axis=0)

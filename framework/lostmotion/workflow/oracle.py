@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from lostmotion.inference.candidates import frees_of, term_of
+from lostmotion.inference.candidates import joined, term_of
 from lostmotion.inference.fit import Fit, maximise, restarted, warmed
 from lostmotion.inference.predict import Horizon
 from lostmotion.inference.problem import NOISE, RANDOM, Problem
@@ -110,7 +110,7 @@ def _margin(full: Fit, problem: Problem, found: Sequence[Row]) -> float | None:
 def key_for(system: System, effect: Row) -> str | None:
     """Return the term that stands for an effect at its place, or one that equals it; None where there is none."""
     same = [t for t in system.terms if alike(t.name, effect["mechanism"]) and effect["at"] in ("", t.at)]
-    usable = [t for t in same if not getattr(t, "marked", False)]
+    usable = [t for t in same if not t.marked]
     return next((key_of(t) for t in sorted(usable, key=lambda t: t.name != effect["mechanism"])), None)
 
 
@@ -156,14 +156,7 @@ def _fitted(problem: Problem, acting: Mapping[str, Row]) -> Fit:
 def _with(problem: Problem, key: str, truth: Mapping[str, float]) -> Problem:
     """Return the problem with one more term, begun at its true parameters where it has them."""
     _, slots = term_of(problem, key)
-    start = {s.key: truth[s.param.name] for s in slots if s.param.name in truth}
-    known = problem.known.copy()
-    for slot in slots:
-        if getattr(slot.param, "choices", ()) and slot.key in start:
-            known[problem.system.index[slot.key]] = start[slot.key]
-    frees = frees_of(slots, problem.scales, start)
-    begun = [replace(f, start=f.coordinate(start[f.key])) if f.key in start else f for f in frees]
-    return replace(problem, known=known).extended(begun, {key})
+    return joined(problem, key, {s.key: truth[s.param.name] for s in slots if s.param.name in truth})
 
 
 def _held_out(fit: Fit, prepared: Prepared, held: Sequence[Any], said: Row) -> float | None:

@@ -11,7 +11,7 @@ import numpy as np
 from lostmotion.case import Experiment
 from lostmotion.contracts import Term
 from lostmotion.inference.candidates import term_of
-from lostmotion.inference.selection import Visit
+from lostmotion.inference.selection import Visit, related
 from lostmotion.stages.diagnose import Diagnosis
 from lostmotion.stages.experiment import Limits, Proposal, natural_of, propose, usual_limits
 from lostmotion.system import key_of
@@ -44,7 +44,7 @@ def rivals_of(d: Diagnosis) -> dict[str, Visit]:
         if key in problem.active or not sets:
             continue
         best = max(sets, key=lambda k: weights[k])
-        stands_in = any(_related(term, term_of(problem, mine)[0]) for mine in problem.active - best)
+        stands_in = any(related(term, term_of(problem, mine)[0]) for mine in problem.active - best)
         short = course.chosen.log_evidence - course.visits[best].fit.log_evidence
         remembers = (
             stands_in and bool(term.states) and any(term_of(problem, k)[0].states for k in problem.active - best)
@@ -56,10 +56,6 @@ def rivals_of(d: Diagnosis) -> dict[str, Visit]:
     return dict(sorted(rows.items(), key=lambda row: -row[1].weight))
 
 
-def _related(a: Term, b: Term) -> bool:
-    return a.at == b.at and (b.name in a.resembles or a.name in b.resembles)
-
-
 def proposed(
     d: Diagnosis, allowed: Experiment | None, *, rng: np.random.Generator, say: Callable[[str], None] = lambda _: None
 ) -> dict[str, Proposal | None]:
@@ -68,14 +64,14 @@ def proposed(
     Where none is `allowed`, none is looked for.
     """
     chosen = d.selection.chosen
+    heaviest = list(rivals_of(d).items())[:MOST]
     if allowed is None:
-        return dict.fromkeys(list(rivals_of(d))[:MOST])
+        return {key: None for key, _ in heaviest}
     usual = usual_limits(chosen.problem.tracks[0], natural_of(chosen))
     limits = Limits(allowed.max_level or usual.level, allowed.max_frequency or usual.frequency)
-    fits = {key: visit.fit for key, visit in list(rivals_of(d).items())[:MOST]}
     return {
-        key: propose(chosen, fit, limits=limits, rng=rng, say=lambda step, key=key: say(f"{key}: {step}"))  # type: ignore[misc]
-        for key, fit in fits.items()
+        key: propose(chosen, visit.fit, limits=limits, rng=rng, say=lambda step, key=key: say(f"{key}: {step}"))  # type: ignore[misc]
+        for key, visit in heaviest
     }
 
 

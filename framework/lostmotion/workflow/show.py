@@ -13,7 +13,7 @@ from lostmotion.contracts import Array, Series
 from lostmotion.errors import LostMotionError
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.predict import observed
-from lostmotion.inference.tracks import Track, period_samples
+from lostmotion.inference.tracks import Track
 from lostmotion.registry import Registry
 from lostmotion.results import Estimate
 from lostmotion.signals import checked
@@ -109,7 +109,7 @@ def _estimate(estimate: Estimate) -> dict[str, Any]:
 def _dimensions(seen: Seen, rng: np.random.Generator) -> dict[str, Estimate]:
     """Return the correlation dimension of the recording, and of the free run of each model embedded as that is."""
     outcome, d = seen.outcome, seen.outcome.diagnosis
-    track, period = d.shown, period_samples(d.shown)
+    track, period = d.shown, d.shown.period
     seconds = period * track.dt if period else None
     finite = track.z[np.isfinite(track.z)] if len(track.z) else track.z
     fits = {"before": d.before, "after": d.after} if d.found else {"before": d.before}

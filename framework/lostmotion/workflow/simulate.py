@@ -15,8 +15,8 @@ import numpy as np
 from lostmotion.beside import SensorTerm
 from lostmotion.contracts import Array, Assembly, Model, Term
 from lostmotion.errors import CaseError, nearest
-from lostmotion.forcing import SILENT, Drive, Tone, substeps
-from lostmotion.inference.tracks import Track, period_samples
+from lostmotion.forcing import SILENT, Drive, substeps
+from lostmotion.inference.tracks import Track, tone_of
 from lostmotion.provenance import provenance
 from lostmotion.quantities import ANGULAR, SI
 from lostmotion.registry import Registry
@@ -190,21 +190,17 @@ def _drive(signals: list[Signal], plan: Plan, nsub: int) -> Drive:
 
 
 def _acting(system: System, full: Array, signals: list[Signal], recorded: Drive) -> Drive:
-    """Return the drive that acts, where terms stand between it and what is recorded."""
-    tone = _tone_of(recorded)
+    """Return the drive that acts, where terms stand between it and what is recorded.
+
+    Its tone is what a diagnosis would read off its samples.
+    """
+    u = recorded.u[:: 3 * recorded.nsub]
+    tone = tone_of(Track("drive", np.zeros(len(u)), u, recorded.dt, ""))
     plain = replace(recorded, tone=tone)
     if not system.shaping(system.everything):
         return plain
-    u = system.acting(lambda t, order: signals[order].value(t), full, system.everything, tone)
-    return Drive.acting(u, len(signals), plain, False)
-
-
-def _tone_of(drive: Drive) -> Tone:
-    """Return frequency and amplitude of a drive as a diagnosis would read them off its samples."""
-    u = drive.u[:: 3 * drive.nsub]
-    track = Track("drive", np.zeros(len(u)), u, drive.dt, "")
-    period = period_samples(track)
-    return Tone(2.0 * math.pi / (period * drive.dt) if period else 0.0, track.travel)
+    acting = system.acting(lambda t, order: signals[order].value(t), full, system.everything, tone)
+    return Drive.acting(acting, len(signals), plain, False)
 
 
 def _shown(system: System, full: Array, channels: Mapping[str, Array], plan: Plan) -> dict[str, Array]:

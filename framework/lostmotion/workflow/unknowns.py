@@ -10,6 +10,7 @@ import numpy as np
 
 from lostmotion.inference.curves import Band, band_of
 from lostmotion.inference.learned import names_of
+from lostmotion.inference.locate import listed
 from lostmotion.inference.proposal import Axis, proposed
 from lostmotion.inference.shares import LEVEL, SURROGATES, significant
 from lostmotion.inference.unexplained import Unknown
@@ -53,12 +54,8 @@ def learned_entry(d: Diagnosis) -> dict[str, Any]:
         "curves": curves,
         "proposal": _proposal(d, bands),
         "share_of_drive": share,
-        "says": f"{text}: it depends on {_listed(depends)} and is modelled by a learned curve.",
+        "says": f"{text}: it depends on {listed(depends)} and is modelled by a learned curve.",
     }
-
-
-def _listed(names: list[str]) -> str:
-    return " and ".join([", ".join(names[:-1]), names[-1]] if len(names) > 1 else names)
 
 
 def unnamed_entry(d: Diagnosis) -> dict[str, Any]:
@@ -68,7 +65,7 @@ def unnamed_entry(d: Diagnosis) -> dict[str, Any]:
     rms = float(np.std(located.missing.force))
     unit = _unit_of(d, Dimension(1, 0, 0))
     share = rms / d.after.problem.scales.force
-    on = f"depends on {_listed(depends)}" if depends else "depends on nothing that was recorded"
+    on = f"depends on {listed(depends)}" if depends else "depends on nothing that was recorded"
     return {
         "mechanism": "unknown" if depends else "random_force",
         "probability": 1.0 - math.exp(-d.random_gain),
@@ -145,7 +142,7 @@ def where(located: Located, learned: Unknown | None = None) -> dict[str, Any]:
     """Return what a force depends on: a sentence, shares of its variance, and whether noise would show them as well."""
     explained, summary = located.explained, located.summary
     if learned:
-        summary = f"a function of {_listed(names_of(learned.terms))}, as the learned curve has it; by itself: {summary}"
+        summary = f"a function of {listed(names_of(learned.terms))}, as the learned curve has it; by itself: {summary}"
     return {
         "summary": summary,
         "explained_by": located.shares,

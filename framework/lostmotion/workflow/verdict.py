@@ -9,7 +9,6 @@ import numpy as np
 
 from lostmotion.inference.candidates import term_of
 from lostmotion.inference.fit import Fit
-from lostmotion.inference.tracks import period_samples
 from lostmotion.stages.compare import Prediction
 from lostmotion.stages.diagnose import Diagnosis
 from lostmotion.system import key_of
@@ -53,7 +52,7 @@ def _setting(outcome: Outcome) -> dict[str, Any]:
     d = outcome.diagnosis
     model, scales = d.after.problem.system.model, d.after.problem.scales
     rotation = model.motion == "rotation"
-    period = period_samples(d.shown)
+    period = d.shown.period
     units = ("rad", "rad/s", "N m") if rotation else ("m", "m/s", "N")
     predictions = {"before": outcome.before, "after": outcome.after}
     return {

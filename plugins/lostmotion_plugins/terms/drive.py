@@ -11,6 +11,7 @@ import numpy as np
 from lostmotion.beside import DriveTerm, Input
 from lostmotion.contracts import Array, Param, Values
 from lostmotion.quantities import NUMBER, TIME
+from lostmotion_plugins.terms.changing import ParametricStiffness
 
 FAR = (-2.0, -1.0, -0.5, -0.2, 0.2, 0.5, 1.0, 1.5, 2.0, 2.8, 4.0, 5.5)
 """Delays in natural times of the motion, a radian of it: beyond a few tenths the response no longer grows with them."""
@@ -46,9 +47,7 @@ class ExcitationHarmonic(DriveTerm):
         more = p[0] * np.cos(angle) + p[1] * np.sin(angle)
         return np.asarray(u(t, order) + p[4] * turn**order * more)
 
-    @staticmethod
-    def derived(p: Values) -> Values:
-        return math.hypot(p[0], p[1]), math.atan2(-p[1], p[0])
+    derived = staticmethod(ParametricStiffness.derived)
 
 
 @dataclass(frozen=True)

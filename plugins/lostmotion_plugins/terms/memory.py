@@ -76,9 +76,7 @@ class LuGreFriction(Term):
     needs = ("step",)
     resembles = _but("lugre_friction")
 
-    @staticmethod
-    def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
-        return -s[0]
+    force = staticmethod(DahlFriction.force)
 
     @staticmethod
     def rate(t: float, x: float, v: float, u: Array, p: Values, s: Values, dsdt: Array) -> None:
@@ -108,9 +106,7 @@ class BoucWenHysteresis(Term):
     needs = ("step",)
     resembles = _but("bouc_wen_hysteresis")
 
-    @staticmethod
-    def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
-        return -s[0]
+    force = staticmethod(DahlFriction.force)
 
     @staticmethod
     def rate(t: float, x: float, v: float, u: Array, p: Values, s: Values, dsdt: Array) -> None:
