@@ -28,11 +28,19 @@ class CaseError(LostMotionError):
 
 
 class ContractError(LostMotionError):
-    """A plugin breaks the contract of its kind."""
+    """A plugin breaks the contract of its kind; `plugin` is the name of the sinner, where it is known."""
+
+    def __init__(self, says: str = "", plugin: str = "") -> None:
+        super().__init__(says)
+        self.plugin = plugin
 
 
 class PluginError(LostMotionError):
     """A plugin name is unknown, contested or could not be loaded."""
+
+
+class PluginWarning(UserWarning):
+    """A plugin was set aside, or is slow, and the rest goes on; the command line shows it as one sentence."""
 
 
 def nearest(word: str, known: Iterable[str]) -> str:

@@ -223,6 +223,8 @@ BAD = [
     ("name_is_snake_case", Drag, {"name": "Air Drag"}, set()),
     ("paper_is_cited", Drag, {"paper": ""}, set()),
     ("has_docstring", Drag, {"__doc__": None}, set()),
+    ("known_failures_are_named", Drag, {"known_failures": ["has_a_null"]}, set()),
+    ("known_failures_are_named", Drag, {"known_failures": {"has_no_null": "a reason"}}, set()),
     ("attributes_are_complete", Cart, {"channels": "abc"}, set()),
     ("methods_have_the_arguments_of_the_contract", Drag, {"force": staticmethod(forgets_an_argument)}, set()),
     ("params_are_unique", Cart, {"params": (MASS, replace(MASS, name="mass", aliases=("m",)))}, set()),
@@ -310,7 +312,7 @@ def test_every_rule_has_a_bad_plugin_and_advice():
 
 
 def test_declaration_comes_before_behaviour():
-    findings = testing.check(spoiled(Drag, {"paper": ""}))
+    findings = testing.check(spoiled(Drag, {"motions": ("sideways",)}))
     behaviour = {rule.name for rule in testing.rules_for("term") if not rule.declaration}
     assert behaviour.isdisjoint(f.rule for f in findings)
 

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Mapping
+import warnings
+from collections.abc import Iterator, Mapping
 from importlib import import_module
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import click
 from click.shell_completion import CompletionItem
 
-from lostmotion.errors import LostMotionError, nearest
+from lostmotion.errors import LostMotionError, PluginWarning, nearest
 from lostmotion.registry import KINDS, Registry, default
 
 INTERRUPTED = 130
@@ -29,6 +30,24 @@ class SentenceError(click.ClickException):
     def show(self, file: object = None) -> None:
         """Write the sentence to standard error."""
         click.echo(f"lostmotion: {' '.join(self.message.split())}", err=True)
+
+
+@contextlib.contextmanager
+def _warnings_told() -> Iterator[None]:
+    """Show each warning about a plugin once, as a sentence on standard error; all others as they are."""
+    with warnings.catch_warnings():
+        shown, told = warnings.showwarning, set[str]()
+
+        def show(message: Warning | str, category: type[Warning], *rest: Any) -> None:
+            if not issubclass(category, PluginWarning):
+                shown(message, category, *rest)
+            elif str(message) not in told:
+                told.add(str(message))
+                click.echo(f"lostmotion: warning: {' '.join(str(message).split())}", err=True)
+
+        warnings.simplefilter("always", PluginWarning)
+        warnings.showwarning = show  # type: ignore[assignment]
+        yield
 
 
 class LazyGroup(click.Group):
@@ -69,7 +88,8 @@ class LazyGroup(click.Group):
     def invoke(self, ctx: click.Context) -> object:
         """Run the command; an error of ours becomes a sentence, Ctrl-C the exit status 130."""
         try:
-            return super().invoke(ctx)
+            with _warnings_told() if ctx.parent is None else contextlib.nullcontext():
+                return super().invoke(ctx)
         except LostMotionError as err:
             raise SentenceError(str(err)) from err
         except (KeyboardInterrupt, click.Abort):

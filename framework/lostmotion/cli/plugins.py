@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import platform
 from collections import Counter
-from dataclasses import asdict
+from dataclasses import MISSING, asdict, fields, is_dataclass
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -69,7 +69,10 @@ def show(ctx: click.Context, name: str, as_json: bool) -> None:
 @_AS_JSON
 @click.pass_context
 def check(ctx: click.Context, names: tuple[str, ...], as_json: bool) -> None:
-    """Hold plugins against the rules of their kind; the exit status is 1 when one is broken."""
+    """Hold plugins against the rules of their kind; the exit status is 1 when one is broken.
+
+    A rule that the plugin itself names in `known_failures`, with the reason, is told and does not count.
+    """
     from lostmotion import testing
 
     registry = registry_of(ctx)
@@ -79,7 +82,7 @@ def check(ctx: click.Context, names: tuple[str, ...], as_json: bool) -> None:
         _print_json(ctx, checks=[{"kind": e.kind, "name": e.name, "rules": [asdict(f) for f in r]} for e, r in report])
     else:
         _print_checks(report)
-    ctx.exit(0 if all(f.ok for _, findings in report for f in findings) else 1)
+    ctx.exit(0 if all(f.ok or f.known for _, findings in report for f in findings) else 1)
 
 
 def _called(registry: Registry, name: str) -> list[Entry]:
@@ -100,7 +103,8 @@ def _wants_json(ctx: click.Context, as_json: bool) -> bool:
 
 def _print_json(ctx: click.Context, **content: Any) -> None:
     provenance = {"lostmotion": __version__, "python": platform.python_version(), "command": ctx.command_path}
-    click.echo(json.dumps({"schema": "lostmotion.plugins/1", "provenance": provenance, **content}, indent=1))
+    content = {"schema": "lostmotion.plugins/1", "provenance": provenance, **content}
+    click.echo(json.dumps(content, indent=1, default=str))
 
 
 def _print_table(entries: tuple[Entry, ...]) -> None:
@@ -128,20 +132,38 @@ def _sheet(entry: Entry, cls: type[Any]) -> dict[str, Any]:
         sheet["interfaces"] = [{"name": i.name, "row": i.row, "inertia": i.inertia, "holds": i.holds} for i in places]
     if params := getattr(cls, "params", None):
         motions = getattr(cls, "motions", None) or (cls.motion,)
-        sheet["parameters"] = [_parameter(q, motions) for q in params]
+        sheet["parameters"] = [_parameter(q, motions, entry.kind) for q in params]
+    if options := [f for f in fields(cls) if f.init and f.name != "at"] if is_dataclass(cls) else []:
+        sheet["options"] = {f.name: None if f.default is MISSING else f.default for f in options}
+    if known := getattr(cls, "known_failures", None):
+        sheet["known_failures"] = dict(known)
     return sheet
 
 
-_WORDS = ("physics", "formula", "null", "paper", "motion")
+_WORDS = ("physics", "formula", "null", "paper", "motion", "reads", "unit")
 _LISTS = ("states", "inputs", "channels", "needs", "motions", "resembles")
 _SETS = ("preserves",)
 
 
-def _parameter(q: Param, motions: tuple[str, ...]) -> dict[str, Any]:
+def _parameter(q: Param, motions: tuple[str, ...], kind: str) -> dict[str, Any]:
     """Return a parameter as plain data, with its unit in each kind of motion."""
     sheet: dict[str, Any] = {"name": q.name, "meaning": q.meaning, "units": {m: q.dimension.unit(m) for m in motions}}
     sheet |= {"low": _bound(q.low), "high": _bound(q.high), "scale": q.scale, "null": q.null}
-    return sheet | {"typical": q.typical, "aliases": list(q.aliases)}
+    sheet |= {"typical": q.typical, "aliases": list(q.aliases)}
+    return sheet | ({"prior": _prior(q)} if kind == "term" else {})
+
+
+def _prior(q: Param) -> str:
+    """Return how a diagnosis believes in a parameter of a term beforehand, in natural sizes of the recording."""
+    if q.choices:
+        return f"one of {', '.join(f'{c:g}' for c in q.choices)}"
+    sizes = ("drive force", "rms position", "length of the recording" if q.lasting else "time of the motion")
+    powers = zip(sizes, (q.dimension.force, q.dimension.length, q.dimension.time), strict=True)
+    natural = "".join(
+        f" {'*' if n > 0 else '/'} {size}" + (f"^{abs(n)}" if abs(n) > 1 else "") for size, n in powers if n
+    )
+    form = "log-normal about" if q.scale == "log" else "half-normal of width" if q.low == 0.0 else "normal about 0, sd"
+    return f"{form} {q.typical:g}{natural}"
 
 
 def _bound(value: float) -> float | None:
@@ -161,6 +183,12 @@ def _print_sheet(sheet: dict[str, Any]) -> None:
         click.echo(f"  {'interface':<11}{place['name']}: acts on row {place['row']} through {place['inertia']}{holds}")
     for parameter in sheet.get("parameters", ()):
         click.echo(f"  {'parameter':<11}{_parameter_line(parameter)}")
+        if "prior" in parameter:
+            click.echo(f"  {'':<11}  prior {parameter['prior']}")
+    for option, value in sheet.get("options", {}).items():
+        click.echo(f"  {'option':<11}{option} = {value!r}")
+    for rule, reason in sheet.get("known_failures", {}).items():
+        click.echo(f"  {'breaks':<11}{rule}: {reason}")
 
 
 def _parameter_line(q: dict[str, Any]) -> str:
@@ -176,8 +204,17 @@ def _print_checks(report: list[tuple[Entry, list[Finding]]]) -> None:
     for entry, findings in report:
         click.secho(f"{entry.name} ({entry.kind} of {entry.owner})", bold=True)
         for finding in findings:
-            click.echo(f"  {'ok  ' if finding.ok else 'FAIL'}  {finding.rule}")
+            click.echo(f"  {_state(finding):<5} {finding.rule}")
             if not finding.ok:
-                click.echo(click.wrap_text(finding.sentence, 100, " " * 8, " " * 8))
-    broken = Counter(f.ok for _, findings in report for f in findings)
-    click.echo(f"{broken[True]} rules kept, {broken[False]} broken")
+                sentence = f"{finding.found}. Known: {finding.known}" if finding.known else finding.sentence
+                click.echo(click.wrap_text(sentence, 100, " " * 8, " " * 8))
+    many = Counter(_state(f) for _, findings in report for f in findings)
+    known = f", {many['known']} known to be broken" if many["known"] else ""
+    click.echo(f"{many['ok']} rules kept, {many['FAIL']} broken{known}")
+
+
+def _state(finding: Finding) -> str:
+    """Return how a finding is marked in the list."""
+    if finding.ok:
+        return "ok"
+    return "known" if finding.known else "FAIL"

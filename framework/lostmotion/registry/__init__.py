@@ -6,6 +6,7 @@ Listing the names imports neither NumPy nor numba nor the contracts.
 
 from __future__ import annotations
 
+from contextlib import nullcontext
 from dataclasses import dataclass, fields, is_dataclass, replace
 from functools import lru_cache
 from importlib import metadata
@@ -15,11 +16,13 @@ from typing import Any
 
 from lostmotion.errors import LostMotionError, PluginError, nearest
 from lostmotion.hookspecs import GROUP
-from lostmotion.registry.classes import class_of, classes_in, imported, kind_of, module_from, require
+from lostmotion.provenance import digest
+from lostmotion.registry.classes import class_of, classes_in, clocked, imported, kind_of, module_from, require
 from lostmotion.registry.hooks import FAILURES, KINDS, Host, RefusedError, guarded, said
 
 __all__ = ["KINDS", "Entry", "Registry", "default"]
 
+OURS = "lostmotion"
 _PACKAGE = "package"
 
 
@@ -43,6 +46,11 @@ class Entry:
         """The name as a sentence begins with it: `term 'drag' of my_package`."""
         return f"{self.kind} {self.name!r} of {self.owner}"
 
+    @property
+    def ours(self) -> bool:
+        """Whether it came with lostmotion itself."""
+        return self.owner == OURS
+
 
 class Registry:
     """The names of all plugins, who offers each, and the way from a name to its class."""
@@ -51,6 +59,7 @@ class Registry:
         self._host = Host()
         self._offers: list[Entry] = []
         self._given: dict[Entry, Any] = {}
+        self._files: dict[str, str] = {}
 
     @classmethod
     def discover(cls) -> Registry:
@@ -79,6 +88,7 @@ class Registry:
     def add_file(self, path: str | Path) -> Registry:
         """Return this registry with a .py file in it: its hooks, or every Model, Term ... class written in the file."""
         module = module_from(Path(path))
+        self._files[Path(path).name] = digest(Path(path))
         if self._host.has_hooks(module):
             return self.add(module, str(path))
         if not (found := classes_in(module)):
@@ -97,6 +107,15 @@ class Registry:
         order = {kind: i for i, kind in enumerate((*KINDS, _PACKAGE))}
         judged = (self._judged(e) for e in self._offers)
         return tuple(sorted(judged, key=lambda e: (order[e.kind], e.name, e.owner)))
+
+    def entry(self, kind: str, name: str) -> Entry:
+        """Return who offers a name; raise `PluginError` when it is unknown or contested."""
+        return self._find(kind, name)
+
+    def origins(self) -> dict[str, str]:
+        """Return what others have brought: the SHA-256 of each plugin file, and the version of each package."""
+        packages = {e.owner: e.version for e in self._offers if e.version and not e.ours}
+        return {**packages, **self._files}
 
     def load(self, kind: str, name: str) -> type[Any]:
         """Return the class behind a name; raise `PluginError` when it is unknown, contested or breaks its kind."""
@@ -119,9 +138,11 @@ class Registry:
         """Return the class behind a name, or the instance that was added under it."""
         entry = self._find(kind, name)
         given = self._given.get(entry)
-        found = imported(entry.target, entry.whose) if given is None else given
-        require(class_of(found), kind, name, entry.whose)
-        return found
+        if given is None:
+            with nullcontext() if entry.ours else clocked(entry.whose):
+                given = imported(entry.target, entry.whose)
+        require(class_of(given), kind, name, entry.whose)
+        return given
 
     def _admit(self, point: metadata.EntryPoint) -> None:
         """Take in one entry point, or keep it aside with the reason."""

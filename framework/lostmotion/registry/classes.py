@@ -6,12 +6,19 @@ import importlib
 import importlib.util
 import inspect
 import sys
+import time
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from lostmotion.errors import PluginError, nearest
+from lostmotion.errors import PluginError, PluginWarning, nearest
 from lostmotion.registry.hooks import FAILURES, said
+
+SLOW = 2.0
+"""An import that takes longer than this (s) is named in a warning."""
 
 
 def class_of(obj: Any) -> type[Any]:
@@ -24,6 +31,18 @@ def kind_of(obj: object) -> str:
     from lostmotion import contracts
 
     return next((kind for kind, base in contracts.KINDS.items() if issubclass(class_of(obj), base)), "")
+
+
+@contextmanager
+def clocked(whose: str) -> Iterator[None]:
+    """Warn when what is done within takes long; `whose` begins the sentence."""
+    from lostmotion import contracts  # noqa: F401 - every plugin needs it, so it is not charged to the first
+
+    begin = time.perf_counter()
+    yield
+    if (seconds := time.perf_counter() - begin) > SLOW:
+        says = f"{whose} took {seconds:.1f} s to import: have its author import what is slow where it is used"
+        warnings.warn(says, PluginWarning, stacklevel=3)
 
 
 def imported(target: str, whose: str) -> type[Any]:
@@ -52,9 +71,9 @@ def require(cls: type[Any], kind: str, name: str, whose: str) -> None:
 
 
 def classes_in(module: ModuleType) -> list[type[Any]]:
-    """Return the finished plugin classes that are written in `module` itself, in order."""
+    """Return the plugin classes that are written in `module` itself, in order; a base without a name is none."""
     own = [c for c in vars(module).values() if isinstance(c, type) and c.__module__ == module.__name__]
-    return [c for c in own if kind_of(c) and not inspect.isabstract(c)]
+    return [c for c in own if kind_of(c) and (not inspect.isabstract(c) or "name" in vars(c))]
 
 
 def module_from(path: Path) -> ModuleType:
@@ -82,7 +101,8 @@ def _run(name: str, place: str) -> ModuleType:
         raise PluginError(f"plugin file {place} cannot be read as Python: give the path of a Python file")
     module = sys.modules[name] = importlib.util.module_from_spec(spec)
     try:
-        spec.loader.exec_module(module)
+        with clocked(f"plugin file {Path(place).name}"):
+            spec.loader.exec_module(module)
     except FAILURES as err:
         del sys.modules[name]
         raise PluginError(f"plugin file {place} could not be loaded: {said(err)}: mend the file") from err

@@ -1,7 +1,10 @@
 """What a rule is, and the rules that hold for every kind; a rule's docstring is the advice it gives when broken.
 
 A rule takes a component and returns what it found to be wrong, or an empty string. Rules of declaration come first;
-the rules of behaviour are tried only on a component whose declaration is right, since they read it.
+the rules of behaviour are tried only on a component whose declaration is right, since they read it. A rule of courtesy
+is for people: a component that breaks it can be relied upon all the same.
+
+A component may name rules that it is known to break, each with the reason: `known_failures = {"has_a_null": "..."}`.
 """
 
 from __future__ import annotations
@@ -9,7 +12,7 @@ from __future__ import annotations
 import inspect
 import pickle
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -23,13 +26,23 @@ _RULES: list[Rule] = []
 
 @dataclass(frozen=True)
 class Finding:
-    """Whether a component keeps one rule; if not, what was found and what to do about it."""
+    """Whether a component keeps one rule; if not, what was found and what to do about it.
+
+    `known` is the reason that the component itself gives for breaking the rule.
+    """
 
     component: str
     rule: str
     ok: bool
     found: str = ""
     advice: str = ""
+    courtesy: bool = False
+    known: str = ""
+
+    @property
+    def fatal(self) -> bool:
+        """Whether a host cannot rely on the component."""
+        return not (self.ok or self.courtesy or self.known)
 
     @property
     def sentence(self) -> str:
@@ -47,7 +60,8 @@ class Rule:
     name: str
     kinds: tuple[str, ...]
     judge: Judge
-    declaration: bool
+    declaration: bool = False
+    courtesy: bool = False
 
     @property
     def advice(self) -> str:
@@ -61,14 +75,24 @@ class Rule:
         except Exception as err:
             found = raised(err)
         label = str(getattr(component, "name", type(component).__name__))
-        return Finding(label, self.name, not found, found, self.advice if found else "")
+        if not found:
+            return Finding(label, self.name, True, courtesy=self.courtesy)
+        known = known_of(component).get(self.name, "")
+        return Finding(label, self.name, False, found, self.advice, self.courtesy, known)
 
 
-def rule(*kinds: str, declaration: bool = False) -> Callable[[Judge], Judge]:
+def known_of(component: Any) -> Mapping[str, str]:
+    """Return the rules that a component is known to break, with its reasons."""
+    known = getattr(component, "known_failures", {})
+    good = isinstance(known, Mapping) and all(isinstance(v, str) and v.strip() for v in known.values())
+    return known if good else {}
+
+
+def rule(*kinds: str, declaration: bool = False, courtesy: bool = False) -> Callable[[Judge], Judge]:
     """Return a decorator that makes a function a rule of these kinds."""
 
     def note(judge: Judge) -> Judge:
-        _RULES.append(Rule(judge.__name__, kinds, judge, declaration))
+        _RULES.append(Rule(judge.__name__, kinds, judge, declaration, courtesy))
         return judge
 
     return note
@@ -108,7 +132,7 @@ def name_is_snake_case(component: Any) -> str:
     return "" if isinstance(name, str) and SNAKE.fullmatch(name) else f"its name is {name!r}"
 
 
-@rule(*KINDS, declaration=True)
+@rule(*KINDS, declaration=True, courtesy=True)
 def paper_is_cited(component: Any) -> str:
     """Say in `paper` where the law or the method is written down: authors, place and year."""
     paper = getattr(component, "paper", None)
@@ -116,13 +140,24 @@ def paper_is_cited(component: Any) -> str:
     return "" if good else f"its paper is {paper!r}"
 
 
-@rule(*KINDS, declaration=True)
+@rule(*KINDS, declaration=True, courtesy=True)
 def has_docstring(component: Any) -> str:
     """Write a docstring under the class line: `lostmotion plugins show` prints it."""
     cls = type(component)
     written = vars(cls).get("__doc__") or ""
     made_by_dataclass = written.startswith(f"{cls.__name__}(")
     return "" if written.strip() and not made_by_dataclass else f"{cls.__name__} has no docstring of its own"
+
+
+@rule(*KINDS, declaration=True, courtesy=True)
+def known_failures_are_named(component: Any) -> str:
+    """Map in `known_failures` rules of this kind to the reason why each is broken: `{"has_a_null": "because ..."}`."""
+    known, base = getattr(component, "known_failures", {}), _base(component)
+    if known and known_of(component) is not known:
+        return f"known_failures is {known!r}"
+    names = {r.name for kind, own in KINDS.items() if own is base for r in rules_for(kind)}
+    unknown = [name for name in known if name not in names]
+    return f"known_failures names {unknown[0]!r}, which is no rule of this kind" if unknown else ""
 
 
 @rule(*KINDS, declaration=True)
@@ -153,7 +188,7 @@ def _arguments(cls: type[Any], name: str) -> list[str]:
     return list(inspect.signature(getattr(cls, name)).parameters)
 
 
-@rule(*KINDS)
+@rule(*KINDS, courtesy=True)
 def can_be_pickled(component: Any) -> str:
     """Let every field be plain data and the class stand at the top of its module: it is sent to other processes."""
     same = pickle.loads(pickle.dumps(component)) == component  # noqa: S301 - our own bytes, made a moment ago

@@ -46,7 +46,7 @@ def dimensions_are_dimensions(component: Any) -> str:
     return f"the dimension of {bad[0]} is none" if bad else ""
 
 
-@rule("model", "term", declaration=True)
+@rule("model", "term", declaration=True, courtesy=True)
 def params_have_meanings(component: Any) -> str:
     """Say in a few words what each parameter means: reports and `lostmotion plugins show` print them."""
     bad = [q.name for q in component.params if not q.meaning.strip()]

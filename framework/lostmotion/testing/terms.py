@@ -58,7 +58,7 @@ def physics_names_its_parameters(term: Term) -> str:
     return f"it leaves out {listed(lacking)}" if lacking else ""
 
 
-@rule("term", declaration=True)
+@rule("term", declaration=True, courtesy=True)
 def formula_is_written(term: Term) -> str:
     """Write the law in `formula` as plain text, in the names of the parameters: `-coefficient * v`."""
     return "" if term.formula.strip() else "the formula is empty"
@@ -79,7 +79,7 @@ def motions_are_known(term: Term) -> str:
     return "" if good else f"the motions are {term.motions!r}"
 
 
-@rule("term", declaration=True)
+@rule("term", declaration=True, courtesy=True)
 def resembles_names_others(term: Term) -> str:
     """List in `resembles` the names of other terms that a recording may not tell from this one."""
     bad = [name for name in term.resembles if name == term.name or not SNAKE.fullmatch(str(name))]
