@@ -2,21 +2,30 @@
 
 from __future__ import annotations
 
+import errno
+import glob
 import json
 import math
 import os
+import re
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from lostmotion.errors import DataError
+from lostmotion.errors import DataError, LostMotionError
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 ENDINGS = (".csv", ".nc")
 """The endings of a table, which tell its format."""
+FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
+"""What the system calls a full disk, a used-up share of it, and a file that may not grow."""
 
 
 def save_table(
@@ -43,17 +52,62 @@ def require_ending(path: Path) -> None:
 
 @contextmanager
 def whole(path: Path) -> Iterator[Path]:
-    """Yield a spare file beside `path`, which takes its name once it is on the disk, or vanishes after an error."""
+    """Yield a spare file beside `path`, which takes its name once it is on the disk, or vanishes after an error.
+
+    What stood there before stays as it was until then. Spare files of processes that were killed are removed.
+    """
     spare = path.with_name(f".{path.stem}.{os.getpid()}{path.suffix}")
+    with writing(path):
+        _clear(path)
+        try:
+            yield spare
+            _settle(spare)
+            spare.replace(path)
+            _settle(path.parent)
+        finally:
+            spare.unlink(missing_ok=True)
+
+
+@contextmanager
+def writing(path: Path) -> Iterator[None]:
+    """Turn what the system says while `path` is written into a `DataError`; a full disk is told as such."""
     try:
-        yield spare
-        _settle(spare)
-        spare.replace(path)
-        _settle(path.parent)
-    except OSError as err:
-        raise DataError(f"{path} cannot be written ({err.strerror or err}): choose another place") from err
-    finally:
-        spare.unlink(missing_ok=True)
+        yield
+    except (OSError, RuntimeError) as err:
+        number = _number_of(err)
+        if isinstance(err, RuntimeError) and number is None:
+            raise
+        if number in FULL:
+            raise DataError(
+                f"{path} cannot be written, for there is no room left on its disk ({os.strerror(number)}): make room "
+                "and run the same command again; what stood there before is as it was"
+            ) from err
+        said = os.strerror(number) if number else str(err).partition("\n")[0]
+        raise DataError(f"{path} cannot be written ({said}): choose another place") from err
+
+
+def _number_of(err: OSError | RuntimeError) -> int | None:
+    """Return the number of a system error; HDF5 tells it in words when it closes a file."""
+    told = re.search(r"errno = (\d+)", str(err))
+    return getattr(err, "errno", None) or (int(told[1]) if told else None)
+
+
+def _clear(path: Path) -> None:
+    """Remove the spare files of processes that are no more."""
+    for spare in path.parent.glob(f".{glob.escape(path.stem)}.*{glob.escape(path.suffix)}"):
+        number = spare.name[len(path.stem) + 2 : len(spare.name) - len(path.suffix)]
+        if number.isdecimal() and not _alive(int(number)):
+            spare.unlink(missing_ok=True)
+
+
+def _alive(process: int) -> bool:
+    try:
+        os.kill(process, 0)
+    except (ProcessLookupError, OverflowError):
+        return False
+    except PermissionError:
+        return True
+    return True
 
 
 def _settle(path: Path) -> None:
@@ -126,11 +180,52 @@ def save_arrays(
 
 def folder_for(path: Path) -> Path:
     """Return the folder `path`, made if need be; a place that cannot be written is refused before the work begins."""
-    try:
+    with writing(path):
         path.mkdir(parents=True, exist_ok=True)
         probe = path / f".probe.{os.getpid()}"
         probe.touch()
         probe.unlink()
-    except OSError as err:
-        raise DataError(f"{path} cannot be written ({err.strerror or err}): choose another place") from err
     return path
+
+
+def save_text(path: Path, text: str) -> Path:
+    """Return `path`, with the text in a file that appears whole or not at all."""
+    with whole(path) as spare:
+        spare.write_text(text, encoding="utf-8")
+    return path
+
+
+def save_bytes(path: Path, content: bytes) -> Path:
+    """Return `path`, with the bytes in a file that appears whole or not at all."""
+    with whole(path) as spare:
+        spare.write_bytes(content)
+    return path
+
+
+def load_json(path: Path, wanted: str) -> dict[str, Any]:
+    """Return the table that a JSON file holds; `wanted` ends the sentence that refuses anything else."""
+    try:
+        found = json.loads(path.read_text(encoding="utf-8"))
+    except OSError as err:
+        raise DataError(f"{path} cannot be read ({err.strerror}): {wanted}") from err
+    except (ValueError, RecursionError) as err:
+        raise DataError(f"{path} is not JSON, or damaged ({str(err).partition(chr(10))[0]}): {wanted}") from err
+    if not isinstance(found, dict):
+        raise DataError(f"{path} holds a {type(found).__name__}, not an object: {wanted}")
+    return found
+
+
+def load_arrays(path: Path, wanted: str, group: str | None = None) -> xr.Dataset:
+    """Return what a netCDF of ours holds, in memory; `wanted` ends the sentence that refuses a damaged one."""
+    import xarray
+
+    from lostmotion.recording.unpacked import check_hdf5
+
+    try:
+        check_hdf5(path)
+        return xarray.load_dataset(path, group=group, engine="h5netcdf")
+    except LostMotionError:
+        raise
+    except Exception as err:  # HDF5 and what reads it fail in every way there is
+        said = str(err).partition("\n")[0][:120]
+        raise DataError(f"{path} cannot be read, or is damaged ({said}): {wanted}") from err

@@ -17,7 +17,7 @@ from lostmotion.report import analysis_tables as tables
 from lostmotion.report import style
 from lostmotion.report.analysis_facts import read_analysis, whole
 from lostmotion.report.evidence import Evidence
-from lostmotion.report.pages import Section, template
+from lostmotion.report.pages import Section, template, written
 
 
 class Drawn(NamedTuple):
@@ -44,9 +44,8 @@ SECTIONS = (
 
 def write_analysis(folder: Path) -> Path:
     """Return the path of `report.html`, written from `analysis.json` and `analysis.nc` in the folder."""
-    page = folder / "report.html"
-    page.write_text(render(read_analysis(folder)), encoding="utf-8")
-    return page
+    evidence = read_analysis(folder)
+    return written(folder / "report.html", lambda: render(evidence), "run `lostmotion analyse` again")
 
 
 def render(evidence: Evidence) -> str:

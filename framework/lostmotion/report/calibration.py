@@ -16,11 +16,13 @@ from matplotlib.figure import Figure
 from lostmotion.errors import DataError
 from lostmotion.report import style
 from lostmotion.report.calibration_figures import CAPTIONS, Found, ecdf, histograms, intervals
-from lostmotion.report.pages import template
+from lostmotion.report.pages import template, written
 from lostmotion.report.posteriors import words_of
 from lostmotion.report.words import DASH, figures, pretty, readable, sentence, spoken
+from lostmotion.storage import load_json
 
 FILES = ("calibration.json", "machines.csv")
+AGAIN = "run `lostmotion calibrate` again"
 
 
 class Drawn(NamedTuple):
@@ -62,9 +64,8 @@ def _words(name: str) -> str:
 
 def write_calibration(folder: Path) -> Path:
     """Return the path of `report.html`, written from `calibration.json` and `machines.csv` in the folder."""
-    page = folder / "report.html"
-    page.write_text(render(read_calibration(folder)), encoding="utf-8")
-    return page
+    calibration = read_calibration(folder)
+    return written(folder / "report.html", lambda: render(calibration), AGAIN)
 
 
 def read_calibration(folder: Path) -> Calibration:
@@ -72,11 +73,14 @@ def read_calibration(folder: Path) -> Calibration:
     missing = [name for name in FILES if not (folder / name).is_file()]
     if missing:
         raise DataError(f"no {missing[0]} in {folder}: run `lostmotion calibrate CASE.toml --out {folder}` first")
-    facts = json.loads((folder / "calibration.json").read_text(encoding="utf-8"))
-    with (folder / "machines.csv").open(encoding="utf-8", newline="") as stream:
-        head, *lines = csv.reader(stream)
-    table = zip(head, zip(*lines, strict=True), strict=True)
-    return Calibration(facts, {name: _numbers(cells) for name, cells in table if name != "status"})
+    facts = load_json(folder / "calibration.json", AGAIN)
+    try:
+        with (folder / "machines.csv").open(encoding="utf-8", newline="") as stream:
+            head, *lines = csv.reader(stream)
+        table = list(zip(head, zip(*lines, strict=True), strict=True))
+        return Calibration(facts, {name: _numbers(cells) for name, cells in table if name != "status"})
+    except (OSError, ValueError, csv.Error) as err:
+        raise DataError(f"{folder / 'machines.csv'} cannot be read, or is damaged ({err}): {AGAIN}") from err
 
 
 def _numbers(cells: tuple[str, ...]) -> np.ndarray[Any, np.dtype[np.float64]]:

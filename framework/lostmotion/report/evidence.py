@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -13,6 +12,7 @@ import xarray as xr
 
 from lostmotion.errors import DataError
 from lostmotion.results import Array
+from lostmotion.storage import load_arrays, load_json
 
 
 @dataclass(frozen=True)
@@ -72,13 +72,8 @@ def gathered(folder: Path, names: tuple[str, str], command: str) -> Evidence:
     if not page.is_file():
         raise DataError(f"no {page.name} in {folder}: run `{command} --out {folder}` first")
     again = f"run `{' '.join(command.split()[:2])}` again"
-    try:
-        facts = json.loads(page.read_text(encoding="utf-8"))
-    except json.JSONDecodeError as error:
-        raise DataError(f"{page} is not JSON ({error}): {again}") from error
-    if not isinstance(facts, dict):
-        raise DataError(f"{page} holds a {type(facts).__name__}, not an object: {again}")
-    return _with_arrays(facts, xr.load_dataset(arrays, engine="h5netcdf") if arrays.is_file() else xr.Dataset())
+    facts = load_json(page, again)
+    return _with_arrays(facts, load_arrays(arrays, again) if arrays.is_file() else xr.Dataset())
 
 
 def _with_arrays(facts: Mapping[str, Any], data: xr.Dataset) -> Evidence:

@@ -14,7 +14,7 @@ from lostmotion.report import identification_figures as drawing
 from lostmotion.report import identification_levels as leveled
 from lostmotion.report import style
 from lostmotion.report.identification_facts import Sampled, read_sampled
-from lostmotion.report.pages import template
+from lostmotion.report.pages import template, written
 from lostmotion.report.words import DASH, Scale, figures, interval, pretty, readable
 
 LEADING = 3
@@ -32,9 +32,8 @@ class Drawn(NamedTuple):
 
 def write_identification(folder: Path) -> Path:
     """Return the path of `report.html`, written from `identification.json` and `posterior.nc` in the folder."""
-    page = folder / "report.html"
-    page.write_text(render(read_sampled(folder)), encoding="utf-8")
-    return page
+    sampled = read_sampled(folder)
+    return written(folder / "report.html", lambda: render(sampled), "run `lostmotion identify` again")
 
 
 def render(sampled: Sampled) -> str:

@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-import xarray as xr
 
 from lostmotion.errors import DataError
 from lostmotion.report.posteriors import words_of
 from lostmotion.report.words import Scale, readable, spoken
 from lostmotion.results import Array
+from lostmotion.storage import load_arrays, load_json
 
+AGAIN = "run `lostmotion identify` again"
 MOST = 8
 """Parameters that a figure of all pairs can hold."""
 
@@ -68,7 +68,7 @@ def read_sampled(folder: Path) -> Sampled:
     missing = [name for name in ("identification.json", "posterior.nc") if not (folder / name).is_file()]
     if missing:
         raise DataError(f"no {missing[0]} in {folder}: run `lostmotion identify CASE.toml --out {folder}` first")
-    facts = json.loads((folder / "identification.json").read_text(encoding="utf-8"))
-    data = xr.load_dataset(folder / "posterior.nc", group="posterior", engine="h5netcdf")
+    facts = load_json(folder / "identification.json", AGAIN)
+    data = load_arrays(folder / "posterior.nc", AGAIN, group="posterior")
     draws = {str(name): np.asarray(v.values, dtype=float) for name, v in data.data_vars.items()}
     return Sampled(facts, draws, {str(n): str(v.attrs.get("units", "1")) for n, v in data.data_vars.items()})

@@ -23,7 +23,7 @@ from lostmotion.report import (
     tables,
 )
 from lostmotion.report.evidence import Evidence, read_evidence
-from lostmotion.report.pages import Section, template
+from lostmotion.report.pages import Section, template, written
 
 
 class Drawn(NamedTuple):
@@ -55,9 +55,8 @@ SECTIONS = (
 
 def write_report(folder: Path) -> Path:
     """Return the path of `report.html`, written from `diagnosis.json` and `arrays.nc` in the folder."""
-    page = folder / "report.html"
-    page.write_text(render(read_evidence(folder)), encoding="utf-8")
-    return page
+    evidence = read_evidence(folder)
+    return written(folder / "report.html", lambda: render(evidence), "run `lostmotion diagnose` again")
 
 
 def render(evidence: Evidence) -> str:

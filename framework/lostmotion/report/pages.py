@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 from typing import NamedTuple
 
 from jinja2 import Environment, PackageLoader, StrictUndefined, Template
 from matplotlib.figure import Figure
 
+from lostmotion.errors import DataError, LostMotionError
 from lostmotion.report.evidence import Evidence
+from lostmotion.storage import save_text
 
 
 class Section(NamedTuple):
@@ -18,6 +21,21 @@ class Section(NamedTuple):
     title: str
     draw: Callable[[Evidence], Figure | None]
     caption: Callable[[Evidence], str]
+
+
+def written(page: Path, render: Callable[[], str], source: str) -> Path:
+    """Return the path of a page once it is on the disk, whole; facts that no command wrote are refused.
+
+    `source` names the file of facts and the command that writes it.
+    """
+    try:
+        text = render()
+    except LostMotionError:
+        raise
+    except Exception as err:  # a file that somebody changed can be wrong in every way there is
+        said = f"{type(err).__name__}: {str(err).partition(chr(10))[0][:120]}"
+        raise DataError(f"{page} cannot be drawn ({said}): {source}") from err
+    return save_text(page, text)
 
 
 def template(name: str) -> Template:

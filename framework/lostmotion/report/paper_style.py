@@ -16,6 +16,7 @@ from PIL import Image
 
 from lostmotion.contracts import Array
 from lostmotion.report import style
+from lostmotion.storage import save_bytes
 
 Data = Mapping[str, Any]
 DPI = 300
@@ -29,12 +30,13 @@ CALM_TO_CHAOS = LinearSegmentedColormap.from_list(
 
 def files(figure: Figure, folder: Path, name: str) -> list[str]:
     """Return the names of the PNG (300 dpi) and the PDF into which a figure was saved."""
-    pixels = io.BytesIO()
+    pixels, small, page = io.BytesIO(), io.BytesIO(), io.BytesIO()
     figure.savefig(pixels, format="png", dpi=DPI, metadata={"Software": None})
-    Image.open(pixels).convert("RGB").quantize(255, dither=Image.Dither.NONE).save(
-        folder / f"{name}.png", format="png", optimize=True, dpi=(DPI, DPI)
-    )
-    figure.savefig(folder / f"{name}.pdf", format="pdf", dpi=DPI, metadata={"CreationDate": None, "Creator": None})
+    reduced = Image.open(pixels).convert("RGB").quantize(255, dither=Image.Dither.NONE)
+    reduced.save(small, format="png", optimize=True, dpi=(DPI, DPI))
+    save_bytes(folder / f"{name}.png", small.getvalue())
+    figure.savefig(page, format="pdf", dpi=DPI, metadata={"CreationDate": None, "Creator": None})
+    save_bytes(folder / f"{name}.pdf", page.getvalue())
     return [f"{name}.png", f"{name}.pdf"]
 
 

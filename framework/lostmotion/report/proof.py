@@ -12,11 +12,13 @@ from matplotlib.figure import Figure
 
 from lostmotion.errors import DataError
 from lostmotion.report import style
-from lostmotion.report.pages import template
+from lostmotion.report.pages import template, written
 from lostmotion.report.proof_figures import CAPTIONS, detection, heldout, reliability
 from lostmotion.report.words import DASH, figures, percent, sentence, spoken
+from lostmotion.storage import load_json
 
 Facts = Mapping[str, Any]
+AGAIN = "run `lostmotion prove` again"
 
 
 class Drawn(NamedTuple):
@@ -42,9 +44,8 @@ def write_proof(folder: Path) -> Path:
     source = folder / "proof.json"
     if not source.is_file():
         raise DataError(f"no proof.json in {folder}: run `lostmotion prove --out {folder}` first")
-    page = folder / "report.html"
-    page.write_text(render(json.loads(source.read_text(encoding="utf-8"))), encoding="utf-8")
-    return page
+    facts = load_json(source, AGAIN)
+    return written(folder / "report.html", lambda: render(facts), AGAIN)
 
 
 def render(facts: Facts) -> str:

@@ -21,6 +21,7 @@ from PIL import Image
 
 from lostmotion.report.words import Scale, figures, power_of_ten, readable
 from lostmotion.results import Array
+from lostmotion.storage import save_bytes
 
 # Okabe and Ito: told apart by colour-blind readers, and in grey print by their lightness.
 RECORDED = "#1a1a1a"
@@ -138,8 +139,9 @@ def save(figure: Figure, path: Path) -> Path:
     """Return the path of the PNG into which the figure was saved."""
     pixels = io.BytesIO()
     figure.savefig(pixels, format="png", dpi=160, metadata={"Software": None})
-    Image.open(pixels).convert("RGB").quantize(128).save(path, format="png", optimize=True)
-    return path
+    small = io.BytesIO()
+    Image.open(pixels).convert("RGB").quantize(128).save(small, format="png", optimize=True)
+    return save_bytes(path, small.getvalue())
 
 
 def _image(figure: Figure, name: str) -> str:

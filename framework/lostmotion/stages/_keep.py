@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from lostmotion.errors import DataError
+from lostmotion.recording.unpacked import check_hdf5
 from lostmotion.stages._cloud import Cloud
 from lostmotion.stages._scores import Scores
 from lostmotion.storage import whole
@@ -93,6 +94,7 @@ def load(path: Path, digest: str) -> Kept | None:
     import h5py
 
     try:
+        check_hdf5(path)
         with h5py.File(path, "r") as file:
             ours = file[OURS]
             if ours.attrs["digest"] != digest:
@@ -102,7 +104,7 @@ def load(path: Path, digest: str) -> Kept | None:
             backend = _read_chain(file[EMCEE])
             counts = (int(ours.attrs[name]) for name in ("evaluations", "fits"))
             return Kept(backend, cloud, _read_start(ours["start"]), *counts)
-    except (OSError, KeyError) as err:
+    except Exception as err:  # HDF5 fails in every way there is
         raise DataError(f"{path} is no chain of an identification that can be read: give another place") from err
 
 

@@ -21,7 +21,8 @@ import zarr
 from numpy.typing import NDArray
 
 from lostmotion.errors import DataError
-from lostmotion.storage import whole
+from lostmotion.recording.unpacked import check_hdf5
+from lostmotion.storage import whole, writing
 from lostmotion.study.cells import Columns
 from lostmotion.study.layout import SCHEMA, Layout
 
@@ -69,9 +70,10 @@ class Store:
     def write(self, chunk: tuple[slice, ...], columns: Columns) -> None:
         """Write the columns (cells, starts) of a chunk, whatever tells that it is done last."""
         shape = tuple(piece.stop - piece.start for piece in chunk)
-        for name in self.layout.variables:
-            values = columns[name]
-            self._group[name][chunk] = values.reshape(*shape, *values.shape[1:])  # type: ignore[index]
+        with writing(self.path):
+            for name in self.layout.variables:
+                values = columns[name]
+                self._group[name][chunk] = values.reshape(*shape, *values.shape[1:])  # type: ignore[index]
 
 
 def holds(path: Path, layout: Layout, *, fresh: bool) -> bool:
@@ -95,12 +97,14 @@ def load(path: Path) -> xr.Dataset:
         raise DataError(f"{path} is not there: give the path of a map")
     try:
         if path.suffix == ".nc":
+            check_hdf5(path)
             with xr.open_dataset(path, engine="h5netcdf") as stored:
                 found = stored.load()
         else:
             found = xr.open_zarr(path, consolidated=False, chunks=None, mask_and_scale=False).load()
-    except (OSError, ValueError, KeyError) as err:
-        raise DataError(f"{path} cannot be read as a map ({err}): give a .zarr or .nc written by `map`") from err
+    except Exception as err:  # HDF5, zarr and what reads them fail in every way there is
+        said = str(err).partition("\n")[0][:120]
+        raise DataError(f"{path} cannot be read as a map ({said}): give a .zarr or .nc written by `map`") from err
     if found.attrs.get("schema") != SCHEMA:
         raise DataError(f"{path} is no map of ours (its schema is {found.attrs.get('schema')!r}): give another file")
     # A folder lists its files in no order, and the order of the variables is part of the bytes of a netCDF.
@@ -121,11 +125,15 @@ def save_netcdf(path: Path, dataset: xr.Dataset) -> None:
 
 def save_zarr(path: Path, layout: Layout, columns: Mapping[str, NDArray[Any]]) -> None:
     """Write a finished map to a zarr store that appears whole or not at all; what was there gives way."""
-    spare = _spare(path)
-    shutil.rmtree(spare, ignore_errors=True)
-    _fill_store(spare, layout, columns)
-    shutil.rmtree(path, ignore_errors=True)
-    spare.rename(path)
+    spare, old = _spare(path), path.with_name(f".{path.name}.old")
+    for rest in (spare, old):
+        shutil.rmtree(rest, ignore_errors=True)
+    with writing(path):
+        _fill_store(spare, layout, columns)
+        if path.exists():
+            path.rename(old)
+        spare.rename(path)
+    shutil.rmtree(old, ignore_errors=True)
 
 
 def as_dataset(layout: Layout, columns: Mapping[str, NDArray[Any]]) -> xr.Dataset:
@@ -138,11 +146,9 @@ def _make(path: Path, layout: Layout) -> None:
     """Make the store beside its place, and put it there when it is whole."""
     spare = _spare(path)
     shutil.rmtree(spare, ignore_errors=True)
-    try:
+    with writing(path):
         _fill_store(spare, layout, {})
         spare.rename(path)
-    except OSError as err:
-        raise DataError(f"{path} cannot be written ({err.strerror or err}): choose another place") from err
 
 
 def _fill_store(path: Path, layout: Layout, columns: Mapping[str, NDArray[Any]]) -> None:

@@ -23,7 +23,7 @@ from pathlib import Path
 from typing import Any
 
 from lostmotion.errors import DataError
-from lostmotion.storage import folder_for, save_json
+from lostmotion.storage import folder_for, load_json, save_json, writing
 
 SCHEMA = "lostmotion.campaign/1"
 PLAN = "campaign.json"
@@ -55,12 +55,12 @@ class Campaign:
         """
         with _held(folder_for(folder)):
             self._claim(folder, fresh)
-            missing = [k for k in range(self.count) if not _file(folder, k).exists()]
+            missing = [k for k in range(self.count) if _outcome(folder, k) is None]
             say(self.count - len(missing), self.count)
             with closing(self._made(folder, missing, jobs)) as numbers:
                 for done, _ in enumerate(numbers, start=self.count - len(missing) + 1):
                     say(done, self.count)
-        return [json.loads(_file(folder, k).read_text(encoding="utf-8")) for k in range(self.count)]
+        return [load_json(_file(folder, k), "run the same command again") for k in range(self.count)]
 
     def _claim(self, folder: Path, fresh: bool) -> None:
         """Make the folder this campaign's, or refuse one that is another's."""
@@ -74,7 +74,8 @@ class Campaign:
         if found and not fresh:
             _require_same(folder, found, json.loads(json.dumps(wanted)))
         save_json(plan, wanted)
-        trials.mkdir(exist_ok=True)
+        with writing(trials):
+            trials.mkdir(exist_ok=True)
         for spare in trials.glob(".*"):
             spare.unlink()
 
@@ -89,14 +90,22 @@ class Campaign:
 def _plan(path: Path) -> dict[str, Any] | None:
     """Return what made the campaign of a folder, or None where there is none of ours."""
     try:
-        found: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError):
+        found: Any = json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError, RecursionError):
         return None
-    return found if found.get("schema") == SCHEMA else None
+    return found if isinstance(found, dict) and found.get("schema") == SCHEMA else None
 
 
 def _file(folder: Path, number: int) -> Path:
     return folder / TRIALS / f"{number:05d}.json"
+
+
+def _outcome(folder: Path, number: int) -> dict[str, Any] | None:
+    """Return the outcome of a trial that is kept, or None where there is none that can be read: it is made again."""
+    try:
+        return load_json(_file(folder, number), "it is made again")
+    except DataError:
+        return None
 
 
 def _kept(trial: Trial, folder: Path, number: int) -> int:
