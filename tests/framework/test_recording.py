@@ -18,7 +18,7 @@ from lostmotion.recording import Channel, RecordingSpec, load_recording, read_co
 
 N = 400
 TIME = np.arange(N) / 1000
-FORCE = np.sin(40 * TIME)
+FORCE = -np.sin(40 * TIME)
 POSITION = np.cos(40 * TIME)
 SPEC = RecordingSpec("a.npz", "time", None, Channel("u", "force", "N"), Channel("x", "position", "mm"))
 

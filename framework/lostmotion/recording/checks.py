@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 
 import numpy as np
@@ -16,7 +15,8 @@ FEWEST = 100
 LOST = 0.05
 """Share of the response that may be missing: the filter bridges it."""
 CLIPPED = 0.01
-TURNS = 10
+LARGEST = 1e30
+"""No sensor shows more, in whatever unit."""
 
 
 def check_length(n: int, source: str) -> None:
@@ -36,6 +36,12 @@ def check_values(values: Array, what: str, source: str, *, may_miss: bool) -> tu
         )
     notes = _check_missing(np.isnan(values), what, source, may_miss)
     seen = values[~np.isnan(values)]
+    if np.abs(seen).max() > LARGEST:
+        where = int(np.nanargmax(np.abs(values)))
+        raise DataError(
+            f"{source}: {what} is {values[where]:.3g} at sample {where}, and no sensor shows that: correct or "
+            "empty it, or cut it out with t_start, t_end"
+        )
     if np.ptp(seen) <= 1e-12 * np.max(np.abs(seen)):
         raise DataError(
             f"{source}: {what} is constant ({seen[0]:.6g}) over {values.size} samples: check the sensor and the column"
@@ -81,10 +87,3 @@ def note_stuck(values: Array, what: str) -> Iterator[str]:
                 f"{what} sits at its {word} value {edge:.6g} for {stuck} of {values.size} samples: "
                 "the sensor may be clipped or stuck, or the machine rests there"
             )
-
-
-def note_degrees(values: Array, what: str, unit: str) -> Iterator[str]:
-    """Yield a note when an angle said to be in rad is as large as degrees are."""
-    largest = float(np.nanmax(np.abs(values)))
-    if unit == "rad" and largest > 2 * math.pi * TURNS:
-        yield f"{what} reaches {largest:.4g} rad, more than {TURNS} turns: are these degrees? Then write unit = 'deg'"

@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 from lostmotion.errors import DataError, nearest
 from lostmotion.provenance import digest
 from lostmotion.quantities import si_factor
-from lostmotion.recording.checks import check_length, check_values, note_degrees, note_stuck
+from lostmotion.recording.checks import check_length, check_values, note_stuck
+from lostmotion.recording.doubts import Signal, doubts
 from lostmotion.recording.formats import read_columns
 from lostmotion.recording.spec import Channel, Hold, RecordingSpec
 from lostmotion.recording.timing import check_time
@@ -65,7 +66,8 @@ def load_recording(spec: RecordingSpec, folder: Path) -> Recording:
     roles = (("excitation", spec.excitation), ("response", spec.response))
     checked = [_checked(r, c, v, path.name) for (r, c), v in zip(roles, pair, strict=True)]
     data = _dataset(time[0] + dt * np.arange(time.size), [si for si, _ in checked])
-    notes = (*notes, *(note for _, own in checked for note in own))
+    both = [_signal(channel, si) for (_, channel), (si, _) in zip(roles, checked, strict=True)]
+    notes = (*notes, *(note for _, own in checked for note in own), *doubts(both[0], both[1], dt))
     return Recording(spec.label, data, dt, digest(path), path.name, spec.hold, notes)
 
 
@@ -122,12 +124,16 @@ def _checked(role: str, channel: Channel, values: Array, source: str) -> tuple[x
         notes += note_stuck(values, what)
     factor, unit = si_factor(channel.unit, channel.quantity)
     si = values * (channel.factor * factor)
-    if channel.unit.strip() in ("rad", "radian", "radians"):
-        notes += note_degrees(si, what, unit)
+    check_values(si, f"{what} in {unit}", source, may_miss=response)
     name = f"{channel.quantity.replace('_', ' ')} (column {channel.column!r})"
     return xr.DataArray(si, dims="time", attrs={"units": unit, "quantity": channel.quantity, "long_name": name}), tuple(
         notes
     )
+
+
+def _signal(channel: Channel, si: xr.DataArray) -> Signal:
+    factor, _ = si_factor(channel.unit, channel.quantity)
+    return Signal(si.to_numpy(), channel.column, channel.quantity, channel.unit, factor * channel.factor)
 
 
 def _dataset(time: Array, channels: list[xr.DataArray]) -> xr.Dataset:

@@ -70,6 +70,8 @@ def _typical(steps: Array, rounding: float) -> float:
 
 
 def _check_order(time: Array, source: str) -> None:
+    if time.size < 2:
+        raise DataError(f"{source}: the time column holds {time.size} values: record longer")
     if not np.all(np.isfinite(time)):
         where = int(np.argmin(np.isfinite(time)))
         raise DataError(f"{source}: sample {where} of the time column is {time[where]}: fill it, or give rate instead")

@@ -1,0 +1,168 @@
+"""What looks wrong in a recording that can be used all the same: notes on signs, swapped columns, angles, dead sensors.
+
+None of them may cry wolf: each asks for a sign that good recordings do not give, real ones among them.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+TURNS = 10
+SWINGS = 20
+"""Crossings of the middle from which on a motion swings and does not merely turn."""
+FROZEN, REPEATS = 20, 0.01
+"""Equal samples in a row that are odd, where fewer than this share of all samples repeats the one before."""
+FAR = 20.0
+"""Times the range of all other samples."""
+SEGMENTS, HEARD = 16, 1e-3
+"""Segments of a recording over which its power is averaged; the share of the strongest line that is counted."""
+DRAWN, SURE = -0.1, -4.0
+"""Mean power over apparent power, and over its standard error, below which a machine feeds its drive.
+
+Of 29 real recordings none is below 0.17; a sensor that is late can bring a machine far above its resonance there."""
+_POWERS = {("force", "position"): 1, ("force", "velocity"): 0, ("force", "acceleration"): -1}
+_ANGLE = {"deg": re.compile(r"deg|°"), "rad": re.compile(r"rad")}
+
+
+class Signal(NamedTuple):
+    """A channel in SI units (n,), NaN where a sample was lost, with its column, quantity and the unit of its file."""
+
+    values: Array
+    column: str
+    quantity: str
+    unit: str
+    factor: float
+
+    @property
+    def kind(self) -> str:
+        """The quantity; a torque counts as a force."""
+        return "force" if self.quantity == "torque" else self.quantity
+
+
+def doubts(excitation: Signal, response: Signal, dt: float) -> tuple[str, ...]:
+    """Return what looks wrong with two channels that were sampled together every `dt` s."""
+    each = (("excitation", excitation), ("response", response))
+    return (
+        *(note for role, signal in each for note in note_angle(signal, f"the {role} {signal.column!r}")),
+        *note_units(excitation, response),
+        *note_frozen(response.values, f"the response {response.column!r}", dt),
+        *(note for role, s in each for note in note_far(s.values, f"the {role} {s.column!r}")),
+        *note_power(excitation, response, dt),
+    )
+
+
+def note_angle(signal: Signal, what: str) -> Iterator[str]:
+    """Yield a note when an angle said to be in rad is as large as degrees are."""
+    if not _ANGLE["rad"].search(signal.unit) or signal.quantity not in ("position", "base_position"):
+        return
+    seen = signal.values[np.isfinite(signal.values)]
+    away = seen - np.median(seen)
+    largest, swings = float(np.abs(seen).max()), int(np.count_nonzero(np.diff(np.sign(away))))
+    if largest > 2 * math.pi * TURNS:
+        yield f"{what} reaches {largest:.4g} rad, more than {TURNS} turns: are these degrees? Then write unit = 'deg'"
+    elif swings >= SWINGS and np.abs(away).max() > math.pi:
+        yield (
+            f"{what} swings to and fro by {np.abs(away).max():.4g} rad, more than half a turn: are these degrees? "
+            "Then write unit = 'deg'"
+        )
+
+
+def note_units(excitation: Signal, response: Signal) -> Iterator[str]:
+    """Yield a note when one angle is said to be in degrees, the other in rad, and both numbers are about as large."""
+    units = [next((name for name, word in _ANGLE.items() if word.search(s.unit)), "") for s in (excitation, response)]
+    if sorted(units) != ["deg", "rad"] or {excitation.quantity, response.quantity} != {"base_position", "position"}:
+        return
+    sizes = [float(np.nanstd(s.values) / abs(s.factor)) for s in (excitation, response)]
+    if 0.2 < sizes[0] / sizes[1] < 5.0:
+        yield (
+            f"the excitation is said to be in {excitation.unit}, the response in {response.unit}, and their numbers "
+            f"are as large as each other ({sizes[0]:.3g} and {sizes[1]:.3g}): are both in one unit?"
+        )
+
+
+def note_frozen(values: Array, what: str, dt: float) -> Iterator[str]:
+    """Yield a note when the samples (n,) stand still in a stretch, and hardly ever repeat anywhere else."""
+    same = np.diff(values) == 0.0
+    edges = np.flatnonzero(np.diff(np.concatenate(([False], same, [False])).astype(np.int8)))
+    lengths = edges[1::2] - edges[::2]
+    long = lengths >= FROZEN
+    if not long.any() or lengths[~long].sum() > REPEATS * values.size:
+        return
+    first = int(edges[::2][long][0])
+    yield (
+        f"{what} stays at exactly {values[first]:.6g} for {int(lengths[long][0]) + 1} samples from {first * dt:.6g} s "
+        f"after its start, {int(long.sum())} such stretches in all, and repeats hardly anywhere else: the sensor may "
+        "have been stuck; cut them out with t_start and t_end"
+    )
+
+
+def note_far(values: Array, what: str) -> Iterator[str]:
+    """Yield a note when one value lies far away from all others, as the mark of a lost sample does."""
+    seen = values[np.isfinite(values)]
+    for far in (seen.max(), seen.min()):
+        rest = seen[seen != far]
+        width = float(np.ptp(rest)) if rest.size else 0.0
+        if width and abs(far - float(np.median(rest))) > FAR * width:
+            yield (
+                f"{what} is {far:.6g} at {int(np.count_nonzero(seen == far))} samples, more than {FAR:g} times as far "
+                "out as all others: a glitch, or the mark of a lost sample? Then empty these cells"
+            )
+
+
+def note_power(excitation: Signal, response: Signal, dt: float) -> Iterator[str]:
+    """Yield a note when the machine feeds power to its drive on the whole, as only one with a motor of its own can."""
+    pair = (excitation.kind, response.kind)
+    if pair == ("base_position", "force"):
+        force, motion, order = response, excitation, 1
+    elif pair in _POWERS:
+        force, motion, order = excitation, response, _POWERS[pair]
+    else:
+        return
+    share, sure = mean_power(_filled(force.values), _filled(motion.values), dt, order)
+    if share < DRAWN and sure < SURE:
+        yield (
+            f"on the whole power flows from the machine to its drive ({-share:.2g} of force times speed): one of the "
+            f"signs is wrong (factor = -1.0), or {excitation.column!r} and {response.column!r} are swapped, or one of "
+            "them is late"
+        )
+
+
+def _filled(values: Array) -> Array:
+    """Return the samples with straight lines over the lost ones."""
+    there = np.flatnonzero(np.isfinite(values))
+    return np.asarray(np.interp(np.arange(values.size), there, values[there]), dtype=float)
+
+
+def mean_power(force: Array, motion: Array, dt: float, order: int) -> tuple[float, float]:
+    """Return the mean of force times speed over the product of their rms, and over its standard error.
+
+    `order` derivatives of `motion` (n,) make the speed. Only lines that the force has are counted.
+    """
+    size = 2 * (motion.size // (SEGMENTS + 1))
+    if size < 16:
+        return 0.0, 0.0
+    omega = 2.0 * math.pi * np.fft.rfftfreq(size, dt)
+    omega[0] = 1.0
+    one = _spectra(force / (np.abs(force).max() or 1.0), size)
+    other = _spectra(motion / (np.abs(motion).max() or 1.0), size) * (1j * omega) ** order
+    loud = np.mean(np.abs(one) ** 2, axis=0)
+    loud[:2] = 0.0
+    heard = loud > HEARD * loud.max()
+    power = np.sum((np.conj(one) * other).real[:, heard], axis=1)
+    apparent = float(np.mean(np.linalg.norm(one[:, heard], axis=1) * np.linalg.norm(other[:, heard], axis=1)))
+    error = float(np.std(power, ddof=1)) / math.sqrt(SEGMENTS)
+    mean = float(np.mean(power))
+    return (mean / apparent, mean / error) if apparent and error else (0.0, 0.0)
+
+
+def _spectra(values: Array, size: int) -> NDArray[np.complex128]:
+    """Return the spectra (segments, size // 2 + 1) of overlapping, tapered segments without their mean."""
+    pieces = np.stack([values[k * (size // 2) :][:size] for k in range(SEGMENTS)])
+    return np.fft.rfft((pieces - pieces.mean(axis=1, keepdims=True)) * np.hanning(size), axis=1)
