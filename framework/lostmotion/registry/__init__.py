@@ -112,10 +112,15 @@ class Registry:
         """Return who offers a name; raise `PluginError` when it is unknown or contested."""
         return self._find(kind, name)
 
-    def origins(self) -> dict[str, str]:
-        """Return what others have brought: the SHA-256 of each plugin file, and the version of each package."""
-        packages = {e.owner: e.version for e in self._offers if e.version and not e.ours}
-        return {**packages, **self._files}
+    def origins(self, *used: tuple[str, str]) -> dict[str, str]:
+        """Return what others have brought: the SHA-256 of each plugin file, and the version of each package.
+
+        Where plugins are named as they are `used`, each by kind and name, only what brought those counts.
+        """
+        guests = [e for e in self._offers if not e.ours and (not used or (e.kind, e.name) in used)]
+        packages = {e.owner: e.version for e in guests if e.version}
+        files = {Path(e.owner).name for e in guests}
+        return {**packages, **{name: digest for name, digest in self._files.items() if name in files}}
 
     def load(self, kind: str, name: str) -> type[Any]:
         """Return the class behind a name; raise `PluginError` when it is unknown, contested or breaks its kind."""

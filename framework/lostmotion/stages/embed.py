@@ -25,7 +25,7 @@ def embed(values: ArrayLike, embedder: Embedder, *, dt: float, period: float | N
     if period is not None and not (math.isfinite(period) and period > 0.0):
         raise DataError(f"the period of the drive is {period:g} s: give a positive one, or none")
     x = checked(values)
-    chosen = embedder.choose(x, dt=dt)
+    chosen = embedder.choose(x.copy(), dt=dt)
     _require_sound(chosen, embedder.name)
     _require_room(len(x), chosen)
     return Series(x, dt, chosen, period)

@@ -7,8 +7,9 @@ chunks, workers or order.
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
@@ -16,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lostmotion.contracts import Array, Embedder, Flow, Orbit, Quantifier
-from lostmotion.errors import LostMotionError
+from lostmotion.errors import ContractError, DataError, LostMotionError, PluginWarning
 from lostmotion.rates import exponent_in
 from lostmotion.results import STATUSES, Estimate
 from lostmotion.stages.embed import embed
@@ -44,7 +45,8 @@ class Study:
     """A rig, its axes, how long each motion is followed from how many starts, and what is read off it.
 
     `exponent` reads the flow. `further` are more quantifiers by the name they have in the file; those that read a
-    series are handed the first state, embedded by `embedder`. `bits` gives exponents in bit in place of nat.
+    series are handed the first state, embedded by `embedder`. `bits` gives exponents in bit in place of nat. `origins`
+    are the digests or versions of the plugins of other people that take part.
     """
 
     rig: Rig
@@ -57,6 +59,7 @@ class Study:
     starts: int = 4
     seed: int = 0
     bits: bool = False
+    origins: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -161,15 +164,30 @@ def _follow(study: Study, flow: Followed, rng: np.random.Generator, into: tuple[
 
 
 def _further(study: Study, flow: Followed, quantifier: Quantifier[Any], rng: np.random.Generator) -> Estimate:
+    """Return what one more quantifier says; one that breaks down takes no other number with it."""
+    try:
+        return _read(study, flow, quantifier, rng)
+    except DataError as err:
+        return Estimate.refused("failed", str(err), unit=quantifier.unit)
+    except Exception as err:
+        _warn(quantifier.name, err)
+        return Estimate.refused("failed", str(err), unit=quantifier.unit)
+
+
+def _warn(name: str, err: Exception) -> None:
+    """Warn in words that do not change from cell to cell, so that they are shown once."""
+    what = "it broke its contract" if isinstance(err, ContractError) else f"{type(err).__name__}: {err}"
+    says = f"quantifier {name!r} broke down in a cell of the map ({what}) and is left out there"
+    warnings.warn(f"{says}: `lostmotion plugins check {name}` tells what to mend", PluginWarning, stacklevel=2)
+
+
+def _read(study: Study, flow: Followed, quantifier: Quantifier[Any], rng: np.random.Generator) -> Estimate:
     if quantifier.reads == "flow":
         return quantify(flow, quantifier, rng=rng)
     settled = flow.march(flow.start, periods=study.transient + study.periods, tangents=1).states[study.transient]
-    try:
-        x = flow.sample(settled, periods=study.periods, looks=LOOKS)[:-1, 0]
-        assert study.embedder is not None  # noqa: S101 - `study_of` gives one wherever a series is read
-        return quantify(embed(x, study.embedder, dt=flow.period / LOOKS, period=flow.period), quantifier, rng=rng)
-    except LostMotionError as err:
-        return Estimate.refused("failed", str(err))
+    x = flow.sample(settled, periods=study.periods, looks=LOOKS)[:-1, 0]
+    assert study.embedder is not None  # noqa: S101 - `study_of` gives one wherever a series is read
+    return quantify(embed(x, study.embedder, dt=flow.period / LOOKS, period=flow.period), quantifier, rng=rng)
 
 
 def _scaled(study: Study, estimate: Estimate) -> tuple[float, float]:

@@ -134,7 +134,7 @@ def attrs_of(study: Study, **more: object) -> dict[str, str]:
         "unit": study.unit,
         **more,
     }
-    made = provenance("map", settings, study.seed, {})
+    made = provenance("map", settings, study.seed, study.origins)
     return {
         "schema": SCHEMA,
         "Conventions": "CF-1.11",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import asdict, dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -26,11 +27,13 @@ from lostmotion.workflow.analysis_arrays import arrays_of
 from lostmotion.workflow.analysis_words import statement
 from lostmotion.workflow.motion import CYCLES, Beat, Evidence, Verdict, beat_of, judged, returns
 from lostmotion.workflow.source import Source, Wanted, source_of
+from lostmotion.workflow.vetting import Guests
 
 Say = Callable[[str], None]
 EXPONENT, DIMENSION, ENTROPY = "lyapunov_kantz", "correlation_dimension", "correlation_entropy"
+EMBEDDER = "ami_cao"
 METER, CHECKS = "noise_level", ("lyapunov_rosenstein",)
-CLEANER, STATISTIC = "local_projective", "prediction_error"
+CLEANER, STATISTIC, NULL = "local_projective", "prediction_error", "iaaft"
 STREAMS = ("denoise", "exponent", "dimension", "entropy", "surrogates", "others", "dimensions")
 QUIET, LOUD = 0.003, 0.3
 """Noise below this share of the standard deviation is left alone, as no method here sees it; and above it, as no
@@ -48,7 +51,7 @@ class Request:
     rate: float | None = None
     every: int = 1
     period: float | None = None
-    embedder: str = "ami_cao"
+    embedder: str = EMBEDDER
     denoiser: str | None = None
     quantifiers: tuple[str, ...] = ()
     surrogates: tuple[str, ...] = ()
@@ -79,6 +82,7 @@ class Analysis:
     verdict: Verdict
     exponent_method: str
     denoiser: str
+    aside: tuple[str, ...] = ()
 
     @property
     def clean(self) -> Series:
@@ -99,7 +103,7 @@ def run_analysis(
     settings = {k: v for k, v in asdict(request).items() if k not in ("jobs", "seed")}
     content = {
         **statement(analysis),
-        "provenance": provenance("analyse", settings, request.seed, source.inputs),
+        "provenance": provenance("analyse", settings, request.seed, {**registry.origins(), **source.inputs}),
     }
     variables, coords = arrays_of(analysis)
     save_arrays(folder / "analysis.nc", variables, coords, {"title": source.title})
@@ -111,21 +115,21 @@ def run_analysis(
 def analyse(source: Source, registry: Registry, request: Request, say: Say = lambda _step: None) -> Analysis:
     """Return what the chain finds: delay, dimension, noise, exponent, correlation dimension, surrogate tests."""
     beat = beat_of(checked(source.x), source, request.period)
-    embedder = registry.make("embedder", request.embedder)
+    guests = Guests(registry)
     say("delay and dimension")
-    raw = embed(source.x, embedder, dt=source.dt, period=beat.period)
+    raw = _embedded(source.x, guests, request.embedder, source.dt, beat)
     say("noise")
-    denoised, denoiser = _cleaned(raw, registry, request)
+    denoised, denoiser = _cleaned(raw, guests, request)
     if denoised.series is not raw:
-        again = embed(denoised.series.x, embedder, dt=source.dt, period=beat.period)
+        again = _embedded(denoised.series.x, guests, request.embedder, source.dt, beat)
         denoised = replace(denoised, series=again)
     # What noise reduction leaves is no longer white and makes growth look slow: exponents are read from the raw series.
-    grown = _Measured(raw, registry, request, beat, say)
-    measured = _Measured(denoised.series, registry, request, beat, say)
+    grown = _Measured(raw, guests, request, beat, say)
+    measured = _Measured(denoised.series, guests, request, beat, say)
     exponent, dimension = grown(EXPONENT, "exponent"), measured(DIMENSION, "dimension")
     entropy = measured(ENTROPY, "entropy")
     others = {name: grown(name, "others") for name in dict.fromkeys((*CHECKS, *request.quantifiers))}
-    tests = _tests(raw, registry, request, say)
+    tests = _tests(raw, guests, request, say)
     return Analysis(
         source=source,
         beat=beat,
@@ -140,7 +144,17 @@ def analyse(source: Source, registry: Registry, request: Request, say: Say = lam
         verdict=judged(Evidence(beat, raw, denoised, exponent, dimension, tests)),
         exponent_method=EXPONENT.removeprefix("lyapunov_"),
         denoiser=denoiser,
+        aside=tuple(dict.fromkeys(guests.said)),
     )
+
+
+def _embedded(x: Array, guests: Guests, name: str, dt: float, beat: Beat) -> Series:
+    """Return the series with delay and dimension; the usual embedder takes the place of one that breaks down."""
+
+    def work(name: str) -> Series:
+        return embed(x, guests.registry.make("embedder", name), dt=dt, period=beat.period)
+
+    return guests("embedder", name, x, lambda: work(name)) or work(EMBEDDER)
 
 
 @dataclass(frozen=True, eq=False)
@@ -148,15 +162,18 @@ class _Measured:
     """Quantifiers by name on one series, exponents in the unit that was asked for."""
 
     series: Series
-    registry: Registry
+    guests: Guests
     request: Request
     beat: Beat
     say: Say
 
     def __call__(self, name: str, stream: str) -> Estimate:
-        """Return the estimate of the quantifier `name`."""
+        """Return the estimate of the quantifier `name`, which is a refusal where that breaks its contract."""
         self.say(name.replace("_", " "))
-        found = quantify(self.series, _reader(self.registry, name), rng=self.request.rng(stream))
+        reader, rng = _reader(self.guests.registry, name), self.request.rng(stream)
+        found = self.guests("quantifier", name, self.series.x, lambda: quantify(self.series, reader, rng=rng))
+        if found is None:
+            return Estimate.refused("failed", self.guests.said[-1], unit=reader.unit)
         return _converted(found, self.request, self.beat)
 
 
@@ -179,14 +196,17 @@ def _reader(registry: Registry, name: str) -> Quantifier[Series]:
     return quantifier
 
 
-def _cleaned(raw: Series, registry: Registry, request: Request) -> tuple[Denoised, str]:
-    """Return the series with less noise, and how that was done."""
+def _cleaned(raw: Series, guests: Guests, request: Request) -> tuple[Denoised, str]:
+    """Return the series with less noise, and how that was done; a denoiser that breaks down leaves it as it is."""
+    registry = guests.registry
     meter, rng = _reader(registry, METER), request.rng("denoise")
     level = meter.estimate(raw, rng=rng)
     if request.denoiser == "none" or (request.denoiser is None and not QUIET < level.value < LOUD):
         return Denoised(raw, level, level), "none"
     name = request.denoiser or CLEANER
-    return denoise(raw, registry.make("denoiser", name), meter, rng=rng), name
+    denoiser = registry.make("denoiser", name)
+    cleaned = guests("denoiser", name, raw.x, lambda: denoise(raw, denoiser, meter, rng=rng))
+    return (cleaned, name) if cleaned else (Denoised(raw, level, level), "none")
 
 
 def _converted(estimate: Estimate, request: Request, beat: Beat) -> Estimate:
@@ -198,18 +218,17 @@ def _converted(estimate: Estimate, request: Request, beat: Beat) -> Estimate:
     return exponent_in(estimate, request.unit, period=beat.period)
 
 
-def _tests(raw: Series, registry: Registry, request: Request, say: Say) -> tuple[SurrogateTest, ...]:
+def _tests(raw: Series, guests: Guests, request: Request, say: Say) -> tuple[SurrogateTest, ...]:
     """Return the surrogate tests: on the recording as it is, since noise reduction makes any series look ruled."""
-    names = request.surrogates or (("iaaft", "pseudo_periodic") if raw.period else ("iaaft",))
-    statistic = _reader(registry, STATISTIC)
-    tests = []
+    names = request.surrogates or ((NULL, "pseudo_periodic") if raw.period else (NULL,))
+    statistic, tests = _reader(guests.registry, STATISTIC), []
     for stream, name in zip(request.rng("surrogates").spawn(len(names)), names, strict=True):
         say(f"{name} surrogates")
-        surrogate = registry.make("surrogate", name, **_options(name, raw))
-        tests.append(
-            surrogate_test(raw, surrogate, statistic, draws=request.draws, rng=stream, sided="low", jobs=request.jobs)
-        )
-    return tuple(tests)
+        surrogate = guests.registry.make("surrogate", name, **_options(name, raw))
+        test = partial(surrogate_test, raw, surrogate, statistic, draws=request.draws, sided="low", jobs=request.jobs)
+        tests.append(guests("surrogate", name, raw.x, partial(test, rng=stream)))
+    found = tuple(test for test in tests if test)
+    return found or _tests(raw, guests, replace(request, surrogates=(NULL,)), say)
 
 
 def _options(name: str, raw: Series) -> dict[str, int]:
@@ -227,7 +246,7 @@ def _surrogate_dims(raw: Series, registry: Registry, request: Request, say: Say)
     rng = request.rng("dimensions")
     quantifier = registry.make("quantifier", DIMENSION, fast=True)
     rows = []
-    for x in registry.make("surrogate", "iaaft").draw(raw, draws=PICTURED, rng=rng):
+    for x in registry.make("surrogate", NULL).draw(raw, draws=PICTURED, rng=rng):
         found = quantify(replace(raw, x=x), quantifier, rng=rng)
         if "dimension_by_dim" in found.curve:
             rows.append(found.curve["dimension_by_dim"])

@@ -83,7 +83,7 @@ def _drive(analysis: Analysis) -> dict[str, Any]:
 def notes(analysis: Analysis) -> list[str]:
     """Return what a reader should doubt."""
     source, embedding = analysis.source, analysis.clean.embedding
-    said = [*source.notes, *analysis.beat.notes]
+    said = [*source.notes, *analysis.beat.notes, *analysis.aside]
     if embedding.status != "ok":
         said.append(embedding.says)
     for what, found in (("exponent", analysis.exponent), ("correlation dimension", analysis.dimension)):

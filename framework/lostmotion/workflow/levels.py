@@ -27,6 +27,7 @@ from lostmotion.system import System
 from lostmotion.workflow.mapping import How, Request, make_map, study_of
 from lostmotion.workflow.reading import read_levels
 from lostmotion.workflow.rehearsal import unit_of
+from lostmotion.workflow.vetting import sound
 
 SWEPT = ("alpha", "zeta", RATIO)
 """The dimensionless numbers that an inversion looks things up by; a third one only where the priors leave it open."""
@@ -130,7 +131,7 @@ def inversion_of(
 
 def wanted_of(case: Case, levels: tuple[Level, ...], registry: Registry) -> Wanted:
     """Return which numbers the levels of a case ask for; raises `CaseError` where they cannot be worked out."""
-    model: Model = registry.make("model", case.model)
+    model: Model = sound(registry, "model", case.model)
     powers = {group.name: Power.of(group, model) for group in model.groups}
     if lacking := [name for name in SWEPT if name not in powers]:
         raise CaseError(f"{model.name} has no dimensionless number {lacking[0]}: the quantifier route cannot use it")

@@ -62,9 +62,11 @@ def study_of(request: Request, registry: Registry) -> Study:
             further[name] = registry.make("quantifier", full, **{k: v for k, v in settings.items() if k in known})
     embedder = registry.make("embedder", EMBEDDER) if any(q.reads == "series" for q in further.values()) else None
     exponent = registry.make("quantifier", "lyapunov_max", **settings)
+    used = [("model", request.model), *(("term", t.name) for t in assembly.terms)]
+    used += [("quantifier", SHORT.get(name, name)) for name in further]
     study = Study(
         rig, axes, exponent, further, embedder, request.periods, request.transient, request.starts, request.seed,
-        request.unit == "bit",
+        request.unit == "bit", registry.origins(*used),
     )  # fmt: skip
     _try_ends(study)
     return study

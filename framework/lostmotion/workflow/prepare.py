@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from lostmotion.case import Case, load_case
@@ -13,28 +13,35 @@ from lostmotion.inference.tracks import Track, track_of
 from lostmotion.recording import Recording, load_recording
 from lostmotion.registry import Registry
 from lostmotion.stages.diagnose import candidates_of
+from lostmotion.workflow.vetting import sound, usable_terms
 
 
 @dataclass(frozen=True)
 class Prepared:
-    """A case with its recordings, its model, and every term that could act in that model."""
+    """A case with its recordings, its model, and every term that could act in that model.
+
+    `origins` are the digests or versions of what other people brought, `aside` sentences on what of it cannot be used.
+    """
 
     case: Case
     recordings: tuple[Recording, ...]
     tracks: tuple[Track, ...]
     model: Model
     terms: tuple[Term, ...]
+    origins: Mapping[str, str] = field(default_factory=dict)
+    aside: tuple[str, ...] = ()
 
     @property
     def inputs(self) -> dict[str, str]:
         """The digests of what went in, by file name."""
-        return {"case": self.case.digest, **{r.name: r.digest for r in self.recordings}}
+        return {**self.origins, "case": self.case.digest, **{r.name: r.digest for r in self.recordings}}
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What the recordings have to say of themselves."""
+        """What the recordings have to say of themselves, and what of the plugins cannot be used."""
         several = len(self.recordings) > 1
-        return tuple(f"{r.name}: {n}" if several else n for r in self.recordings for n in r.notes)
+        of_recordings = (f"{r.name}: {n}" if several else n for r in self.recordings for n in r.notes)
+        return (*of_recordings, *self.aside)
 
 
 def case_of(path: Path, registry: Registry) -> Case:
@@ -54,12 +61,12 @@ def prepared_of(case: Case, registry: Registry) -> Prepared:
     """Return a case with its recordings, its model and its terms."""
     if not case.recordings:
         raise CaseError("the case has no [[recordings]]: add one, with file, time or rate, excitation and response")
-    model: Model = registry.make("model", case.model)
+    model: Model = sound(registry, "model", case.model)
     recordings = tuple(load_recording(spec, case.folder) for spec in case.recordings)
     tracks = tuple(track_of(r, model, held=r.hold == "step") for r in recordings)
     _alike(recordings)
-    terms = candidates_of(model, [registry.load("term", name) for name in registry.names("term")], tracks)
-    return Prepared(case, recordings, tracks, model, terms)
+    known, aside = usable_terms(registry)
+    return Prepared(case, recordings, tracks, model, candidates_of(model, known, tracks), registry.origins(), aside)
 
 
 def _alike(recordings: Sequence[Recording]) -> None:

@@ -17,6 +17,7 @@ from lostmotion.flow import Harmonic, flow_of
 from lostmotion.registry import Registry
 from lostmotion.study.rig import reach
 from lostmotion.workflow.reading import Read, Signals, read_level
+from lostmotion.workflow.vetting import sound
 
 SETTLING, WIDE = 300, 2.0
 """Periods before the recording begins; starts are drawn from a box so many times as large as the motion from rest."""
@@ -60,7 +61,7 @@ def rehearsed_levels(
 
     `truth` holds values of what the case estimates, the damping ratio `zeta` among them if that is free.
     """
-    model: Model = registry.make("model", case.model)
+    model: Model = sound(registry, "model", case.model)
     values = true_values(model, {**case.known, **truth})
     found = []
     for (amplitude, omega), own in zip(drives, rng.spawn(len(drives)), strict=True):

@@ -23,6 +23,7 @@ from lostmotion.registry import Registry
 from lostmotion.storage import save_table
 from lostmotion.system import Slot, System, key_of
 from lostmotion.workflow.drives import Signal, number, pairs, signal_of
+from lostmotion.workflow.vetting import sound
 
 ACCURACY = 0.02
 """Step times fastest rate: 300 steps a cycle. At a kink the method is of first order, whatever the step."""
@@ -37,7 +38,8 @@ class Plan:
     """What is to be simulated; `duration` in s, `rate` in Hz, everything else in the units of the model.
 
     `values` and `initial` name parameters (`c`, `coulomb_friction@base.force`) and states. Several `drives` add up.
-    `noise` is the standard deviation of white noise on each channel, as a share of that of the channel.
+    `noise` is the standard deviation of white noise on each channel, as a share of that of the channel. `origins` are
+    the digests or versions of the plugins of other people that take part.
     """
 
     assembly: Assembly
@@ -48,6 +50,7 @@ class Plan:
     initial: Mapping[str, float] = field(default_factory=dict)
     noise: float = 0.0
     seed: int = 0
+    origins: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -88,11 +91,11 @@ def simulate(plan: Plan) -> Table:
 
 def assembly_of(registry: Registry, model: str, terms: Iterable[str]) -> tuple[Assembly, dict[str, float]]:
     """Return model plus terms, and the parameters given with the terms, from `NAME[@PLACE][:param=value,...]`."""
-    assembly, values = Assembly(registry.make("model", model)), {}
+    assembly, values = Assembly(sound(registry, "model", model)), {}
     for text in terms:
         head, _, rest = text.partition(":")
         name, _, place = head.partition("@")
-        term = registry.make("term", name, **({"at": place} if place else {}))
+        term = sound(registry, "term", name, **({"at": place} if place else {}))
         assembly = assembly + term
         for key, value in pairs(rest, f"term {text!r}").items():
             values[f"{key_of(term)}.{_own(term, key)}"] = number(value, f"{key} of {name}")
@@ -257,7 +260,7 @@ def _table(plan: Plan, columns: Mapping[str, Array], nsub: int) -> Table:
         "terms": [key_of(t) for t in plan.assembly.terms], "duration": plan.duration, "rate": plan.rate,
         "noise": plan.noise, "substeps": nsub,
     }  # fmt: skip
-    made = provenance(f"simulate {model.name}", settings, plan.seed, {})
+    made = provenance(f"simulate {model.name}", settings, plan.seed, plan.origins)
     attrs = {
         "schema": "lostmotion.simulate/1",
         "title": plan.assembly.label,

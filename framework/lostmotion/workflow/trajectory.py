@@ -20,6 +20,7 @@ from lostmotion.stages.diagnose import SIGNIFICANT
 from lostmotion.stages.identify import Identification, Plan, Task, identify, task_of
 from lostmotion.system import System, key_of
 from lostmotion.workflow.prepare import Prepared
+from lostmotion.workflow.vetting import sound
 
 
 @dataclass(frozen=True)
@@ -55,7 +56,7 @@ def chosen_terms(prepared: Prepared, asked: tuple[str, ...], registry: Registry)
     named = [key.rpartition(".")[0] for key in (*prepared.case.known, *prepared.case.estimate) if "." in key]
     keys = dict.fromkeys(text.removesuffix("@ground") for text in (*asked, *named))
     for key in keys:
-        registry.load("term", key.partition("@")[0])
+        sound(registry, "term", key.partition("@")[0])
         if key not in offered:
             raise CaseError(
                 f"the term {key!r} has no place in {prepared.case.model}{nearest(key, offered)}:"
