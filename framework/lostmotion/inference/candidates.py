@@ -179,7 +179,7 @@ def _hint(fit: Fit, trial: Trial, joint: Sensitivity) -> Hint:
     gradient, information = joint.gradient(), joint.information()
     if not (np.all(np.isfinite(gradient)) and np.all(np.isfinite(information))):
         raise ContractError(
-            f"the force of {key} is not a finite number along the recorded motion: mend the term, or leave it out"
+            f"the force of {key} is not a finite number along the recorded motion: mend the term, or leave it out", key
         )
     k = len(amplitudes)
     base, cross, own = information[:-k, :-k], information[:-k, -k:], information[-k:, -k:]

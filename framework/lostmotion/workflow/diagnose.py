@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from lostmotion.errors import ContractError
 from lostmotion.inference.fit import Fit
 from lostmotion.provenance import provenance
 from lostmotion.registry import Registry
@@ -15,7 +17,7 @@ from lostmotion.report import write_report
 from lostmotion.stages.compare import exponent_of, horizon_for, pieces_of, predict
 from lostmotion.stages.diagnose import Diagnosis, diagnose
 from lostmotion.storage import folder_for, save_arrays, save_json
-from lostmotion.system import System
+from lostmotion.system import System, key_of
 from lostmotion.workflow.arrays import arrays_of
 from lostmotion.workflow.attractors import motions_of
 from lostmotion.workflow.evidences import evidence_of
@@ -26,6 +28,7 @@ from lostmotion.workflow.prepare import Prepared, prepare
 from lostmotion.workflow.rivals import confused_with, proposed
 from lostmotion.workflow.show import Seen, shown
 from lostmotion.workflow.verdict import verdict
+from lostmotion.workflow.vetting import theirs, told_aside
 
 Say = Callable[[str], None]
 SHOW, NEXT, EVIDENCE = 1, 2, 3
@@ -49,9 +52,7 @@ def run_diagnosis(
     say("reading the case")
     prepared = prepare(path, registry)
     folder = folder_for(out)
-    rng = np.random.default_rng(seed)
-    system = System(prepared.model, prepared.terms)
-    diagnosis = diagnose(prepared.case, prepared.tracks, system, rng=rng, jobs=jobs, say=say)
+    diagnosis, prepared, rng = _diagnosed(prepared, registry, seed, jobs=jobs, say=say)
     say("held-out predictions")
     outcome = judged(diagnosis, prepared, rng)
     motions = motions_of(diagnosis)
@@ -76,6 +77,27 @@ def run_diagnosis(
     save_json(folder / "diagnosis.json", content)
     write_report(folder)
     return content
+
+
+def _diagnosed(
+    prepared: Prepared, registry: Registry, seed: int, *, jobs: int, say: Say
+) -> tuple[Diagnosis, Prepared, np.random.Generator]:
+    """Return the diagnosis, what it was made of, and its random numbers, for who goes on with them.
+
+    Terms of other people that break down on the way are left out, and it begins anew.
+    """
+    system, rng = System(prepared.model, prepared.terms), np.random.default_rng(seed)
+    try:
+        return diagnose(prepared.case, prepared.tracks, system, rng=rng, jobs=jobs, say=say), prepared, rng
+    except ContractError as err:
+        guests = theirs(registry, prepared.terms)
+        culprits = {err.plugin} & set(guests) or (set() if err.plugin else set(guests))
+        if not culprits:
+            raise
+        kept = tuple(term for term in prepared.terms if key_of(term) not in culprits)
+        told = told_aside(f"{', '.join(sorted(culprits))}: {err}")
+        fewer = replace(prepared, terms=kept, aside=(*prepared.aside, told))
+        return _diagnosed(fewer, registry, seed, jobs=jobs, say=say)
 
 
 def judged(diagnosis: Diagnosis, prepared: Prepared, rng: np.random.Generator) -> Outcome:
