@@ -6,6 +6,7 @@ import contextlib
 import warnings
 from collections.abc import Iterator, Mapping
 from importlib import import_module
+from pathlib import Path
 from typing import Any, ClassVar
 
 import click
@@ -15,6 +16,8 @@ from lostmotion.errors import LostMotionError, PluginWarning, nearest
 from lostmotion.registry import KINDS, Registry, default
 
 INTERRUPTED = 130
+LONGEST = 1500
+"""Characters of a sentence that are shown: names in it may come from a file."""
 
 
 def examples(*lines: str) -> str:
@@ -29,7 +32,13 @@ class SentenceError(click.ClickException):
 
     def show(self, file: object = None) -> None:
         """Write the sentence to standard error."""
-        click.echo(f"lostmotion: {' '.join(self.message.split())}", err=True)
+        click.echo(f"lostmotion: {plain(self.message)}", err=True)
+
+
+def plain(text: str) -> str:
+    """Return a text on one line and not endless; what a terminal would obey stands there as its code."""
+    shown = "".join(c if c.isprintable() else ascii(c)[1:-1] for c in " ".join(text.split()))
+    return shown if len(shown) <= LONGEST else f"{shown[:LONGEST]} ..."
 
 
 @contextlib.contextmanager
@@ -43,7 +52,7 @@ def _warnings_told() -> Iterator[None]:
                 shown(message, category, *rest)
             elif str(message) not in told:
                 told.add(str(message))
-                click.echo(f"lostmotion: warning: {' '.join(str(message).split())}", err=True)
+                click.echo(f"lostmotion: warning: {plain(str(message))}", err=True)
 
         warnings.simplefilter("always", PluginWarning)
         warnings.showwarning = show  # type: ignore[assignment]
@@ -116,7 +125,19 @@ def registry_of(ctx: click.Context) -> Registry:
     held = ctx.find_object(Registry)
     if held is not None:
         return held
-    for path in ctx.find_root().params.get("plugin") or ():
+    for path in (*(ctx.find_root().params.get("plugin") or ()), *_of_case(ctx.params)):
         with contextlib.suppress(LostMotionError):
             default().add_file(path)
     return default()
+
+
+def _of_case(typed: Mapping[str, Any]) -> tuple[Path, ...]:
+    """Return the plugin files of the case that has been typed, if there is one."""
+    from lostmotion.case import load_case
+
+    for path in (typed.get("case"), typed.get("recording")):
+        if path is not None and Path(path).suffix.lower() == ".toml":
+            with contextlib.suppress(LostMotionError):
+                case = load_case(Path(path))
+                return tuple(case.folder / name for name in case.plugins)
+    return ()

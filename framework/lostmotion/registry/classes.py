@@ -16,6 +16,7 @@ from typing import Any
 
 from lostmotion.errors import PluginError, PluginWarning, nearest
 from lostmotion.registry.hooks import FAILURES, said
+from lostmotion.registry.words import misfit
 
 SLOW = 2.0
 """An import that takes longer than this (s) is named in a warning."""
@@ -68,6 +69,8 @@ def require(cls: type[Any], kind: str, name: str, whose: str) -> None:
         raise PluginError(f"{whose} is not finished: write the method {lacking} of {cls.__name__}")
     if getattr(cls, "name", None) != name:
         raise PluginError(f"{whose} is called {getattr(cls, 'name', None)!r} in {cls.__name__}: let both names agree")
+    if wrong := misfit(cls):
+        raise PluginError(f"{whose} says of itself {wrong}")
 
 
 def classes_in(module: ModuleType) -> list[type[Any]]:
