@@ -10,8 +10,9 @@ import numpy as np
 
 from lostmotion.contracts import Term
 from lostmotion.inference.candidates import Hint, fit_in_place, fit_with, screen, slopes_of, term_of
-from lostmotion.inference.fit import Fit, maximise, robust_covariance, warmed
+from lostmotion.inference.fit import Fit, maximise, warmed
 from lostmotion.inference.problem import RANDOM
+from lostmotion.inference.standing import CERTAIN, standing
 
 PROMISING = 3.0
 """A term is fitted when its score test promises at least this gain in log-likelihood."""
@@ -24,8 +25,6 @@ CLOSE = 12.0
 NEARLY = 2.5
 DECISIVE = math.log(20.0)
 """A term is taken when it makes the posterior odds of the model twenty times better."""
-CERTAIN = 3.0
-"""An amplitude counts when it is this many robust standard deviations from nothing."""
 REMEMBERS = 2.0
 WORTH = 0.2
 RICH, MANY = 4, 20
@@ -157,7 +156,7 @@ class Selector:
         `REMEMBERS` times the usual one, the set has to take a share of at least `WORTH` off the random force.
         """
         if visit.terms not in self._sure:
-            self._sure[visit.terms] = _standing(visit.fit)
+            self._sure[visit.terms] = standing(visit.fit)
         least, memory = self._sure[visit.terms]
         levels = [v.fit.theta[v.fit.problem.keys.index(RANDOM)] for v in (visit, here)]
         return least > CERTAIN and (memory < REMEMBERS or levels[0] < levels[1] + math.log(1.0 - WORTH))
@@ -255,17 +254,6 @@ def price_of(term: Term, many: int) -> float:
     choices = [len(q.choices) for q in term.params if q.choices]
     further = len(term.params) - len(choices) - 1
     return math.log(max(many, 1)) + 1.0 + EXTRA * further + sum(math.log(count) for count in choices)
-
-
-def _standing(fit: Fit) -> tuple[float, float]:
-    """Return the least amplitude of any term in robust standard deviations, and how much wider those are than usual."""
-    robust, usual = (np.sqrt(np.diag(c)) for c in (robust_covariance(fit), fit.local.covariance))
-    keys = [s.key for term in fit.problem.active for s in term_of(fit.problem, term)[1] if s.param.null is not None]
-    at = [fit.problem.keys.index(key) for key in keys]
-    sizes = np.abs(fit.theta[at]) / np.maximum(robust[at], 1e-300)
-    return float(np.min(sizes, initial=math.inf)), float(
-        np.max(robust[at] / np.maximum(usual[at], 1e-300), initial=1.0)
-    )
 
 
 def significant_random_force(fit: Fit) -> float:

@@ -27,7 +27,7 @@ from lostmotion.system import System
 SIGNIFICANT = 8.0
 """A random force beyond the usual noise of the drive counts when it gains this much log-likelihood."""
 STRUCTURED = 0.1
-MANY = 3
+MANY = 2
 """So many terms together may stand in for one curve: then curves are tried although nothing is left over."""
 MARKED = 0.05
 """What marks in the stored values bring with them counts from this share of the noise variance on."""

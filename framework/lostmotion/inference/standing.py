@@ -1,0 +1,43 @@
+"""How far the amplitudes of terms stand out of their errors, where something with a memory may be left over."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from scipy.stats import chi2, norm
+
+from lostmotion.contracts import Array
+from lostmotion.inference.candidates import term_of
+from lostmotion.inference.fit import Fit, robust_covariance
+from lostmotion.inference.problem import Problem
+
+CERTAIN = 3.0
+"""An amplitude counts when it is this many robust standard deviations from nothing."""
+
+
+def standing(fit: Fit) -> tuple[float, float]:
+    """Return the least amplitude in robust standard deviations, and how much wider those are than usual.
+
+    The signed amplitudes of a term are one: a wave has a cosine and a sine, and either may be nothing.
+    """
+    robust, usual = robust_covariance(fit), fit.local.covariance
+    groups = [at for term in sorted(fit.problem.active) for at in _amplitudes(fit.problem, term)]
+    sizes = [deviations(fit.theta[at], robust[np.ix_(at, at)]) for at in groups]
+    every = [i for at in groups for i in at]
+    wider = np.sqrt(np.diag(robust)[every] / np.maximum(np.diag(usual)[every], 1e-300))
+    return min(sizes, default=math.inf), float(np.max(wider, initial=1.0))
+
+
+def _amplitudes(problem: Problem, key: str) -> list[list[int]]:
+    """Return where the amplitudes of a term stand among the free parameters, those together that count as one."""
+    slots = [s for s in term_of(problem, key)[1] if s.param.null is not None]
+    alone = [[problem.keys.index(s.key)] for s in slots if s.param.low >= 0.0]
+    signed = [problem.keys.index(s.key) for s in slots if s.param.low < 0.0]
+    return [*alone, signed] if signed else alone
+
+
+def deviations(amplitudes: Array, covariance: Array) -> float:
+    """Return how many standard deviations of one normal number are as rare as these amplitudes are if nothing is."""
+    squared = float(amplitudes @ np.linalg.pinv(covariance) @ amplitudes)
+    return math.sqrt(squared * CERTAIN**2 / chi2.isf(2.0 * norm.sf(CERTAIN), len(amplitudes)))

@@ -1,0 +1,27 @@
+"""Amplitudes in standard deviations: the cosine and the sine of a wave count as one."""
+
+import numpy as np
+import pytest
+from scipy.stats import norm
+
+from lostmotion.inference.standing import CERTAIN, deviations
+
+
+def test_one_amplitude_is_counted_in_its_standard_deviations():
+    assert deviations(np.array([-6.0]), np.array([[4.0]])) == pytest.approx(3.0)
+
+
+def test_a_wave_without_a_sine_stands_out_by_its_cosine():
+    covariance = np.array([[1.0, 0.3], [0.3, 1.0]])
+    assert deviations(np.array([8.0, 0.0]), covariance) > CERTAIN
+    assert deviations(np.array([0.0, -8.0]), covariance) > CERTAIN
+
+
+@pytest.mark.parametrize("count", [1, 2, 3])
+def test_noise_is_believed_no_more_often_where_there_are_more_amplitudes(count):
+    rng = np.random.default_rng(count)
+    root = rng.normal(size=(count, count)) + 2.0 * np.eye(count)
+    draws = rng.normal(size=(20_000, count)) @ root.T
+    share = np.mean([deviations(draw, root @ root.T) > CERTAIN for draw in draws])
+    expected = 2.0 * norm.sf(CERTAIN)
+    assert abs(share - expected) < 4.0 * np.sqrt(expected / 20_000)
