@@ -13,6 +13,10 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Iterable
+from itertools import islice
+
+MOST = 2000
+"""Known names among which the nearest one is sought: each costs a comparison."""
 
 
 class LostMotionError(Exception):
@@ -45,5 +49,5 @@ class PluginWarning(UserWarning):
 
 def nearest(word: str, known: Iterable[str]) -> str:
     """Return ` (did you mean 'x'?)` for the known name closest to `word`, or an empty string."""
-    close = difflib.get_close_matches(word, list(known), n=1, cutoff=0.5)
+    close = difflib.get_close_matches(word[:200], list(islice(known, MOST)), n=1, cutoff=0.5)
     return f" (did you mean {close[0]!r}?)" if close else ""

@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
-import math
+import sys
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from pathlib import PurePath
 from typing import Any
+from unicodedata import category
 
 from lostmotion.errors import CaseError, nearest
 
+LONGEST, MOST = 1000, 1000
+"""Characters of a text, and tables of one kind, at most."""
+_CONTROLS = ("Cc", "Cs", "Zl", "Zp")
 _WORDS = {str: "text", bool: "true or false", int: "a number", float: "a number", list: "a list", dict: "a table"}
 
 
@@ -35,7 +40,7 @@ class Fields:
     def wrong(self, key: str, wanted: str) -> CaseError:
         """Return an error on the value of `key`."""
         value = self.values[key]
-        found = f"{_WORDS.get(type(value), type(value).__name__)} ({value!r})"[:80]
+        found = f"{_WORDS.get(type(value), type(value).__name__)} ({_shown(value)})"[:80]
         return self.error(f"has {found} as {key!r}: wanted {wanted}")
 
     def text(self, key: str) -> str:
@@ -43,6 +48,15 @@ class Fields:
         value = self._get(key, "text in quotes")
         if not isinstance(value, str) or not value.strip():
             raise self.wrong(key, "text in quotes")
+        if len(value) > LONGEST or any(category(c) in _CONTROLS for c in value):
+            raise self.wrong(key, f"one line of text, {LONGEST} characters at most, without control characters")
+        return value
+
+    def path(self, key: str) -> str:
+        """Return the name of a file; the key must be there."""
+        value = self.text(key)
+        if not PurePath(value).name:
+            raise self.wrong(key, "the name of a file")
         return value
 
     def maybe_text(self, key: str) -> str | None:
@@ -52,7 +66,7 @@ class Fields:
     def number(self, key: str) -> float:
         """Return a finite number; the key must be there."""
         value = self._get(key, "a number")
-        if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
+        if isinstance(value, bool) or not isinstance(value, (int, float)) or not abs(value) <= sys.float_info.max:
             raise self.wrong(key, "a finite number, without quotes")
         return float(value)
 
@@ -104,6 +118,8 @@ class Fields:
         value = self._get(key, f"at least one [[{key}]]")
         if not isinstance(value, list) or not value or not all(isinstance(v, dict) for v in value):
             raise self.wrong(key, f"at least one table, headed [[{key}]]")
+        if len(value) > MOST:
+            raise self.error(f"has {len(value)} [[{key}]], at most {MOST} are taken: make several cases of it")
         for i, entry in enumerate(value):
             yield Fields(self.file, f"{self._below(key)}[{i}]", entry)
 
@@ -118,3 +134,11 @@ class Fields:
 
     def _below(self, key: str) -> str:
         return key if self.place == "the case" else f"{self.place}.{key}"
+
+
+def _shown(value: object) -> str:
+    """Return a value as text; one that nests too deep or has too many digits is only named."""
+    try:
+        return repr(value)
+    except (RecursionError, ValueError):
+        return "..."

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import tomllib
+from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -25,6 +26,9 @@ SENSOR = ("noise", "offset")
 EXPERIMENT = ("max_level", "max_frequency")
 PRIOR = ("low", "high", "scale", "mean", "sd", "median", "sd_log", "half_sd")
 FORMS = ({"low", "high"}, {"mean", "sd"}, {"median", "sd_log"}, {"half_sd"})
+
+LARGEST, DOTS = 2**20, 50
+"""Bytes of a case file and dots in one line of it, at most."""
 
 Sharing = Literal["each", "shared"]
 
@@ -98,13 +102,29 @@ def load_case(path: Path) -> Case:
 
 def _parse(path: Path) -> dict[str, Any]:
     try:
-        return tomllib.loads(path.read_text(encoding="utf-8-sig"))
-    except OSError as err:
-        raise CaseError(f"{path.name} cannot be read ({err.strerror}): give the path of a case file") from err
-    except UnicodeDecodeError as err:
-        raise CaseError(f"{path.name} is not text in UTF-8: wanted a case in TOML, save it as UTF-8") from err
-    except tomllib.TOMLDecodeError as err:
+        return tomllib.loads(_text(path))
+    except (tomllib.TOMLDecodeError, ValueError) as err:  # a plain ValueError for a number of thousands of digits
         raise CaseError(f"{path.name} is not valid TOML ({err}): correct it there") from err
+    except RecursionError as err:
+        raise CaseError(f"{path.name} nests lists or tables hundreds deep: a case needs three levels") from err
+
+
+def _text(path: Path) -> str:
+    """Return the text of a case, of a size that can be one."""
+    try:
+        if path.exists() and not (path.is_file() or path.is_dir()):
+            raise CaseError(f"{path.name} cannot be read (it is no ordinary file): give the path of a case file")
+        if path.is_file() and path.stat().st_size > LARGEST:
+            raise CaseError(f"{path.name} holds {path.stat().st_size} bytes, a case {LARGEST} at most: is it one?")
+        text = path.read_text(encoding="utf-8-sig")
+    except (OSError, ValueError) as err:
+        if isinstance(err, UnicodeDecodeError):
+            raise CaseError(f"{path.name} is not text in UTF-8: wanted a case in TOML, save it as UTF-8") from err
+        said = getattr(err, "strerror", None) or err
+        raise CaseError(f"{path.name} cannot be read ({said}): give the path of a case file") from err
+    if any(line.count(".") > DOTS for line in text.splitlines()):  # the parser is slow on keys of many parts
+        raise CaseError(f"{path.name} has a line with more than {DOTS} dots: keys of a case have three parts at most")
+    return text
 
 
 def _plugins(top: Fields, folder: Path) -> tuple[str, ...]:
@@ -125,7 +145,7 @@ def _recording(fields: Fields) -> RecordingSpec:
     fields.only(RECORDING)
     _check_span(fields)
     return RecordingSpec(
-        file=fields.text("file"),
+        file=fields.path("file"),
         time=fields.maybe_text("time"),
         rate=fields.positive("rate") if "rate" in fields.values else None,
         excitation=_channel(fields.table("excitation"), EXCITATIONS),
@@ -133,8 +153,16 @@ def _recording(fields: Fields) -> RecordingSpec:
         hold=cast(Hold, fields.choice("hold", ("smooth", "step")) if "hold" in fields.values else "smooth"),
         t_start=fields.maybe_number("t_start"),
         t_end=fields.maybe_number("t_end"),
-        name=fields.maybe_text("name"),
+        name=_name(fields),
     )
+
+
+def _name(fields: Fields) -> str | None:
+    """Return the name of a recording; results are stored under it, so it is no path."""
+    name = fields.maybe_text("name")
+    if name and "/" in name:
+        raise fields.wrong("name", "a name without '/'")
+    return name
 
 
 def _check_span(fields: Fields) -> None:
@@ -166,9 +194,9 @@ def _channel(fields: Fields, quantities: tuple[str, ...]) -> Channel:
 
 def _named_apart(specs: list[RecordingSpec]) -> Iterator[RecordingSpec]:
     """Yield the recordings with names that differ; a clash of file stems is numbered, a clash of names refused."""
-    given = [spec.name for spec in specs if spec.name]
-    for name in given:
-        if given.count(name) > 1:
+    given = Counter(spec.name for spec in specs if spec.name)
+    for name, count in given.items():
+        if count > 1:
             raise CaseError(f"two recordings are named {name!r}: give each its own name")
     taken: set[str] = set(given)
     for spec in specs:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import warnings
 import zipfile
 from collections.abc import Callable, Iterator, Mapping
@@ -12,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from lostmotion.errors import DataError
+from lostmotion.errors import DataError, nearest
 from lostmotion.recording.limits import TEXT, check_bytes
 from lostmotion.recording.text import read_text
 from lostmotion.recording.unpacked import check_hdf5, check_mat, check_npz
@@ -68,9 +67,7 @@ def _must_be_file(path: Path) -> None:
 
 
 def _neighbour(path: Path) -> str:
-    names = [p.name for p in path.parent.iterdir()] if path.parent.is_dir() else []
-    close = difflib.get_close_matches(path.name, names, n=1)
-    return f" (did you mean {close[0]!r}?)" if close else ""
+    return nearest(path.name, sorted(p.name for p in path.parent.iterdir())) if path.parent.is_dir() else ""
 
 
 def _first_line(err: Exception) -> str:
