@@ -226,7 +226,7 @@ BAD = [
     ("known_failures_are_named", Drag, {"known_failures": ["has_a_null"]}, set()),
     ("known_failures_are_named", Drag, {"known_failures": {"has_no_null": "a reason"}}, set()),
     ("attributes_are_complete", Cart, {"channels": "abc"}, set()),
-    ("methods_have_the_arguments_of_the_contract", Drag, {"force": staticmethod(forgets_an_argument)}, set()),
+    ("methods_have_the_arguments_of_the_contract", Drag, {"force": staticmethod(forgets_an_argument)}, None),
     ("params_are_unique", Cart, {"params": (MASS, replace(MASS, name="mass", aliases=("m",)))}, set()),
     ("bounds_are_ordered", Drag, {"params": (replace(DRAG, high=0.0),)}, set()),
     ("dimensions_are_dimensions", Drag, {"params": (replace(DRAG, dimension="N s/m"),)}, set()),

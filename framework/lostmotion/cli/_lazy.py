@@ -6,7 +6,6 @@ import contextlib
 import warnings
 from collections.abc import Iterator, Mapping
 from importlib import import_module
-from pathlib import Path
 from typing import Any, ClassVar
 
 import click
@@ -125,19 +124,7 @@ def registry_of(ctx: click.Context) -> Registry:
     held = ctx.find_object(Registry)
     if held is not None:
         return held
-    for path in (*(ctx.find_root().params.get("plugin") or ()), *_of_case(ctx.params)):
+    for path in ctx.find_root().params.get("plugin") or ():
         with contextlib.suppress(LostMotionError):
             default().add_file(path)
     return default()
-
-
-def _of_case(typed: Mapping[str, Any]) -> tuple[Path, ...]:
-    """Return the plugin files of the case that has been typed, if there is one."""
-    from lostmotion.case import load_case
-
-    for path in (typed.get("case"), typed.get("recording")):
-        if path is not None and Path(path).suffix.lower() == ".toml":
-            with contextlib.suppress(LostMotionError):
-                case = load_case(Path(path))
-                return tuple(case.folder / name for name in case.plugins)
-    return ()

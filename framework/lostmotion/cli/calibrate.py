@@ -9,7 +9,7 @@ from typing import Any
 
 import click
 
-from lostmotion.cli._lazy import examples
+from lostmotion.cli._lazy import PluginName, examples
 from lostmotion.cli._options import on_a_case
 
 
@@ -49,7 +49,12 @@ from lostmotion.cli._options import on_a_case
     help="Physics that acts in every machine, whether it is fitted or not.",
 )
 @click.option(
-    "--term", "terms", metavar="NAME[@PLACE]", multiple=True, help="A term to add to the model that is fitted."
+    "--term",
+    "terms",
+    metavar="NAME[@PLACE]",
+    type=PluginName("term"),
+    multiple=True,
+    help="A term to add to the model that is fitted.",
 )
 @click.option(
     "--route",

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from lostmotion.cli._lazy import examples, registry_of
+from lostmotion.cli._lazy import PluginName, examples, registry_of
 from lostmotion.cli._options import on_a_case
 
 if TYPE_CHECKING:
@@ -30,7 +30,14 @@ if TYPE_CHECKING:
     type=click.Choice(["trajectory", "quantifiers"]),
     help="By the recordings themselves, or by chaos measures at levels of the drive; the case decides if not given.",
 )
-@click.option("--term", "terms", metavar="NAME[@PLACE]", multiple=True, help="A term to add to the model of the case.")
+@click.option(
+    "--term",
+    "terms",
+    metavar="NAME[@PLACE]",
+    type=PluginName("term"),
+    multiple=True,
+    help="A term to add to the model of the case.",
+)
 @click.option(
     "--map",
     "maps",

@@ -35,15 +35,24 @@ _AXIS = "NAME=LOW:HIGH:N[:log|inverse]"
 @click.option("--y", "y", metavar=_AXIS, help="The second axis.")
 @click.option("--axis", "more", metavar=_AXIS, multiple=True, help="A further axis; may be given several times.")
 @click.option("--set", "sets", metavar="NAME=VALUE", multiple=True, help="Anything an axis may be, held at a value.")
-@click.option("--term", "terms", metavar="NAME[@PLACE][:PARAM=VALUE,...]", multiple=True, help="Physics to add.")
+@click.option(
+    "--term",
+    "terms",
+    metavar="NAME[@PLACE][:PARAM=VALUE,...]",
+    type=PluginName("term"),
+    multiple=True,
+    help="Physics to add.",
+)
 @click.option("--drive", default="", metavar="harmonic:KEY=VALUE,...", help="amplitude, omega or frequency, phase.")
 @click.option("--periods", default=600, show_default=True, type=click.IntRange(40), help="Periods that count.")
 @click.option("--transient", default=200, show_default=True, type=click.IntRange(0), help="Periods left out before.")
 @click.option("--starts", default=4, show_default=True, type=click.IntRange(1, 10_000), help="Starts in each cell.")
 @click.option(
     "--quantity",
+    "--quantifier",
     "quantities",
     metavar="NAME",
+    type=PluginName("quantifier"),
     multiple=True,
     help="A further quantifier, such as kaplan_yorke, or d2, which takes about a second a start.",
 )
@@ -91,6 +100,8 @@ def command(
         found = make_map(study, out, how, say)
         done = say.computed  # type: ignore[attr-defined]
     click.echo(_summary(out, found))
+    for name in study.further:
+        _tell_failures(name, found)
     if done:
         seconds = time.perf_counter() - begin
         each = seconds / (done * study.starts * (study.periods + study.transient))
@@ -125,6 +136,16 @@ def _bar(quiet: bool) -> Iterator[Callable[[int, int], None]]:
 
     with tqdm(total=0, desc="map", unit=" cells", leave=False, disable=True if quiet else None) as bar:
         yield _Say(bar)
+
+
+def _tell_failures(name: str, found: Map) -> None:
+    """Tell on standard error for how many motions a quantifier of somebody else broke down."""
+    from lostmotion.study.cells import CODES
+
+    flags = found.dataset[f"{name}_status"].to_numpy()
+    if failed := int((flags == CODES["failed"]).sum()):
+        says = f"{name} has no number for {failed} of {flags.size} motions: it broke down there"
+        click.echo(f"lostmotion: warning: {says} (`lostmotion plugins check {name}`)", err=True)
 
 
 def _summary(out: Path, found: Map) -> str:

@@ -9,7 +9,7 @@ from typing import Any
 
 import click
 
-from lostmotion.cli._lazy import examples
+from lostmotion.cli._lazy import PluginName, examples
 from lostmotion.cli._options import on_a_trial
 
 
@@ -21,7 +21,13 @@ from lostmotion.cli._options import on_a_trial
     )
 )
 @click.option("--cases", default=200, show_default=True, type=click.IntRange(1), help="How many cases to conceal.")
-@click.option("--only", metavar="NAME", multiple=True, help="Hide nothing but this mechanism; may be given again.")
+@click.option(
+    "--only",
+    metavar="NAME",
+    type=PluginName("term"),
+    multiple=True,
+    help="Hide nothing but this mechanism; may be given again.",
+)
 @click.option("--clean", is_flag=True, help="Hide nothing at all: a study of false alarms.")
 @click.option(
     "--samples", default=20_000, show_default=True, type=click.IntRange(500), help="Samples of the longest recording."

@@ -28,6 +28,7 @@ _JOINT = "--set m=0.05 --set c=0.15 --set k0=180 --set x0=0.0131"
     "--term",
     "terms",
     metavar="NAME[@PLACE][:PARAM=VALUE,...]",
+    type=PluginName("term"),
     multiple=True,
     help="Physics to add; it acts at the ground unless a PLACE of the model is given.",
 )
@@ -79,9 +80,11 @@ def command(
     from lostmotion.workflow.simulate import Plan, assembly_of, simulate
 
     require_ending(out)
-    assembly, values = assembly_of(registry_of(ctx), model, terms)
+    registry = registry_of(ctx)
+    assembly, values = assembly_of(registry, model, terms)
+    used = [("model", model), *(("term", term.name) for term in assembly.terms)]
     values |= _numbers(sets, "--set")
-    plan = Plan(assembly, values, initial=_numbers(initial, "--initial"), **settings)  # type: ignore[arg-type]
+    plan = Plan(assembly, values, initial=_numbers(initial, "--initial"), origins=registry.origins(*used), **settings)  # type: ignore[arg-type]
     table = simulate(plan)
     table.save(out)
     rows = len(table.columns["time"])

@@ -173,7 +173,7 @@ def attributes_are_complete(component: Any) -> str:
     return ""
 
 
-@rule(*KINDS, declaration=True)
+@rule(*KINDS, declaration=True, courtesy=True)
 def methods_have_the_arguments_of_the_contract(component: Any) -> str:
     """Copy the line with `def` from the contract: the host passes exactly these arguments, in this order."""
     base = _base(component)

@@ -1,0 +1,229 @@
+"""A plugin of other people that breaks takes nothing else down: a sentence names it, its contract and the remedy."""
+
+import os
+import sys
+from dataclasses import dataclass, replace
+
+import guests
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from lostmotion import registry
+from lostmotion.cli import main
+from lostmotion.contracts import Series
+from lostmotion.errors import ContractError, PluginWarning
+from lostmotion.registry import Registry
+from lostmotion.results import Embedding
+from lostmotion.system import System
+from lostmotion.workflow import analyse, diagnose
+from lostmotion.workflow.motion import Beat
+from lostmotion.workflow.prepare import Prepared
+from lostmotion.workflow.vetting import Guests, usable_terms
+
+pytestmark = pytest.mark.filterwarnings("ignore::lostmotion.errors.PluginWarning")
+ALL = [*guests.GOOD, *(cls for cls, _ in (*guests.TERMS, *guests.METHODS))]
+
+
+@pytest.fixture
+def known():
+    """Return the default registry with all guests in it, which is forgotten afterwards."""
+    registry.default.cache_clear()
+    found = registry.default()
+    for cls in ALL:
+        found.add(cls, "guests")
+    yield found
+    registry.default.cache_clear()
+
+
+def run(*args, status=0):
+    done = CliRunner().invoke(main, [str(a) for a in args], prog_name="lostmotion")
+    assert done.exit_code == status, done.output
+    return done
+
+
+def one_sentence(text):
+    return len(text.strip().splitlines()) == 1 and text.startswith("lostmotion: ") and "Traceback" not in text
+
+
+def test_terms_are_set_aside_one_by_one_and_the_good_one_stays():
+    mine = Registry()
+    for cls in (guests.Drag, *(cls for cls, _ in guests.TERMS)):
+        mine.add(cls, "guests")
+    with pytest.warns(PluginWarning, match="Set aside"):
+        terms, aside = usable_terms(mine)
+    assert terms == [guests.Drag]
+    for (cls, why), said in zip(sorted(guests.TERMS, key=lambda pair: pair[0].name), aside, strict=True):
+        assert f"term '{cls.name}' of guests" in said
+        assert why in said
+        assert f"`lostmotion plugins check {cls.name}` tells all" in said
+
+
+def test_a_package_that_does_not_import_is_among_what_was_set_aside(tmp_path, monkeypatch):
+    folder = tmp_path / "broken-1.0.dist-info"
+    folder.mkdir()
+    (folder / "METADATA").write_text("Metadata-Version: 2.1\nName: broken\nVersion: 1.0\n")
+    (folder / "entry_points.txt").write_text("[lostmotion.v1]\nbroken = broken_guest\n")
+    (tmp_path / "broken_guest.py").write_text("import nothing_of_that_name\n")
+    monkeypatch.syspath_prepend(tmp_path)
+    _, aside = usable_terms(Registry.discover())
+    assert any("could not be imported: ModuleNotFoundError" in said for said in aside)
+
+
+@pytest.mark.parametrize(("cls", "why"), guests.METHODS, ids=[cls.name for cls, _ in guests.METHODS])
+def test_a_method_is_set_aside_and_its_samples_are_as_they_were(known, cls, why):
+    x = np.sin(0.3 * np.arange(1200.0)) + 0.1 * np.random.default_rng(0).normal(size=1200)
+    series = Series(x.copy(), 0.05, Embedding(8, 3, 10))
+    watch, request, beat = Guests(known), analyse.Request(draws=19), Beat(None, "none")
+    if issubclass(cls, guests.Crest):
+        found = analyse._Measured(series, watch, request, beat, print)(cls.name, "others")
+        assert (found.status, found.says) == ("failed", watch.said[0])
+    elif issubclass(cls, guests.Pair):
+        assert analyse._embedded(series.x, watch, cls.name, 0.05, beat).embedding.methods != ("given", "given")
+    elif issubclass(cls, guests.Shuffle):
+        assert [t.method for t in analyse._tests(series, watch, replace(request, surrogates=(cls.name,)), print)] == [
+            "iaaft"
+        ]
+    else:
+        denoised, how = analyse._cleaned(series, watch, replace(request, denoiser=cls.name))
+        assert (denoised.series, how) == (series, "none")
+    (said,) = watch.said
+    assert why in said
+    assert f"of guests {why.split('(')[0].split(',')[0] if why.startswith('raised') else ''}".strip() in said
+    assert f"`lostmotion plugins check {cls.name}` tells what to mend" in said
+    assert np.array_equal(series.x, x)
+
+
+def test_good_methods_are_used(known):
+    x = np.sin(0.3 * np.arange(1200.0)) + 0.1 * np.random.default_rng(0).normal(size=1200)
+    watch, beat = Guests(known), Beat(None, "none")
+    series = analyse._embedded(x, watch, "guest_pair", 0.05, beat)
+    assert (series.embedding.lag, series.embedding.dim) == (8, 3)
+    request = analyse.Request(denoiser="guest_mean", surrogates=("guest_shuffle",), draws=19)
+    assert analyse._cleaned(series, watch, request)[1] == "guest_mean"
+    (test,) = analyse._tests(series, watch, request, print)
+    assert test.method == "guest_shuffle"
+    assert watch.said == []
+
+
+def test_a_map_goes_on_without_a_quantifier_that_breaks(known, tmp_path):
+    done = run(
+        "map", "--model", "lin_backlash", "--x", "alpha=0.2:0.4:2", "--set", "zeta=0.02", "--periods", 40, "--starts",
+        1, "--quantifier", "guest_crest", "--quantifier", "guest_reach", "--quantifier", "guest_q_raises",
+        "--quantifier", "guest_q_nan", "--out", tmp_path / "map.nc", "--quiet",
+    )  # fmt: skip
+    assert "quantifier 'guest_q_raises' broke down in a cell of the map (ZeroDivisionError: all is lost)" in done.stderr
+    assert "guest_q_nan has no number for 2 of 2 motions" in done.stderr
+    assert "`lostmotion plugins check guest_q_nan`" in done.stderr
+    assert "guest_crest" not in done.stderr
+    from lostmotion.study.store import load
+
+    table = load(tmp_path / "map.nc")
+    assert np.isfinite(table["guest_crest"]).all()
+    assert np.isfinite(table["guest_reach"]).all()
+    assert np.isnan(table["guest_q_raises"]).all()
+
+
+MOVED = ("--drive", "harmonic:amplitude=1,omega=1", "--duration", 1, "--rate", 100, "--out")
+
+
+@pytest.mark.parametrize("method", ["rhs", "observe"])
+def test_a_broken_model_is_one_sentence_and_status_2(known, tmp_path, method):
+    known.add(guests.spoiled(guests.Cart, f"guest_bad_{method}", **{method: staticmethod(guests.raises)}), "guests")
+    done = run("simulate", f"guest_bad_{method}", "--set", "m=1,c=1,k=1", *MOVED, tmp_path / "x.csv", status=2)
+    assert f"model 'guest_bad_{method}' of guests cannot be used, for it breaks the rule {method}_" in done.stderr
+    assert one_sentence(done.stderr)
+
+
+def test_a_broken_term_that_is_asked_for_is_one_sentence_and_status_2(known, tmp_path):
+    done = run("simulate", "linear_oscillator", "--set", "m=1,c=1,k=1", "--term", "guest_nan:size=1", *MOVED,
+               tmp_path / "x.csv", status=2)  # fmt: skip
+    assert "term 'guest_nan' of guests cannot be used" in done.stderr
+    assert one_sentence(done.stderr)
+
+
+def late(t, x, v, u, p, s):
+    if t > 0.5:
+        raise ValueError("too late")
+    return -p[0] * v
+
+
+def test_what_a_term_raises_while_it_runs_becomes_a_sentence():
+    system = System(guests.Cart(), (guests.spoiled(guests.Drag, "guest_late", force=staticmethod(late))(),))
+    derivative = system.kernel(system.everything, compiled=False).derivative
+    base, own = system.pack(system.vector({"m": 1.0, "guest_late.size": 1.0}), 0.01)
+    with pytest.raises(ContractError, match=r"a model or term raised ValueError \(too late\)"):
+        derivative(1.0, np.ones(2), np.ones(1), base, own, *system.wiring(system.everything), 0.0, np.zeros(2))
+
+
+@dataclass(frozen=True)
+class Nothing:
+    """A case, as far as a diagnosis that never begins reads it."""
+
+    digest: str = ""
+
+
+@pytest.mark.parametrize(("plugin", "left"), [("guest_drag", {"guest_drag"}), ("", {"guest_drag", "guest_more"})])
+def test_a_diagnosis_begins_anew_without_the_term_that_broke_down(known, monkeypatch, plugin, left):
+    more = guests.spoiled(guests.Drag, "guest_more")
+    known.add(more, "guests")
+    ours = known.make("term", "coulomb_friction")
+    prepared = Prepared(Nothing(), (), (), guests.Cart(), (ours, guests.Drag(), more()))
+    tried = []
+
+    def fails_at_first(case, tracks, system, *, rng, jobs, say):
+        tried.append((system.keys, float(rng.random())))
+        if len(tried) == 1:
+            raise ContractError("the force is not a finite number along the recorded motion", plugin)
+        return "diagnosis"
+
+    monkeypatch.setattr(diagnose, "diagnose", fails_at_first)
+    found, kept, _ = diagnose._diagnosed(prepared, known, 3, jobs=1, say=print)
+    assert found == "diagnosis"
+    assert set(tried[0][0]) - set(tried[1][0]) == left
+    assert tried[0][1] == tried[1][1]
+    assert "coulomb_friction" in tried[1][0]
+    assert all(name in kept.notes[-1] for name in left)
+
+    def fails(*_args, **_options):
+        raise ContractError("one of ours", "coulomb_friction")
+
+    monkeypatch.setattr(diagnose, "diagnose", fails)
+    with pytest.raises(ContractError, match="one of ours"):
+        diagnose._diagnosed(prepared, known, 3, jobs=1, say=print)
+
+
+CASE = """
+plugins = ["{file}"]
+[model]
+name = "guest_cart"
+[[recordings]]
+file = "recording.csv"
+time = "time"
+excitation = {{ column = "force", quantity = "force", unit = "N" }}
+response = {{ column = "position", quantity = "position", unit = "m" }}
+[model.estimate]
+c = {{ low = 0.1, high = 10.0 }}
+"""
+
+
+@pytest.mark.parametrize("file", ["nowhere.py", "case.toml", "."])
+@pytest.mark.parametrize("command", ["diagnose", "identify", "analyse"])
+def test_a_plugin_file_of_a_case_that_is_none_is_one_sentence_and_status_2(tmp_path, command, file):
+    case = tmp_path / "case.toml"
+    case.write_text(CASE.format(file=file))
+    done = run(command, case, "--out", tmp_path / "out", status=2)
+    assert file in done.stderr
+    assert one_sentence(done.stderr)
+
+
+def test_a_plugin_file_that_does_not_import_is_one_sentence_and_status_2(tmp_path):
+    (tmp_path / "sub").mkdir()
+    (tmp_path / "guest_broken.py").write_text("import nothing_of_that_name\n")
+    (tmp_path / "sub" / "case.toml").write_text(CASE.format(file="../guest_broken.py"))
+    done = run("diagnose", tmp_path / "sub" / "case.toml", "--out", tmp_path / "out", status=2)
+    assert "guest_broken.py could not be loaded: ModuleNotFoundError" in done.stderr
+    assert "mend the file" in done.stderr
+    assert one_sentence(done.stderr)
+    assert "guest_broken" not in sys.modules
+    assert not os.path.exists(tmp_path / "out")
