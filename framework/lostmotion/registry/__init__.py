@@ -17,10 +17,20 @@ from typing import Any
 from lostmotion.errors import LostMotionError, PluginError, nearest
 from lostmotion.hookspecs import GROUP
 from lostmotion.provenance import digest
-from lostmotion.registry.classes import class_of, classes_in, clocked, imported, kind_of, module_from, require
+from lostmotion.registry.classes import (
+    class_of,
+    classes_in,
+    clocked,
+    import_texts,
+    imported,
+    kind_of,
+    module_from,
+    require,
+    sources,
+)
 from lostmotion.registry.hooks import FAILURES, KINDS, Host, RefusedError, guarded, said
 
-__all__ = ["KINDS", "Entry", "Registry", "default"]
+__all__ = ["KINDS", "Entry", "Registry", "default", "import_texts", "sources"]
 
 OURS = "lostmotion"
 _PACKAGE = "package"

@@ -6,9 +6,11 @@ import importlib
 import importlib.util
 import inspect
 import sys
+import tempfile
+import threading
 import time
 import warnings
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from types import ModuleType
@@ -90,10 +92,31 @@ def module_from(path: Path) -> ModuleType:
     return _run(_free_name(path.stem), place)
 
 
+def sources() -> dict[str, str]:
+    """Return the text of each plugin file of this process, by the name of its module: what a far worker lacks."""
+    return {name: Path(place).read_text(encoding="utf-8") for name, place in _FILES.items() if name in sys.modules}
+
+
+def import_texts(texts: Mapping[str, str]) -> None:
+    """Import plugin files that came as texts, each under the name of its module, unless they are there already."""
+    with _IMPORTING:
+        for name, text in texts.items():
+            if name not in sys.modules:
+                _FOLDERS.append(tempfile.TemporaryDirectory(prefix="lostmotion-"))
+                place = Path(_FOLDERS[-1].name) / f"{name}.py"
+                place.write_text(text, encoding="utf-8")
+                _run(name, str(place))
+
+
 def _free_name(stem: str) -> str:
     """Return the name of a file if a module can have it and none has, else one derived from it."""
     taken = stem in sys.modules or importlib.util.find_spec(stem) is not None if stem.isidentifier() else True
     return f"lostmotion_file_{stem}" if taken else stem
+
+
+_FILES: dict[str, str] = {}
+_FOLDERS: list[tempfile.TemporaryDirectory[str]] = []
+_IMPORTING = threading.Lock()
 
 
 def _run(name: str, place: str) -> ModuleType:
@@ -109,4 +132,5 @@ def _run(name: str, place: str) -> ModuleType:
     except FAILURES as err:
         del sys.modules[name]
         raise PluginError(f"plugin file {place} could not be loaded: {said(err)}: mend the file") from err
+    _FILES[name] = place
     return module

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+import pickle
+from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from contextlib import closing
 from dataclasses import dataclass
@@ -14,6 +15,7 @@ from numpy.typing import NDArray
 
 from lostmotion.errors import DataError
 from lostmotion.kernels.threads import cores
+from lostmotion.registry import import_texts, sources
 from lostmotion.study.cells import Columns, Study, computed
 from lostmotion.study.layout import Layout
 from lostmotion.study.store import opened
@@ -80,7 +82,9 @@ def _cluster(study: Study, pieces: list[Cells], address: str) -> Iterator[tuple[
         raise DataError(f"no cluster answers at {address} ({err}): start one, or leave --dask out") from err
     with client:
         finished = as_completed(loop=client.loop, with_results=False)  # type: ignore[no-untyped-call]
-        futures = [client.submit(computed, study, cells, pure=False, retries=3) for cells in pieces]
+        # A worker unpacks the study itself, once it has the files of plugins, which it may not know.
+        packed, texts = pickle.dumps(study), sources()
+        futures = [client.submit(_far, texts, packed, cells, pure=False, retries=3) for cells in pieces]
         numbers = {future.key: number for number, future in enumerate(futures)}
         for future in futures:
             finished.add(future)  # type: ignore[no-untyped-call]
@@ -88,6 +92,12 @@ def _cluster(study: Study, pieces: list[Cells], address: str) -> Iterator[tuple[
         for future in finished:
             yield numbers[future.key], _result(future)
             future.release()
+
+
+def _far(texts: Mapping[str, str], packed: bytes, cells: Cells) -> Columns:
+    """Return the columns of some cells, on a worker of a cluster."""
+    import_texts(texts)
+    return computed(pickle.loads(packed), cells)  # noqa: S301 - our own bytes, from the client of this cluster
 
 
 def _result(future: Any) -> Columns:
