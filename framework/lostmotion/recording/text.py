@@ -117,6 +117,7 @@ def _table(path: Path) -> _Table:
     with path.open(encoding=encoding) as stream:
         top, line, held = _header_line(path.name, stream)
         below = held or next((row for row in stream if row.strip()), "")
+        check_line(len(below), path.name)
         lines, commas = 1, "," in below
         for row in stream:
             check_line(len(row), path.name)
