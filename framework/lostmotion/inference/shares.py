@@ -10,8 +10,11 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
 
 import numpy as np
+from scipy import sparse
 from scipy.ndimage import median_filter
 
 from lostmotion.contracts import Array
@@ -27,6 +30,9 @@ RIDGE = 1.0
 WINDOW = 31
 LEVEL = 0.05
 """The chance that any covariate of a force of pure noise is called significant."""
+
+Basis = Any
+"""Functions (samples, functions) as a sparse matrix: most of them are zero at any sample."""
 
 
 @dataclass(frozen=True)
@@ -69,10 +75,10 @@ def shares_of(
         return {name: Share(0.0, 0.0, 1.0) for name in table}
     surrogates = np.empty((0, len(force))) if rng is None else phase_randomised(force, draws, rng)
     step = -(-len(force) // ENOUGH)
-    forces = np.vstack([force, surrogates])[:, ::step].T
+    folded = _Folded.of(np.vstack([force, surrogates])[:, ::step].T)
     found = {}
     for name, covariate in table.items():
-        values, error = _predicted([c[::step] for c in covariate.columns], forces, classes=covariate.classes)
+        values, error = _predicted(covariate, folded, step)
         p = float("nan") if rng is None else (1.0 + np.sum(values[1:] >= values[0])) / (1.0 + draws)
         found[name] = Share(round(max(float(values[0]), 0.0), 4), round(error, 4), float(p))
     return found
@@ -84,51 +90,74 @@ def significant(found: Mapping[str, Share]) -> list[str]:
     return sorted(names, key=lambda name: -found[name].value)
 
 
-def _predicted(columns: Sequence[Array], forces: Array, *, classes: bool) -> tuple[Array, float]:
-    """Return the cross-validated share (forces,) of each force (samples, forces), and the standard error of the first.
+@dataclass(frozen=True)
+class _Folded:
+    """Forces (samples, forces) cut into folds: which samples each fold has, the forces there, and their squares.
 
-    The folds are contiguous blocks of time, so that a slow force does not explain itself.
+    The folds are made of contiguous blocks of time, so that a slow force does not explain itself.
     """
-    if classes:
-        options = [_errors(_classes(columns[-1]), forces)]
+
+    rows: tuple[Any, ...]
+    forces: tuple[Array, ...]
+    squares: Array
+
+    @staticmethod
+    def of(forces: Array) -> _Folded:
+        """Return forces (samples, forces) in folds."""
+        fold = (np.arange(len(forces)) * BLOCKS // len(forces)) % FOLDS
+        rows = tuple(np.flatnonzero(fold == f) for f in range(FOLDS))
+        parts = tuple(forces[r] for r in rows)
+        return _Folded(rows, parts, np.array([np.sum(part**2, axis=0) for part in parts]))
+
+    @cached_property
+    def total(self) -> Array:
+        """The squared error (folds, forces) of a constant."""
+        return self.errors(sparse.csr_array(np.ones((sum(map(len, self.rows)), 1))))
+
+    def errors(self, basis: Basis) -> Array:
+        """Return the squared error (folds, forces) of each hidden fold by a fit of `basis` on the others."""
+        parts = [basis[rows] for rows in self.rows]
+        inner = np.array([(b.T @ b).toarray() for b in parts])
+        products = np.array([b.T @ y for b, y in zip(parts, self.forces, strict=True)])
+        errors = np.empty_like(self.squares)
+        for f in range(FOLDS):
+            left = inner.sum(axis=0) - inner[f] + RIDGE * np.eye(basis.shape[1])
+            weights = np.linalg.solve(left, products.sum(axis=0) - products[f])
+            errors[f] = self.squares[f] + np.sum(weights * (inner[f] @ weights - 2.0 * products[f]), axis=0)
+        return errors
+
+
+def _predicted(covariate: Covariate, folded: _Folded, step: int) -> tuple[Array, float]:
+    """Return the cross-validated share (forces,) of each force, and the standard error of the first."""
+    columns = [c[::step] for c in covariate.columns]
+    if covariate.classes:
+        options = [folded.errors(_classes(columns[-1]))]
     else:
-        options = [_errors(np.hstack([_hats(c, k) for c in columns]), forces) for k in PIECES]
-    without = _errors(np.ones((len(forces), 1)), forces)
+        options = [folded.errors(_side_by_side(columns, k)) for k in PIECES]
+    without = total = folded.total
     if len(columns) > 1:
-        rest = [_errors(np.hstack([_hats(c, k) for c in columns[:-1]]), forces) for k in PIECES]
-        without = np.min(rest, axis=0)
-    total = _errors(np.ones((len(forces), 1)), forces)
+        without = np.min([folded.errors(_side_by_side(columns[:-1], k)) for k in PIECES], axis=0)
     gained = np.array([(without - option).sum(axis=0) / total.sum(axis=0) for option in options])
     best = int(np.argmax(gained[:, 0]))
     folds = (without - options[best])[:, 0] / np.maximum(total[:, 0], 1e-300)
     return gained.max(axis=0), float(np.std(folds, ddof=1) / math.sqrt(FOLDS))
 
 
-def _errors(basis: Array, forces: Array) -> Array:
-    """Return the squared error (folds, forces) of each hidden fold by a fit on the others."""
-    fold = (np.arange(len(forces)) * BLOCKS // len(forces)) % FOLDS
-    parts = [(basis[fold == f], forces[fold == f]) for f in range(FOLDS)]
-    squares = np.array([b.T @ b for b, _ in parts])
-    products = np.array([b.T @ y for b, y in parts])
-    errors = np.empty((FOLDS, forces.shape[1]))
-    for f, (b, y) in enumerate(parts):
-        left = squares.sum(axis=0) - squares[f] + RIDGE * np.eye(basis.shape[1])
-        weights = np.linalg.solve(left, products.sum(axis=0) - products[f])
-        errors[f] = np.sum((y - b @ weights) ** 2, axis=0)
-    return errors
+def _side_by_side(columns: Sequence[Array], pieces: int) -> Basis:
+    return sparse.csr_array(sparse.hstack([_hats(c, pieces) for c in columns]))
 
 
-def _hats(values: Array, pieces: int) -> Array:
+def _hats(values: Array, pieces: int) -> Basis:
     """Return hat functions (samples, pieces + 1) of even spacing over the middle 99 % of the values."""
     low, high = np.quantile(values, [0.005, 0.995])
     at = np.clip((values - low) / max(high - low, 1e-300), 0.0, 1.0) * pieces
     left = np.minimum(at.astype(int), pieces - 1)
-    basis = np.zeros((len(values), pieces + 1))
     rows = np.arange(len(values))
-    basis[rows, left], basis[rows, left + 1] = 1.0 - (at - left), at - left
-    return basis
+    heights = np.concatenate([1.0 - (at - left), at - left])
+    places = (np.concatenate([rows, rows]), np.concatenate([left, left + 1]))
+    return sparse.csr_array((heights, places), shape=(len(values), pieces + 1))
 
 
-def _classes(values: Array) -> Array:
+def _classes(values: Array) -> Basis:
     """Return one column (samples, classes) for each value that occurs."""
-    return np.asarray(values[:, None] == np.unique(values)[None, :], dtype=float)
+    return sparse.csr_array(np.asarray(values[:, None] == np.unique(values)[None, :], dtype=float))
