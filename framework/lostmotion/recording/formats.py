@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lostmotion.errors import DataError, nearest
+from lostmotion.recording.apart import read_apart
 from lostmotion.recording.limits import TEXT, check_bytes
 from lostmotion.recording.text import read_text
 from lostmotion.recording.unpacked import check_hdf5, check_mat, check_npz
@@ -22,13 +23,21 @@ KINDS = "fiub"
 
 
 def read_columns(path: Path) -> dict[str, Array]:
+    """Return the numeric columns of a file by name, each (n,), as `columns_of`; foreign formats are read apart."""
+    path = Path(path)
+    if _reader(path) in (read_text, _read_npz):
+        return columns_of(path)
+    _must_be_file(path)
+    return read_apart(path)
+
+
+def columns_of(path: Path) -> dict[str, Array]:
     """Return the numeric columns of a file by name, each (n,); lengths may differ between columns.
 
     Numbers that stand alone are left out. A two-dimensional array `a` gives `a[0]`, `a[1]`, ...: the longer axis is
     time. A field `b` of a structure or group `a` is `a.b` (MAT) or `a/b` (netCDF, HDF5). In UFF a function is named
     by its first id line, where that is unique, and by its number among the functions: `58[0]`.
     """
-    path = Path(path)
     reader = _reader(path)
     try:
         _must_be_file(path)
@@ -55,6 +64,13 @@ def _reader(path: Path) -> Callable[[Path], dict[str, Array]]:
 
 
 def _must_be_file(path: Path) -> None:
+    try:
+        _check_place(path)
+    except (OSError, ValueError) as err:
+        raise DataError(f"{path.name[:80]} cannot be read ({_first_line(err)}): correct the name") from err
+
+
+def _check_place(path: Path) -> None:
     if path.is_dir():
         raise DataError(f"{path.name} is a folder: give the recording inside it")
     if not path.exists():

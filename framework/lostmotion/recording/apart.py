@@ -1,0 +1,99 @@
+"""Foreign formats are read in a process of their own: a damaged file takes down its reader and nothing else.
+
+A MAT file can crash its reader and an HDF5 file send it round in circles; neither can be caught from within.
+"""
+
+from __future__ import annotations
+
+import io
+import json
+import os
+import resource
+import signal
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lostmotion.errors import DataError
+
+Array = NDArray[np.float64]
+REFUSED = 3
+"""Exit status of the reader when it says why in a sentence."""
+SECONDS, SPEED, MEMORY = 7, 4 * 2**20, 2 * 2**30
+"""What the reader may take: so much time of a processor and for so many bytes a second more, so much address space."""
+WALL = 600
+_NAMES = "names"
+_READER = (
+    "import sys; from pathlib import Path; from lostmotion.recording.apart import main; "
+    "sys.exit(main(Path(sys.argv[1])))"
+)
+"""Run with -P, so that no module that lies beside a recording is taken for one of Python's."""
+
+
+def read_apart(path: Path) -> dict[str, Array]:
+    """Return the columns of a file by name, each (n,), as another process has read them; `DataError` if it cannot."""
+    line = [sys.executable, "-P", "-c", _READER, str(Path(path).absolute())]
+    alone = {**os.environ, "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
+    try:
+        done = subprocess.run(line, capture_output=True, env=alone, timeout=WALL, check=False)
+    except subprocess.TimeoutExpired as err:
+        raise _given_up(path, f"no end within {WALL} s") from err
+    if done.returncode == 0:
+        return _unpacked(done.stdout)
+    if done.returncode == REFUSED:
+        raise DataError(done.stderr.decode("utf-8", "replace"))
+    if done.returncode < 0:
+        number = -done.returncode
+        why = "it takes too long" if number == signal.SIGXCPU else f"its reader died of {signal.Signals(number).name}"
+        raise _given_up(path, why)
+    said = done.stderr.decode("utf-8", "replace").strip().splitlines()
+    raise _given_up(path, said[-1][:120] if said else f"its reader ended with {done.returncode}")
+
+
+def _given_up(path: Path, why: str) -> DataError:
+    ending = path.suffix[1:].lower()
+    return DataError(
+        f"{path.name} cannot be read as {ending} ({why}): it may be damaged or of another format; export it again, for "
+        "instance as csv"
+    )
+
+
+def _packed(columns: dict[str, Array]) -> bytes:
+    out = io.BytesIO()
+    names = np.frombuffer(json.dumps(list(columns)).encode(), dtype=np.uint8)
+    held: dict[str, Any] = {_NAMES: names, **{f"column_{i}": column for i, column in enumerate(columns.values())}}
+    np.savez(out, **held)
+    return out.getvalue()
+
+
+def _unpacked(raw: bytes) -> dict[str, Array]:
+    with np.load(io.BytesIO(raw), allow_pickle=False) as archive:
+        names = json.loads(archive[_NAMES].tobytes())
+        return {name: archive[f"column_{i}"] for i, name in enumerate(names)}
+
+
+def _limit(path: Path) -> None:
+    """Bound what this process may take from here on."""
+    used = resource.getrusage(resource.RUSAGE_SELF)
+    seconds = int(used.ru_utime + used.ru_stime) + SECONDS + path.stat().st_size // SPEED
+    for what, most in ((resource.RLIMIT_CPU, seconds), (resource.RLIMIT_AS, MEMORY), (resource.RLIMIT_CORE, 0)):
+        _, hard = resource.getrlimit(what)
+        resource.setrlimit(what, (most if hard == resource.RLIM_INFINITY else min(most, hard), hard))
+
+
+def main(path: Path) -> int:
+    """Return the exit status of the reader, whose standard output is the columns."""
+    from lostmotion.recording.formats import columns_of
+
+    try:
+        _limit(path)
+        raw = _packed(columns_of(path))
+    except DataError as err:
+        sys.stderr.write(str(err))
+        return REFUSED
+    sys.stdout.buffer.write(raw)
+    return 0
