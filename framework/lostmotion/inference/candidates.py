@@ -183,7 +183,7 @@ def _hint(fit: Fit, trial: Trial, joint: Sensitivity) -> Hint:
         )
     k = len(amplitudes)
     base, cross, own = information[:-k, :-k], information[:-k, -k:], information[-k:, -k:]
-    base = base + np.diag([1.0 / f.sd**2 if math.isfinite(f.sd) else 0.0 for f in fit.problem.free])
+    base = base + np.diag([f.pull for f in fit.problem.free])
     pulled = solved(base, np.column_stack([cross, gradient[:-k]]))
     schur = own - cross.T @ pulled[:, :k]
     force = gradient[-k:] - cross.T @ pulled[:, k]

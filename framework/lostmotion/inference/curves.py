@@ -140,8 +140,8 @@ def _projected(fit: Fit, slopes: Sensitivity, key: str) -> tuple[Array, Array]:
         zero, here, np.vstack([slopes.errors, de]), np.vstack([slopes.variances, dv]), np.full(len(zero), width)
     )
     gradient, information, k = joint.gradient(), joint.information(), len(slopes.theta)
-    pull = [1.0 / f.sd**2 if math.isfinite(f.sd) else 0.0 for f in problem.free]
-    gradient[:k] -= np.array(pull) * (slopes.theta - np.array([f.mean for f in problem.free]))
+    pull = np.array([f.pull for f in problem.free])
+    gradient[:k] -= pull * (slopes.theta - np.array([f.mean for f in problem.free]))
     pulled = solved(information[:k, :k] + np.diag(pull), information[:k, k:])
     own = information[k:, k:]
     return _told_apart(gradient[k:] - pulled.T @ gradient[:k], own - information[k:, :k] @ pulled, own)
@@ -167,10 +167,8 @@ def with_curve(problem: Problem, key: str, widths: Array, start: Array) -> Probl
     term = _learned(problem, key)
     reach = np.where(np.isfinite(widths), 30.0 * widths, 1e3 * size_of(term, problem))
     unit = term.params[0].dimension.unit(problem.system.model.motion)
-    frees = [
-        Free(f"{key}.v{i}", unit, float(start[i]), -float(reach[i]), float(reach[i]), sd=float(widths[i]))
-        for i in np.flatnonzero(widths > 0.0)
-    ]
+    rows = [(int(i), *(float(row[i]) for row in (start, reach, widths))) for i in np.flatnonzero(widths > 0.0)]
+    frees = [Free(f"{key}.v{i}", unit, at, -far, far, sd=wide, straight=True) for i, at, far, wide in rows]
     return problem.extended(frees, {key})
 
 

@@ -10,7 +10,7 @@ from scipy.special import logsumexp
 from scipy.stats import multivariate_t
 
 from lostmotion.contracts import Array
-from lostmotion.inference.fit import Fit
+from lostmotion.inference.fit import MANY, Fit
 
 HEAVY = 5.0
 """Degrees of freedom of the t density that is sampled from: its tails must be heavier than those of the posterior."""
@@ -34,8 +34,11 @@ def checked(fit: Fit, rng: np.random.Generator, draws: int = 150) -> Check:
     """Return the log evidence of a fit by importance sampling about its maximum.
 
     Geweke, Econometrica 57 (1989) 1317-1339. Coordinates that press against a bound are drawn beyond it as well; such
-    draws have no weight, so the cut is counted. The noise of a filter through kinks counts as well.
+    draws have no weight, so the cut is counted. The noise of a filter through kinks counts as well. Beyond `MANY`
+    coordinates the weights would fall on a few draws, and nothing is sampled.
     """
+    if len(fit.theta) > MANY:
+        return Check(fit.log_evidence, -math.inf, math.inf, 0.0)
     theta, covariance = fit.theta, fit.local.covariance
     sd = np.sqrt(np.maximum(np.diag(covariance), 1e-300))
     shape = covariance / np.outer(sd, sd) * WIDER**2 + 1e-10 * np.eye(len(sd))

@@ -18,6 +18,9 @@ from lostmotion.inference.problem import RANDOM, Innovations, Problem
 BLOCKS = 40
 STRIDE = 0.3
 """Finite-difference step in conditional standard deviations: small against the posterior, large against roughness."""
+MANY = 20
+"""Beyond so many parameters derivatives cost more than all else, and are kept while steps along them gain."""
+COASTING = 8
 
 
 @dataclass(frozen=True)
@@ -120,20 +123,28 @@ class Sensitivity:
 
 
 def sensitivity(problem: Problem, theta: Array, steps: Array) -> Sensitivity:
-    """Return innovations and their derivatives at `theta`, by central differences that stay within the bounds."""
+    """Return innovations and their derivatives at `theta`, by differences that stay within the bounds.
+
+    They are central, but for coordinates in which errors are straight: there one side is enough.
+    """
     low, high = problem.clip(theta - 1e300), problem.clip(theta + 1e300)
     up, down = np.minimum(theta + steps, high), np.maximum(theta - steps, low)
-    points = []
-    for i in range(len(theta)):
-        for end in (up, down):
-            point = theta.copy()
-            point[i] = end[i]
-            points.append(point)
+    straight = np.array([f.straight for f in problem.free], dtype=bool)
+    down[straight] = theta[straight]
+    central = [i for i, f in enumerate(problem.free) if not f.straight]
+    points = [_moved(theta, i, up[i]) for i in range(len(theta))] + [_moved(theta, i, down[i]) for i in central]
     here, *around = problem.around(theta, points)
-    pairs = list(zip(around[::2], around[1::2], up - down, strict=True))
+    below = dict(zip(central, around[len(theta) :], strict=True))
+    pairs = [(around[i], below.get(i, here), up[i] - down[i]) for i in range(len(theta))]
     de = np.array([_difference(a.errors, b.errors, w) for a, b, w in pairs])
     dv = np.array([_difference(a.variances, b.variances, w) for a, b, w in pairs])
     return Sensitivity(theta, here, de, dv, steps)
+
+
+def _moved(theta: Array, index: int, value: float) -> Array:
+    point = theta.copy()
+    point[index] = value
+    return point
 
 
 def _difference(above: Array, below: Array, width: float) -> Array:
@@ -146,16 +157,18 @@ def expand(problem: Problem, theta: Array, steps: Array) -> Local:
     A uniform prior counts with its variance: where the recording tells nothing of a parameter, its posterior is as wide
     as its prior, and the evidence by Laplace's method neither gains nor loses by it.
     """
-    slopes = sensitivity(problem, theta, steps)
-    gradient, information = slopes.gradient(), slopes.information()
+    return _local(problem, sensitivity(problem, theta, steps))
+
+
+def _local(problem: Problem, slopes: Sensitivity) -> Local:
+    theta, gradient, information = slopes.theta, slopes.gradient(), slopes.information()
     for i, f in enumerate(problem.free):
-        if math.isfinite(f.sd):
-            gradient[i] -= (theta[i] - f.mean) / f.sd**2
-            information[i, i] += 1.0 / f.sd**2
-        elif f.high > f.low:
+        gradient[i] -= f.pull * (theta[i] - f.mean)
+        information[i, i] += f.pull
+        if math.isinf(f.sd) and f.high > f.low:
             information[i, i] += 12.0 / (f.high - f.low) ** 2
     log_likelihood = slopes.here.log_likelihood
-    return Local(theta, log_likelihood, log_likelihood + problem.log_prior(theta), gradient, information, steps)
+    return Local(theta, log_likelihood, log_likelihood + problem.log_prior(theta), gradient, information, slopes.steps)
 
 
 def _tuned(local: Local, problem: Problem) -> Array:
@@ -182,6 +195,8 @@ def maximise(
     local = expand(problem, point, first_steps(problem))
     if not math.isfinite(local.log_posterior):
         return Fit(problem, local, "diverged", 0)
+    if len(point) > MANY:
+        return _coasted(problem, local, rounds, tolerance)
     local = expand(problem, point, _tuned(local, problem))
     damping = 1e-3
     for turn in range(rounds):
@@ -200,6 +215,38 @@ def maximise(
             if damping > 1e6:
                 return Fit(problem, local, "rough", turn)
     return Fit(problem, local, "not converged", rounds)
+
+
+def _coasted(problem: Problem, local: Local, rounds: int, tolerance: float) -> Fit:
+    """Return the maximum near a point in many coordinates: several steps with each set of derivatives."""
+    for turn in range(rounds):
+        slopes = sensitivity(problem, local.theta, _tuned(local, problem))
+        local = _local(problem, slopes)
+        if _step(problem, local, 1e-3)[1] < tolerance:
+            return Fit(problem, local, "converged", turn)
+        point = _coast(problem, slopes)
+        if np.array_equal(point, local.theta):
+            return Fit(problem, local, "rough", turn)
+        local = replace(local, theta=point)
+    return Fit(problem, expand(problem, local.theta, local.steps), "not converged", rounds)
+
+
+def _coast(problem: Problem, slopes: Sensitivity) -> Array:
+    """Return where steps along derivatives that are held lead, as long as they gain; one filter run for each."""
+    local, damping = _local(problem, slopes), 1e-3
+    for _ in range(COASTING):
+        step, promise = _step(problem, local, damping)
+        trial = problem.clip(local.theta + step)
+        held = replace(slopes, theta=trial, here=problem.innovations(trial))
+        there = _local(problem, held)
+        gain = there.log_posterior - local.log_posterior
+        if gain > 0.0:
+            local = there
+        else:
+            damping *= 30.0
+        if 0.0 < gain < 0.05 * promise or promise < 1e-3:
+            break
+    return local.theta
 
 
 def _step(problem: Problem, local: Local, damping: float) -> tuple[Array, float]:

@@ -41,7 +41,7 @@ class Free:
     """A parameter to be estimated, in the coordinate in which its prior is simple.
 
     `log` says that the coordinate is the logarithm. The prior is uniform between `low` and `high` (coordinate), or
-    normal with `mean` and `sd` and cut there.
+    normal with `mean` and `sd` and cut there. `straight` says that one-step errors are close to linear in it.
     """
 
     key: str
@@ -52,6 +52,12 @@ class Free:
     log: bool = False
     mean: float = 0.0
     sd: float = math.inf
+    straight: bool = False
+
+    @property
+    def pull(self) -> float:
+        """The information that the prior adds about the coordinate: none if it is uniform."""
+        return 1.0 / self.sd**2 if math.isfinite(self.sd) else 0.0
 
     @property
     def parameter(self) -> str:

@@ -10,7 +10,7 @@ import numpy as np
 
 from lostmotion.contracts import Term
 from lostmotion.inference.candidates import Hint, fit_in_place, fit_with, screen, slopes_of, term_of
-from lostmotion.inference.fit import Fit, maximise, warmed
+from lostmotion.inference.fit import MANY, Fit, maximise, warmed
 from lostmotion.inference.problem import RANDOM
 from lostmotion.inference.standing import CERTAIN, standing
 
@@ -27,7 +27,7 @@ DECISIVE = math.log(20.0)
 """A term is taken when it makes the posterior odds of the model twenty times better."""
 REMEMBERS = 2.0
 WORTH = 0.2
-RICH, MANY = 4, 20
+RICH = 4
 SAME = 1e-4
 """Below this share of its own information a term cannot be told from parameters that are estimated anyway."""
 
