@@ -2,6 +2,7 @@
 
     LostMotionError
     ├── DataError       the recording cannot be used as it is
+    │   └── PlaceError  a place cannot be written, or its disk is full: the work is sound, and can be done again
     ├── CaseError       the case file says something that cannot be meant
     ├── ContractError   a plugin breaks the contract of its kind
     └── PluginError     a name is unknown, contested or could not be loaded
@@ -25,6 +26,10 @@ class LostMotionError(Exception):
 
 class DataError(LostMotionError):
     """The recording cannot be used as it is."""
+
+
+class PlaceError(DataError):
+    """A file or folder cannot be written, for instance since its disk is full; nothing that stood there is touched."""
 
 
 class CaseError(LostMotionError):

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from lostmotion.errors import DataError, LostMotionError
+from lostmotion.errors import DataError, LostMotionError, PlaceError
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -59,6 +59,7 @@ def whole(path: Path) -> Iterator[Path]:
     spare = path.with_name(f".{path.stem}.{os.getpid()}{path.suffix}")
     with writing(path):
         _clear(path)
+        spare.unlink(missing_ok=True)  # a link that somebody laid there would be written through
         try:
             yield spare
             _settle(spare)
@@ -70,7 +71,7 @@ def whole(path: Path) -> Iterator[Path]:
 
 @contextmanager
 def writing(path: Path) -> Iterator[None]:
-    """Turn what the system says while `path` is written into a `DataError`; a full disk is told as such."""
+    """Turn what the system says while `path` is written into a `PlaceError`; a full disk is told as such."""
     try:
         yield
     except (OSError, RuntimeError) as err:
@@ -78,12 +79,12 @@ def writing(path: Path) -> Iterator[None]:
         if isinstance(err, RuntimeError) and number is None:
             raise
         if number in FULL:
-            raise DataError(
+            raise PlaceError(
                 f"{path} cannot be written, for there is no room left on its disk ({os.strerror(number)}): make room "
                 "and run the same command again; what stood there before is as it was"
             ) from err
         said = os.strerror(number) if number else str(err).partition("\n")[0]
-        raise DataError(f"{path} cannot be written ({said}): choose another place") from err
+        raise PlaceError(f"{path} cannot be written ({said}): choose another place") from err
 
 
 def _number_of(err: OSError | RuntimeError) -> int | None:
@@ -219,10 +220,10 @@ def load_arrays(path: Path, wanted: str, group: str | None = None) -> xr.Dataset
     """Return what a netCDF of ours holds, in memory; `wanted` ends the sentence that refuses a damaged one."""
     import xarray
 
-    from lostmotion.recording.unpacked import check_hdf5
+    from lostmotion.recording.unpacked import RESULT, check_hdf5
 
     try:
-        check_hdf5(path)
+        check_hdf5(path, RESULT)
         return xarray.load_dataset(path, group=group, engine="h5netcdf")
     except LostMotionError:
         raise

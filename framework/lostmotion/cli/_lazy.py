@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import errno
 import warnings
 from collections.abc import Iterator, Mapping
 from importlib import import_module
@@ -100,6 +101,12 @@ class LazyGroup(click.Group):
                 return super().invoke(ctx)
         except LostMotionError as err:
             raise SentenceError(str(err)) from err
+        except MemoryError as err:
+            raise SentenceError("there is not enough memory: cut the recording, or use fewer --jobs") from err
+        except OSError as err:
+            if err.errno in (None, errno.EPIPE):
+                raise
+            raise SentenceError(f"{err.filename or 'a file'} cannot be used ({err.strerror}): see to it") from err
         except (KeyboardInterrupt, click.Abort):
             click.echo("lostmotion: interrupted", err=True)
             ctx.exit(INTERRUPTED)

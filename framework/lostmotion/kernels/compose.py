@@ -149,7 +149,9 @@ def _cached(text: str, parts: dict[str, Callable[..., Any]]) -> Path:
         key.update(name.encode() + _origin(parts[name]))
     for folder in _folders():
         try:
-            folder.mkdir(parents=True, exist_ok=True)
+            folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+            if folder.stat().st_uid != os.getuid():  # what others have left there would be run
+                continue
             path = folder / f"lostmotion_kernel_{key.hexdigest()[:24]}.py"
             if not path.exists():
                 fresh = path.with_suffix(f".{os.getpid()}.tmp")

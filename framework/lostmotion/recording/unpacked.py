@@ -12,6 +12,8 @@ from lostmotion.errors import DataError
 from lostmotion.recording.limits import NUMBERS, check_bytes, check_count
 
 MOST = 8 * NUMBERS
+RESULT = 2**31
+"""Bytes that a result of ours may hold: a chain or a map is larger than a recording."""
 _HEADER, _TAG, _COMPRESSED = 128, 8, 15
 """Bytes before the first element of a MAT file of version 5, bytes of a tag, type of a compressed element."""
 _BLOCK = 1 << 20
@@ -50,7 +52,7 @@ def _inflated(raw: Any, size: int, most: int) -> int:
     return count
 
 
-def check_hdf5(path: Path) -> None:
+def check_hdf5(path: Path, most: int = MOST) -> None:
     """Refuse an HDF5 file (netCDF 4, MAT 7.3) of more than is read, or one that takes its numbers from other files."""
     import h5py
 
@@ -58,6 +60,6 @@ def check_hdf5(path: Path) -> None:
     with h5py.File(path, "r") as file:
         file.visititems(lambda _, item: found.append(item) if isinstance(item, h5py.Dataset) else None)
         check_count(len(found), "arrays", path.name)
-        check_bytes(sum(item.size * item.dtype.itemsize for item in found if item.size), path.name)
+        check_bytes(sum(item.size * item.dtype.itemsize for item in found if item.size), path.name, most)
         if any(item.external or item.is_virtual for item in found):
             raise DataError(f"{path.name} takes numbers from other files: export it again as one file")

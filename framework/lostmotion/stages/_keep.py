@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from lostmotion.errors import DataError
-from lostmotion.recording.unpacked import check_hdf5
+from lostmotion.recording.unpacked import RESULT, check_hdf5
 from lostmotion.stages._cloud import Cloud
 from lostmotion.stages._scores import Scores
 from lostmotion.storage import whole
@@ -94,7 +94,7 @@ def load(path: Path, digest: str) -> Kept | None:
     import h5py
 
     try:
-        check_hdf5(path)
+        check_hdf5(path, RESULT)
         with h5py.File(path, "r") as file:
             ours = file[OURS]
             if ours.attrs["digest"] != digest:

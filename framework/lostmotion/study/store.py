@@ -21,7 +21,8 @@ import zarr
 from numpy.typing import NDArray
 
 from lostmotion.errors import DataError
-from lostmotion.recording.unpacked import check_hdf5
+from lostmotion.recording.limits import check_bytes
+from lostmotion.recording.unpacked import RESULT, check_hdf5
 from lostmotion.storage import whole, writing
 from lostmotion.study.cells import Columns
 from lostmotion.study.layout import SCHEMA, Layout
@@ -97,11 +98,16 @@ def load(path: Path) -> xr.Dataset:
         raise DataError(f"{path} is not there: give the path of a map")
     try:
         if path.suffix == ".nc":
-            check_hdf5(path)
+            check_hdf5(path, RESULT)
             with xr.open_dataset(path, engine="h5netcdf") as stored:
                 found = stored.load()
         else:
-            found = xr.open_zarr(path, consolidated=False, chunks=None, mask_and_scale=False).load()
+            _require_ours(path)  # before anything is decoded: stores of version 2 may hold pickles
+            lazy = xr.open_zarr(path, consolidated=False, chunks=None, mask_and_scale=False, zarr_format=3)
+            check_bytes(lazy.nbytes, path.name, RESULT)
+            found = lazy.load()
+    except DataError:
+        raise
     except Exception as err:  # HDF5, zarr and what reads them fail in every way there is
         said = str(err).partition("\n")[0][:120]
         raise DataError(f"{path} cannot be read as a map ({said}): give a .zarr or .nc written by `map`") from err

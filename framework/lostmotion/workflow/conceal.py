@@ -17,7 +17,7 @@ import numpy as np
 from lostmotion.case import dump_case
 from lostmotion.contracts import Array
 from lostmotion.kernels.independent import slide
-from lostmotion.storage import save_table
+from lostmotion.storage import folder_for, save_table, whole
 
 JOINT = {"m": 0.05, "c": 0.15, "k0": 180.0, "x0": math.radians(0.75), "mgl": 0.0}
 """The machine in SI units under the names of `robot_joint`: a light link in the horizontal plane, whose contact
@@ -95,11 +95,12 @@ def joint_motion(phase: float, start: float, friction: float, rate: float, sampl
 def write_case(concealed: Concealed, folder: Path) -> Path:
     """Return the path of `case.toml`, written into `folder` together with `recording.csv`."""
     folder = Path(folder)
-    folder.mkdir(parents=True, exist_ok=True)
+    folder_for(folder)
     columns = {"time": concealed.time, "base": concealed.base_position, "link": concealed.position}
     save_table(folder / "recording.csv", columns, {"time": "s", "base": "deg", "link": "deg"}, {})
     path = folder / "case.toml"
-    dump_case(_case(concealed), path)
+    with whole(path) as spare:
+        dump_case(_case(concealed), spare)
     return path
 
 

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from lostmotion.errors import LostMotionError
+from lostmotion.errors import LostMotionError, PlaceError
 from lostmotion.registry import Registry
 from lostmotion.workflow.oracle import ALIKE, Yardstick, alike, covered, spelled, yardstick
 from lostmotion.workflow.prepare import prepare
@@ -40,6 +40,8 @@ def judged(out: Path, registry: Registry, number: int) -> dict[str, Any]:
         prepared = prepare(place / "case.toml", registry)
         best = yardstick(prepared, truth, diagnosis)
         places = len(prepared.model.interfaces)
+    except PlaceError:
+        raise
     except (LostMotionError, ArithmeticError, ValueError) as err:
         best = Yardstick((None,) * len(truth["effects"]), ("failed",) * len(truth["effects"]))
         told["oracle"], places = " ".join(str(err).split()), 2 if truth["machine"]["model"] == "robot_joint" else 1

@@ -9,7 +9,7 @@ from functools import lru_cache, partial
 from pathlib import Path
 from typing import Any
 
-from lostmotion.errors import LostMotionError
+from lostmotion.errors import LostMotionError, PlaceError
 from lostmotion.provenance import digest, provenance
 from lostmotion.registry import Registry
 from lostmotion.report.proof import write_proof
@@ -40,6 +40,8 @@ class Diagnoser:
             content = run_diagnosis(
                 place / "case.toml", place / "diagnosis", _registry(self.plugins), seed=number, jobs=1, propose=False
             )
+        except PlaceError:
+            raise
         except (LostMotionError, ArithmeticError, ValueError) as err:
             shutil.rmtree(place / "diagnosis", ignore_errors=True)
             return {"case": label(number), "status": "failed", "says": " ".join(str(err).split())}

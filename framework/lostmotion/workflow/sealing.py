@@ -20,7 +20,7 @@ from lostmotion.contracts import Array
 from lostmotion.errors import DataError
 from lostmotion.kernels.independent_zoo import Hidden
 from lostmotion.provenance import digest
-from lostmotion.storage import folder_for, save_json, save_table
+from lostmotion.storage import folder_for, save_json, save_table, whole
 from lostmotion.workflow.hiding import hidden_in
 from lostmotion.workflow.mechanisms import NAMES, SPRUNG, TABLE, Effect, Pilot, drawn
 from lostmotion.workflow.zoo import USUAL, Meddling, Rig, draw_rig, moved
@@ -71,7 +71,8 @@ def concealed(blind: Blind, out: Path, number: int) -> dict[str, Any]:
     place = folder_for(out / "cases" / label(number))
     excitation, response, noise = _recorded(rig, truth, hidden_in(rig, effects)[1].step, variant, rng)
     save_table(place / "recording.csv", {"time": rig.time, "excitation": excitation, "response": response}, {}, {})
-    dump_case(_case(rig, number), place / "case.toml")
+    with whole(place / "case.toml") as spare:
+        dump_case(_case(rig, number), spare)
     sealed = folder_for(out / "sealed") / f"{label(number)}.json"
     save_json(
         sealed,

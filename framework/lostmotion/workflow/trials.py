@@ -16,7 +16,7 @@ import numpy as np
 from lostmotion.case import dump_case
 from lostmotion.case.levels import Level
 from lostmotion.contracts import Array
-from lostmotion.errors import CaseError, LostMotionError
+from lostmotion.errors import CaseError, LostMotionError, PlaceError
 from lostmotion.inference.ranks import rank_of
 from lostmotion.quantities import ANGULAR, SI
 from lostmotion.stages.identify import Identification, identify
@@ -41,6 +41,8 @@ def trial(design: Design, number: int) -> dict[str, Any]:
     unknown = {name: {"truth": value, "drawn": name in machine.drawn} for name, value in machine.truth.items()}
     try:
         result, also = WAYS[design.route](shop, machine, of_motion, int(of_fit.integers(2**32)))
+    except PlaceError:
+        raise
     except (LostMotionError, ArithmeticError, ValueError) as err:
         return {"machine": number, "status": "failed", "says": " ".join(str(err).split()), "parameters": unknown}
     if not result.converged:
