@@ -1,0 +1,163 @@
+"""Directives that write what the registry and the command line say of themselves, so that no page is behind."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any, ClassVar
+
+import click
+from docutils import nodes
+from docutils.statemachine import StringList
+from sphinx.application import Sphinx
+from sphinx.util.docutils import SphinxDirective
+
+import lostmotion
+from lostmotion.cli import main
+from lostmotion.contracts import KINDS
+from lostmotion.registry import Entry, default
+from lostmotion.results import STATUSES
+from lostmotion.testing import rules_for
+
+
+def setup(app: Sphinx) -> dict[str, bool]:
+    """Offer each directive by its name."""
+    for directive in (Plugins, Commands, Doors, Statuses, Rules):
+        app.add_directive(directive.__name__.lower(), directive)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}
+
+
+class Plugins(SphinxDirective):
+    """Everything that `lostmotion plugins` lists of one kind, with what each says of itself."""
+
+    required_arguments = 1
+    option_spec: ClassVar[Any] = {}
+
+    def run(self) -> list[nodes.Node]:
+        """Return one section for each name of the kind."""
+        kind = self.arguments[0]
+        entries = [e for e in default().entries() if e.kind == kind and e.owner == "lostmotion"]
+        return [self._section(entry) for entry in entries]
+
+    def _section(self, entry: Entry) -> nodes.section:
+        cls = default().load(entry.kind, entry.name)
+        section = nodes.section(ids=[nodes.make_id(f"{entry.kind}-{entry.name}")], names=[entry.name])
+        section += nodes.title("", "", nodes.literal("", entry.name))
+        section += nodes.paragraph("", "", *worded(" ".join((cls.__doc__ or "").split())))
+        section += nodes.field_list("", *(field(*pair) for pair in said(cls)))
+        if params := getattr(cls, "params", ()):
+            section += parameters(cls, params)
+        return section
+
+
+def said(cls: Any) -> Iterator[tuple[str, str]]:
+    """Yield what a class says of itself, as pairs of word and text."""
+    for word in ("formula", "null", "unit", "reads", "paper"):
+        if isinstance(text := getattr(cls, word, None), str):
+            yield {"null": "null hypothesis", "reads": "reads a"}.get(word, word), text
+    for word in ("states", "inputs", "channels", "needs", "resembles"):
+        if names := getattr(cls, word, ()):
+            yield word, ", ".join(names)
+    if kept := getattr(cls, "preserves", ()):
+        yield "preserves", ", ".join(sorted(kept))
+    if places := getattr(cls, "interfaces", ()):
+        yield "places", ", ".join(place.name for place in places)
+
+
+def field(word: str, text: str) -> nodes.field:
+    """Return a word with what is said of it; formulas and names in the type of code."""
+    plain = word in ("paper", "null hypothesis")
+    body = nodes.paragraph("", "", nodes.Text(text) if plain else nodes.literal("", text))
+    return nodes.field("", nodes.field_name("", word), nodes.field_body("", body))
+
+
+def worded(text: str) -> Iterator[nodes.Node]:
+    """Yield the pieces of a text, what stands between backticks in the type of code."""
+    for i, piece in enumerate(text.split("`")):
+        yield nodes.literal("", piece) if i % 2 else nodes.Text(piece)
+
+
+def parameters(cls: Any, params: Any) -> nodes.table:
+    """Return the table of the parameters of a model or a term; models have no null."""
+    motion = getattr(cls, "motion", None) or getattr(cls, "motions", ("translation",))[0]
+    rows = [(q.name, q.meaning, q.dimension.unit(motion), bounds(q)) for q in params]
+    heads = ("parameter", "meaning", "unit", "bounds")
+    if all(q.null is None for q in params):
+        return table(heads, rows)
+    nulls = ("" if q.null is None else f"{q.null:g}" for q in params)
+    return table((*heads, "null"), [(*row, null) for row, null in zip(rows, nulls, strict=True)])
+
+
+def bounds(q: Any) -> str:
+    """Return the physical bounds of a parameter in words, none where there are none."""
+    low, high = (f"{x:g}" if abs(x) < float("inf") else "" for x in (q.low, q.high))
+    if low and high:
+        return f"{low} to {high}"
+    return f"from {low}" if low else f"to {high}" if high else ""
+
+
+def table(heads: tuple[str, ...], rows: list[tuple[str, ...]]) -> nodes.table:
+    """Return a table; its first column is in the type of code."""
+    group = nodes.tgroup(cols=len(heads))
+    group += [nodes.colspec(colwidth=1) for _ in heads]
+    group += nodes.thead("", nodes.row("", *(cell(nodes.Text(head)) for head in heads)))
+    lines = [nodes.row("", cell(nodes.literal("", row[0])), *(cell(*worded(x)) for x in row[1:])) for row in rows]
+    group += nodes.tbody("", *lines)
+    return nodes.table("", group, classes=["narrow"])
+
+
+def cell(*content: nodes.Node) -> nodes.entry:
+    """Return one cell."""
+    return nodes.entry("", nodes.paragraph("", "", *content))
+
+
+class Written(SphinxDirective):
+    """Lines of reStructuredText that `lines` yields, parsed where the directive stands."""
+
+    def run(self) -> list[nodes.Node]:
+        """Return what the lines become."""
+        holder = nodes.section()
+        self.state.nested_parse(StringList(list(self.lines()), source=self.name), self.content_offset, holder, True)
+        return list(holder.children)
+
+    def lines(self) -> Iterator[str]:
+        """Yield the lines."""
+        raise NotImplementedError
+
+
+class Commands(Written):
+    """Every command of `lostmotion`, by sphinx-click: a command that is added shows up here by itself."""
+
+    def lines(self) -> Iterator[str]:
+        """Yield a directive for each command."""
+        for name, (target, _) in main.table.items():
+            command = main.get_command(click.Context(main), name)
+            nested = "full" if isinstance(command, click.Group) else "none"
+            yield from ("", f".. click:: {target}", f"   :prog: lostmotion {name}", f"   :nested: {nested}", "")
+
+
+class Doors(Written):
+    """What `import lostmotion` offers by name, from its own list."""
+
+    def lines(self) -> Iterator[str]:
+        """Yield a directive for each name."""
+        for name in lostmotion.__all__:
+            kind = "autoclass" if isinstance(getattr(lostmotion, name), type) else "autofunction"
+            yield from (f".. {kind}:: lostmotion.{name}", "")
+
+
+class Statuses(SphinxDirective):
+    """What may be wrong with a number, by the vocabulary of `status`."""
+
+    def run(self) -> list[nodes.Node]:
+        """Return a table."""
+        return [table(("status", "meaning"), list(STATUSES.items()))]
+
+
+class Rules(SphinxDirective):
+    """The rules of the conformance kit, for each kind, with the advice that stands in their docstrings."""
+
+    def run(self) -> list[nodes.Node]:
+        """Return a table: rule, kinds, advice."""
+        rules = {rule.name: rule for kind in KINDS for rule in rules_for(kind)}
+        rows = [(r.name, "all" if len(r.kinds) == len(KINDS) else ", ".join(r.kinds), r.advice) for r in rules.values()]
+        return [table(("rule", "of", "what to do where it is broken"), rows)]
