@@ -19,7 +19,11 @@ extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx_click", "mathml", "li
 exclude_patterns = ["_ext", "_pictures"]
 smartquotes = False
 nitpicky = True
-nitpick_ignore_regex = [(r"py:.*", r"(?!lostmotion).*"), (r"py:.*", r"lostmotion\..*\.(Array|Values|Drive|Hold|Data)")]
+nitpick_ignore_regex = [
+    (r"py:.*", r"(?!lostmotion).*"),
+    (r"py:.*", r"lostmotion\..*\.(Array|Values|Drive|Hold|Data)"),
+    (r"py:.*", r"lostmotion\..*\._.*"),
+]
 default_role = "literal"
 html_math_renderer = "mathml"
 
