@@ -1,0 +1,56 @@
+"""Recordings of models from the field with something hidden in them, made by DOP853 from equations written anew here.
+
+Dry friction is tanh(v / width) with a width of a ten-thousandth of the velocities: far finer than the line by which
+the framework lets a body stick. Nothing of lostmotion moves the machine.
+"""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+from field import elsewhere
+from truths import system_of
+
+from lostmotion.case import Case, Prior
+from lostmotion.forcing import Tone
+from lostmotion.inference.tracks import Track
+from lostmotion.stages.diagnose import diagnose
+from lostmotion.workflow.findings import draws_of, intervals
+
+
+def sign(v, speed):
+    """Return the sign of `v`, rounded over a ten-thousandth of `speed`."""
+    return math.tanh(1e4 * v / speed)
+
+
+def beyond(x, gap):
+    """Return by how much `x` is outside of |x| < gap."""
+    return math.copysign(max(abs(x) - gap, 0.0), x)
+
+
+def track_of(rates, push, *, start, omega, periods=25, per_period=100, skip=0, noise=0.01, seed=1):
+    """Return the recording of the position y[0] under `push(t)`, `skip` periods after the start, as a track."""
+    dt = 2.0 * math.pi / omega / per_period
+    t = np.arange((skip + periods) * per_period) * dt
+    seen = elsewhere(rates, t, start, rtol=1e-9, atol=1e-11, max_step=dt)[skip * per_period :, 0]
+    rng = np.random.default_rng(seed)
+    force = np.array([push(now) for now in t[skip * per_period :]])
+    bare = Track(
+        "recording", seen + noise * seen.std() * rng.standard_normal(len(seen)), force[:, None], dt, "position"
+    )
+    return Track(bare.name, bare.z, bare.inputs, dt, "position", tone=Tone(omega, bare.travel))
+
+
+def case_of(model, values, unknown):
+    """Return a case that knows `values` but for `unknown`: log-uniform priors of a decade about what is given there."""
+    priors = {k: Prior(low=v / 3.3, high=v * 3.3, scale="log") for k, v in unknown.items()}
+    known = {k: v for k, v in values.items() if k not in unknown}
+    return Case("study", Path(), (), model, known, priors, {}, (), "")
+
+
+def diagnosed(model, values, unknown, track):
+    """Return the diagnosis of a recording, and the 95 % intervals of what was estimated."""
+    found = diagnose(case_of(model, values, unknown), [track], system_of(model), rng=np.random.default_rng(0))
+    return found, intervals(found.after, draws_of(found.after, np.random.default_rng(1)))
