@@ -1,7 +1,7 @@
 """What a diagnosis finds that was hidden in models from the field, in recordings that the framework had no part in.
 
-Each is 25 periods or more with 1 % noise, the position alone; all but the chain move in chaos. Truths are asked to lie within three
-standard deviations, in recordings that are fixed by their seeds.
+Each is 25 periods or more with 1 % noise, the position alone; all but the chain move in chaos. Truths are asked to lie
+within three standard deviations, in recordings that are fixed by their seeds.
 """
 
 from __future__ import annotations
