@@ -16,7 +16,7 @@ from lostmotion.cli import main
 GALLERY = Path(__file__).resolve().parents[1] / "gallery"
 COMMAND = re.compile(r"^```sh\n(?:.*\n)*?(?:lostmotion simulate )((?:.*\\\n)*.*)", re.MULTILINE)
 COLUMNS = 3
-FINER = 4
+FINER = 8
 """How many samples are drawn for each one that the page asks for."""
 CYCLES = 50
 
