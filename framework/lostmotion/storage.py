@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import glob
+import io
 import json
 import math
 import os
@@ -37,11 +38,11 @@ def save_table(
     one header line and the shortest text that gives each number back exactly.
     """
     require_ending(path)
+    if path.suffix == ".nc":
+        save_datasets(path, {None: _dataset(columns, units, attrs)})
+        return
     with whole(path) as spare:
-        if path.suffix == ".nc":
-            _write_netcdf(spare, columns, units, attrs)
-        else:
-            _write_csv(spare, columns)
+        _write_csv(spare, columns)
 
 
 def require_ending(path: Path) -> None:
@@ -127,15 +128,31 @@ def _write_csv(path: Path, columns: Mapping[str, NDArray[np.float64]]) -> None:
         stream.writelines(",".join(map(repr, row)) + "\n" for row in rows)
 
 
-def _write_netcdf(
-    path: Path, columns: Mapping[str, NDArray[np.float64]], units: Mapping[str, str], attrs: Mapping[str, str]
-) -> None:
+def _dataset(
+    columns: Mapping[str, NDArray[np.float64]], units: Mapping[str, str], attrs: Mapping[str, str]
+) -> xr.Dataset:
     import xarray
 
     index, *rest = columns
     table = {name: (index, columns[name], {"units": units[name]}) for name in rest}
     axis = {index: (index, columns[index], {"units": units[index]})}
-    xarray.Dataset(table, coords=axis, attrs=dict(attrs)).to_netcdf(path, engine="h5netcdf")
+    return xarray.Dataset(table, coords=axis, attrs=dict(attrs))
+
+
+def save_datasets(path: Path, groups: Mapping[str | None, xr.Dataset], attrs: Mapping[str, Any] | None = None) -> None:
+    """Write datasets to the groups of a netCDF file (None is its root) that appears whole or not at all.
+
+    The file is made in memory: HDF5 that meets a full disk as it writes brings the process down when it ends.
+    """
+    import h5netcdf
+    from xarray.backends import H5NetCDFStore
+
+    memory = io.BytesIO()
+    with h5netcdf.File(memory, "w") as file:
+        file.attrs.update(attrs or {})
+        for name, dataset in groups.items():
+            dataset.dump_to_store(H5NetCDFStore(file, group=name, mode="a"))
+    save_bytes(path, memory.getvalue())
 
 
 def save_json(path: Path, content: Mapping[str, object]) -> None:
@@ -175,8 +192,7 @@ def save_arrays(
     def laid_out(table: Mapping[str, Column]) -> dict[str, tuple[tuple[str, ...], object, dict[str, str]]]:
         return {k: (c.dims, c.values, {"units": c.unit, "long_name": c.long_name or k}) for k, c in table.items()}
 
-    with whole(path) as spare:
-        xarray.Dataset(laid_out(arrays), laid_out(coords), dict(attrs)).to_netcdf(spare, engine="h5netcdf")
+    save_datasets(path, {None: xarray.Dataset(laid_out(arrays), laid_out(coords), dict(attrs))})
 
 
 def folder_for(path: Path) -> Path:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import io
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,7 +15,7 @@ from lostmotion.errors import DataError
 from lostmotion.recording.unpacked import RESULT, check_hdf5
 from lostmotion.stages._cloud import Cloud
 from lostmotion.stages._scores import Scores
-from lostmotion.storage import whole
+from lostmotion.storage import save_bytes
 
 EMCEE = "mcmc"
 """The group that emcee reads."""
@@ -57,7 +58,8 @@ def save(path: Path, digest: str, keys: tuple[str, ...], kept: Kept, evaluations
     """Write a chain of coordinates `keys` to a file that appears whole or not at all."""
     import h5py
 
-    with whole(path) as spare, h5py.File(spare, "w") as file:
+    memory = io.BytesIO()
+    with h5py.File(memory, "w") as file:
         _write_chain(file.create_group(EMCEE), kept.backend, kept.state.random_state)
         ours = file.create_group(OURS)
         ours.attrs.update(digest=digest, keys=list(keys), evaluations=evaluations, fits=kept.fits)
@@ -67,6 +69,7 @@ def save(path: Path, digest: str, keys: tuple[str, ...], kept: Kept, evaluations
             ours[f"scale/{name}"] = getattr(kept.cloud.scale, name)
         ours["start/coords"], ours["start/log_prob"] = kept.start.coords, kept.start.log_prob
         _write_random(ours["start"], kept.start.random_state)
+    save_bytes(path, memory.getvalue())
 
 
 def _write_chain(group: Any, backend: Any, random_state: Any) -> None:

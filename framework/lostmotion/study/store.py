@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 from lostmotion.errors import DataError
 from lostmotion.recording.limits import check_bytes
 from lostmotion.recording.unpacked import RESULT, check_hdf5
-from lostmotion.storage import whole, writing
+from lostmotion.storage import save_datasets, writing
 from lostmotion.study.cells import Columns
 from lostmotion.study.layout import SCHEMA, Layout
 
@@ -125,8 +125,7 @@ def save_netcdf(path: Path, dataset: xr.Dataset) -> None:
         variable.encoding = {"_FillValue": None}
         if "flag_values" in variable.attrs:
             variable.attrs["flag_values"] = np.array(variable.attrs["flag_values"], dtype=variable.dtype)
-    with whole(path) as spare:
-        told.to_netcdf(spare, engine="h5netcdf")
+    save_datasets(path, {None: told})
 
 
 def save_zarr(path: Path, layout: Layout, columns: Mapping[str, NDArray[Any]]) -> None:

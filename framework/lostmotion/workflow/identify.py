@@ -23,7 +23,7 @@ from lostmotion.registry import Registry
 from lostmotion.report.identification import write_identification
 from lostmotion.results import Interval
 from lostmotion.stages.identify import Identification, Plan, Task, Watch, identify
-from lostmotion.storage import folder_for, save_json, whole
+from lostmotion.storage import folder_for, save_datasets, save_json
 from lostmotion.study.inversion import Inversion, predicted
 from lostmotion.workflow.identification_words import modes_said, statement
 from lostmotion.workflow.levels import Survey, derived, quantifier_task
@@ -178,7 +178,7 @@ def _content(result: Identification, route: str, way: Way) -> dict[str, Any]:
 
 def _write(folder: Path, result: Identification, content: Mapping[str, Any]) -> None:
     attrs = {"title": content["title"], "model": content["model"], "converged": int(result.converged)}
-    with whole(folder / "posterior.nc") as spare:
-        result.inference_data(attrs).to_netcdf(str(spare), engine="h5netcdf")
+    told = result.inference_data(attrs)
+    save_datasets(folder / "posterior.nc", {name: told[name] for name in told.groups()}, told.attrs)
     save_json(folder / "identification.json", content)
     write_identification(folder)
