@@ -52,8 +52,8 @@ def stop(friction):
 def chain(friction):
     """Return a recording of the first of two bodies, with dry friction (N) at the second, begun at rest.
 
-    The motion is periodic: in chaos the state of a body that nothing sees, and that a random force does not reach, is
-    lost to the filter as soon as the model is wrong about it.
+    The motion is periodic: in chaos the filter loses a body that nothing sees, and that a random force does not reach,
+    as soon as the model is wrong about it, and near relatives of what was hidden are named.
     """
 
     def rates(t, y):
