@@ -1,0 +1,57 @@
+"""The same seed gives the same bytes, with any number of workers, forked or spawned; and answers do not drift."""
+
+from __future__ import annotations
+
+import json
+import multiprocessing
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import frozen
+import numpy as np
+import pytest
+
+HERE = Path(__file__).parent
+
+
+@pytest.fixture(scope="module")
+def here() -> dict[str, list[float]]:
+    """The answers of this process, on one core."""
+    return frozen.answers(1)
+
+
+def test_answers_have_not_changed(here: dict[str, list[float]]) -> None:
+    """Tolerances: 1e-6 of the size of a position after a second of chaos (7 / s blows rounding up a thousandfold),
+    1e-6 of a likelihood, three standard errors of an exponent, and none for whole numbers."""
+    kept = json.loads((HERE / "frozen.json").read_text(encoding="utf-8"))
+    assert here.keys() == kept.keys()
+    np.testing.assert_allclose(here["position"], kept["position"], rtol=0, atol=1e-6 * np.ptp(kept["position"]))
+    np.testing.assert_allclose(here["likelihood"], kept["likelihood"], rtol=1e-6)
+    values, errors = np.split(np.array(kept["exponent"]), 2)
+    np.testing.assert_array_less(np.abs(np.split(np.array(here["exponent"]), 2)[0] - values), 3.0 * errors)
+    assert here["embedding"] == kept["embedding"]
+
+
+@pytest.mark.parametrize(("method", "jobs"), [("fork", 2), ("spawn", 2)])
+def test_another_process_with_other_workers_gives_the_same_bytes(
+    here: dict[str, list[float]], method: str, jobs: int
+) -> None:
+    ear, mouth = multiprocessing.Pipe(duplex=False)
+    child = multiprocessing.get_context(method).Process(target=frozen.told, args=(mouth, jobs))
+    child.start()
+    mouth.close()
+    assert ear.poll(300)
+    assert ear.recv() == here
+    child.join()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", ["0", "4711"])
+def test_neither_hashes_nor_the_cores_allowed_change_a_byte(here: dict[str, list[float]], seed: str) -> None:
+    code = "import os; os.sched_setaffinity(0, {min(os.sched_getaffinity(0))}); import frozen, json; "
+    code += "print(json.dumps(frozen.answers(2)))"
+    found = {**os.environ, "PYTHONHASHSEED": seed, "PYTHONPATH": str(HERE)}
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, env=found)
+    assert json.loads(done.stdout) == here
