@@ -26,7 +26,7 @@ from lostmotion.workflow.diagnose import run_diagnosis
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "tests" / "science"))
 
-from machines import CARRIAGE, DAMPER, EMPS, EMPS_FILES  # noqa: E402 - they lie beside the tests
+from machines import CARRIAGE, EMPS, EMPS_FILES, thinned  # noqa: E402 - they lie beside the tests
 
 RATE = 1e7 / 2**14
 """Samples a second of the Silverbox."""
@@ -72,9 +72,7 @@ def silverbox(data: Path, folder: Path) -> str:
 
 def damper(data: Path, folder: Path) -> str:
     """Return the case of the friction damper with backlash at 0.5 Hz: its force under a prescribed motion."""
-    name = "d2_0.5Hz_30lb_1in"
-    text = DAMPER.format(name=name, start=2.3, end=12.0)
-    return text.replace(f'"{name}.npz"', f'"{(data / "brfd_friction_backlash" / name).resolve()}.npz"') + DAMPED
+    return thinned(folder, data / "brfd_friction_backlash", "d2_0.5Hz_30lb_1in") + DAMPED
 
 
 CASES = {"emps": emps, "silverbox": silverbox, "damper": damper}

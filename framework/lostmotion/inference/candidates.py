@@ -18,6 +18,8 @@ from lostmotion.system import Slot
 CREEP, FINEST = 0.02, 32
 SHORT, CLEAR = 1500, 8.0
 """Values far off are tried on so many samples, and count when the log-likelihood gains so much there."""
+SHARES = (1.0, 0.3, 0.01)
+"""Fits begin with these shares of what a score test promises."""
 SHAPES = (0.3, 1.0, 3.0)
 """Where a shape parameter is tried, in units of its typical value."""
 
@@ -202,16 +204,20 @@ def _hint(fit: Fit, trial: Trial, joint: Sensitivity) -> Hint:
 
 
 def fit_with(fit: Fit, hint: Hint, *, hopeless: float = -math.inf) -> Fit:
-    """Return the fit with one more term, started where its score test points, or with less of it: the better one."""
+    """Return the fit with one more term, started where its score test points, or with less of it: the best one.
+
+    With nothing of the term the likelihood is that of the fit; one that ends lower has lost its way.
+    """
     _, slots = term_of(fit.problem, hint.key)
-    starts = [_scaled(hint, slots, factor) for factor in (1.0, 0.3)]
-    problems = [with_term(restarted(fit), hint, start) for start in starts]
-    heights = [p.log_posterior(p.clip(p.start)) for p in problems]
-    first = int(np.argmax(heights))
-    best = maximise(problems[first], hopeless=hopeless)
-    if best.status in ("converged", "abandoned") and best.log_likelihood > fit.log_likelihood - 1.0:
-        return best
-    return max((best, maximise(problems[1 - first], hopeless=hopeless)), key=lambda f: f.local.log_posterior)
+    problems = [with_term(restarted(fit), hint, _scaled(hint, slots, factor)) for factor in SHARES]
+    heights = [p.log_posterior(p.clip(p.start)) for p in problems[:2]]
+    order = (*np.argsort(heights)[::-1], *range(2, len(SHARES)))
+    fits: list[Fit] = []
+    for i in order:
+        fits.append(maximise(problems[i], hopeless=hopeless))
+        if fits[-1].status in ("converged", "abandoned") and fits[-1].log_likelihood > fit.log_likelihood - 1.0:
+            break
+    return max(fits, key=lambda f: f.local.log_posterior)
 
 
 def fit_in_place(fit: Fit, key: str, hint: Hint, *, hopeless: float = -math.inf) -> Fit:
