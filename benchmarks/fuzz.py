@@ -32,7 +32,7 @@ from lostmotion.errors import LostMotionError
 
 SECONDS, MEMORY, SENTENCE = 10, 2 * 2**30, 20_000
 HANGS, DIED = "hangs outside of Python", "killed its process"
-FOREIGN = ("mat5", "mat73", "nc", "nc3", "h5", "uff")
+FOREIGN = ("mat5", "mat73", "nc", "nc3", "h5", "uff", "chain", "map")
 CHUNK = 250
 """Inputs that one process takes before its memory is read."""
 

@@ -20,6 +20,8 @@ from lostmotion.inference.setup import known_of
 from lostmotion.recording import load, load_recording
 from lostmotion.recording.formats import columns_of
 from lostmotion.registry import Registry, default
+from lostmotion.stages import _keep
+from lostmotion.study import store
 from lostmotion.system import System
 from lostmotion.workflow import source
 from lostmotion.workflow.prepare import prepare
@@ -88,6 +90,7 @@ def words(text: str, rng) -> str:
 def unguarded():
     """Have foreign formats read in this process, where a crash or a hang is seen for what it is."""
     load.read_columns = source.read_columns = columns_of
+    _keep.walk_apart = store.walk_apart = lambda path: None
 
 
 def table(kind, seeds, rng, folder, write_only):
@@ -251,8 +254,6 @@ def report(kind, facts, arrays, seeds, rng, folder, write_only):
 
 
 def chain(seeds, rng, folder, write_only):
-    from lostmotion.stages import _keep
-
     path = folder / "chain.h5"
     path.write_bytes(damaged(seeds.files["chain"]["chain.h5"], rng))
     if not write_only:

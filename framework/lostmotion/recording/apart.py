@@ -26,24 +26,36 @@ REFUSED = 3
 SECONDS, SPEED, MEMORY = 7, 4 * 2**20, 2 * 2**30
 """What the reader may take: so much time of a processor and for so many bytes a second more, so much address space."""
 WALL = 600
+SLAB = 2**26
+"""Bytes that are read at a time where nothing is kept."""
 _NAMES = "names"
 _READER = (
     "import sys; from pathlib import Path; from lostmotion.recording.apart import main; "
-    "sys.exit(main(Path(sys.argv[1])))"
+    "sys.exit(main(sys.argv[1], Path(sys.argv[2])))"
 )
 """Run with -P, so that no module that lies beside a recording is taken for one of Python's."""
 
 
 def read_apart(path: Path) -> dict[str, Array]:
     """Return the columns of a file by name, each (n,), as another process has read them; `DataError` if it cannot."""
-    line = [sys.executable, "-P", "-c", _READER, str(Path(path).absolute())]
+    return _unpacked(_said(path, "columns"))
+
+
+def walk_apart(path: Path) -> None:
+    """Have another process read all of an HDF5 file first; `DataError` if that crashes, or has no end."""
+    _said(path, "walk")
+
+
+def _said(path: Path, what: str) -> bytes:
+    """Return the standard output of the reader."""
+    line = [sys.executable, "-P", "-c", _READER, what, str(Path(path).absolute())]
     alone = {**os.environ, "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
     try:
         done = subprocess.run(line, capture_output=True, env=alone, timeout=WALL, check=False)
     except subprocess.TimeoutExpired as err:
         raise _given_up(path, f"no end within {WALL} s") from err
     if done.returncode == 0:
-        return _unpacked(done.stdout)
+        return done.stdout
     if done.returncode == REFUSED:
         raise DataError(done.stderr.decode("utf-8", "replace"))
     if done.returncode < 0:
@@ -85,13 +97,33 @@ def _limit(path: Path) -> None:
         resource.setrlimit(what, (most if hard == resource.RLIM_INFINITY else min(most, hard), hard))
 
 
-def main(path: Path) -> int:
-    """Return the exit status of the reader, whose standard output is the columns."""
+def _walk(path: Path) -> bytes:
+    """Return nothing, after reading every number and attribute of an HDF5 file."""
+    import h5py
+
+    def read(_: str, item: Any) -> None:
+        dict(item.attrs)
+        if isinstance(item, h5py.Dataset) and item.shape:
+            rows = max(1, SLAB // max(1, item.nbytes // max(1, len(item))))
+            for first in range(0, len(item), rows):
+                item[first : first + rows]
+
+    with h5py.File(path, "r") as file:
+        file.visititems(read)
+    return b""
+
+
+def _columns(path: Path) -> bytes:
     from lostmotion.recording.formats import columns_of
 
+    return _packed(columns_of(path))
+
+
+def main(what: str, path: Path) -> int:
+    """Return the exit status of the reader, whose standard output is the columns, or nothing after a walk."""
     try:
         _limit(path)
-        raw = _packed(columns_of(path))
+        raw = _walk(path) if what == "walk" else _columns(path)
     except DataError as err:
         sys.stderr.write(str(err))
         return REFUSED

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from lostmotion.errors import DataError
+from lostmotion.recording.apart import walk_apart
 from lostmotion.recording.unpacked import RESULT, check_hdf5
 from lostmotion.stages._cloud import Cloud
 from lostmotion.stages._scores import Scores
@@ -97,6 +98,7 @@ def load(path: Path, digest: str) -> Kept | None:
     import h5py
 
     try:
+        walk_apart(path)
         check_hdf5(path, RESULT)
         with h5py.File(path, "r") as file:
             ours = file[OURS]

@@ -21,6 +21,7 @@ import zarr
 from numpy.typing import NDArray
 
 from lostmotion.errors import DataError
+from lostmotion.recording.apart import walk_apart
 from lostmotion.recording.limits import check_bytes
 from lostmotion.recording.unpacked import RESULT, check_hdf5
 from lostmotion.storage import save_datasets, writing
@@ -98,6 +99,7 @@ def load(path: Path) -> xr.Dataset:
         raise DataError(f"{path} is not there: give the path of a map")
     try:
         if path.suffix == ".nc":
+            walk_apart(path)
             check_hdf5(path, RESULT)
             with xr.open_dataset(path, engine="h5netcdf") as stored:
                 found = stored.load()
