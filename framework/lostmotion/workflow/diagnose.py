@@ -28,7 +28,7 @@ from lostmotion.workflow.prepare import Prepared, prepare
 from lostmotion.workflow.rivals import confused_with, proposed
 from lostmotion.workflow.show import Seen, shown
 from lostmotion.workflow.verdict import verdict
-from lostmotion.workflow.vetting import theirs, told_aside
+from lostmotion.workflow.vetting import blamed, theirs, told_aside
 
 Say = Callable[[str], None]
 SHOW, NEXT, EVIDENCE = 1, 2, 3
@@ -95,7 +95,7 @@ def _diagnosed(
         if not culprits:
             raise
         kept = tuple(term for term in prepared.terms if key_of(term) not in culprits)
-        told = told_aside(f"{', '.join(sorted(culprits))}: {err}")
+        told = told_aside(blamed(registry, culprits, err))
         fewer = replace(prepared, terms=kept, aside=(*prepared.aside, told))
         return _diagnosed(fewer, registry, seed, jobs=jobs, say=say)
 

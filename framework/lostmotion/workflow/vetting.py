@@ -7,7 +7,7 @@ the rules of the conformance kit. Methods are watched while they work. What come
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import Any, TypeVar
@@ -64,6 +64,13 @@ def told_aside(why: str) -> str:
 def theirs(registry: Registry, terms: tuple[Term, ...]) -> tuple[str, ...]:
     """Return the keys of those terms that other people brought."""
     return tuple(key_of(term) for term in terms if not registry.entry("term", term.name).ours)
+
+
+def blamed(registry: Registry, keys: Iterable[str], err: ContractError) -> str:
+    """Return the sentence that names the terms, by key, one of which broke down."""
+    names = sorted({key.partition("@")[0] for key in keys})
+    whose = " or ".join(registry.entry("term", name).whose for name in names)
+    return f"{whose}: {err}; `lostmotion plugins check {' '.join(names)}` may tell what to mend"
 
 
 @dataclass
