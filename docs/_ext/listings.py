@@ -21,7 +21,7 @@ from lostmotion.testing import rules_for
 
 def setup(app: Sphinx) -> dict[str, bool]:
     """Offer each directive by its name."""
-    for directive in (Plugins, Commands, Doors, Statuses, Rules):
+    for directive in (Plugins, Commands, Doors, Statuses, Mechanisms, Rules):
         app.add_directive(directive.__name__.lower(), directive)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
 
@@ -46,6 +46,9 @@ class Plugins(SphinxDirective):
         section += nodes.field_list("", *(field(*pair) for pair in said(cls)))
         if params := getattr(cls, "params", ()):
             section += parameters(cls, params)
+        if groups := getattr(cls, "groups", ()):
+            rows = [(g.name, g.meaning, g.formula) for g in groups]
+            section += table(("number", "meaning", "formula"), rows)
         return section
 
 
@@ -151,6 +154,15 @@ class Statuses(SphinxDirective):
     def run(self) -> list[nodes.Node]:
         """Return a table."""
         return [table(("status", "meaning"), list(STATUSES.items()))]
+
+
+class Mechanisms(SphinxDirective):
+    """The names of all terms, with the sentence of a diagnosis."""
+
+    def run(self) -> list[nodes.Node]:
+        """Return a table."""
+        names = [e.name for e in default().entries() if e.kind == "term" and e.owner == "lostmotion"]
+        return [table(("mechanism", "what is said"), [(n, default().load("term", n).physics) for n in names])]
 
 
 class Rules(SphinxDirective):
