@@ -68,7 +68,7 @@ def absent(page):
     return next((shared / name for name in page.needs if not (shared / name).is_dir()), None)
 
 
-@pytest.mark.parametrize("page", cases())
+@pytest.mark.parametrize("page", list(cases()))
 def test_every_block_runs(page, running):
     if folder := absent(page):
         pytest.skip(f"no recordings: {folder} is absent")
