@@ -67,9 +67,8 @@ class Param:
 class Interface:
     """A place where a force can act: `motion(y, u)` gives relative position and velocity there.
 
-    The force is added to `dydt[row]`, divided by the parameter `inertia`. `holds` names the parameters of the model
-    that live here, such as the gap: a term that needs them can act nowhere else. `stiffness` and `play` name those of
-    the contact, if there is one: what a term gets that asks for "stiffness" and "play".
+    The force over parameter `inertia` is added to `dydt[row]`, and taken off at `against`, row and inertia of a second
+    body. Terms that need what a place `holds`, such as the gap, or its contact (`stiffness`, `play`), act nowhere else.
     """
 
     name: str
@@ -79,6 +78,7 @@ class Interface:
     holds: tuple[str, ...] = ()
     stiffness: str | None = None
     play: str | None = None
+    against: tuple[int, str] | None = None
 
 
 class Group(NamedTuple):

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lostmotion.beside import DriveTerm, Input, SensorTerm
-from lostmotion.contracts import Array, Assembly, Model, Param, Term, place_of
+from lostmotion.contracts import Array, Assembly, Interface, Model, Param, Term, place_of
 from lostmotion.errors import ContractError, nearest
 from lostmotion.forcing import SILENT, Drive, Tone
 from lostmotion.kernels import Blueprint, Compiled, Law, Place, build
@@ -115,13 +115,21 @@ class System:
     def _plan(self, n: int, latent: bool) -> Blueprint:
         model = self.model
         index = {q.name: i for i, q in enumerate(model.params)}
-        places = tuple(Place(i.row, index[i.inertia], i.motion) for i in model.interfaces)
+        places = tuple(
+            Place(i.row, index[i.inertia], i.motion, i.against and (i.against[0], index[i.against[1]]))
+            for i in model.interfaces
+        )
         names = [i.name for i in model.interfaces]
         laws = tuple(
             Law(names.index(place_of(model, t).name), len(t.params) + len(t.needs), len(t.states), t.force, t.rate)
             for _, t in self.forces
         )
         return Blueprint(n, len(model.channels), model.rhs, model.observe, places, laws, latent)
+
+    def inertia(self, full: Array, place: Interface) -> float:
+        """Return the inertia (kg or kg m^2) that a force at a place moves; of two bodies, m1 m2 / (m1 + m2)."""
+        moved = [place.inertia, *(place.against[1:] if place.against else ())]
+        return float(1.0 / np.sum([1.0 / full[self.index[name]] for name in moved]))
 
     def wiring(self, active: Iterable[str]) -> tuple[NDArray[np.bool_], NDArray[np.int64]]:
         """Return the switches of the terms, and where in `y` the states of each begin."""
@@ -145,7 +153,11 @@ class System:
         base = np.ascontiguousarray(full[: len(self.model.params)])
         more = {"step": step, "omega": tone.omega, "amplitude": tone.amplitude, "none": 0.0}
         sources = [source for key, _ in self.forces for source in self._sources[key]]
-        own = [full[i] if kind == "own" else more[kind] if kind in more else step / full[i] for kind, i in sources]
+        places = self.model.interfaces
+        own = [
+            full[i] if kind == "own" else more[kind] if kind in more else step / self.inertia(full, places[i])
+            for kind, i in sources
+        ]
         return base, np.array(own, dtype=float)
 
     def values(self, full: Array, key: str, tone: Tone) -> tuple[float, ...]:
@@ -180,7 +192,7 @@ class System:
 
     @cached_property
     def _sources(self) -> Mapping[str, tuple[tuple[str, int], ...]]:
-        """Where each entry of the `p` of a term comes from: "own" with an index, "mobility" with that of an inertia."""
+        """Where each entry of the `p` of a term comes from: "own" with an index, "mobility" with that of its place."""
         return {key: tuple(self._entries(key, term)) for key, term in zip(self.keys, self.terms, strict=True)}
 
     def _entries(self, key: str, term: Term) -> Iterable[tuple[str, int]]:
@@ -191,7 +203,7 @@ class System:
             if need in ("step", "omega", "amplitude"):
                 yield need, NUMB
             elif need == "mobility":
-                yield need, self.index[place.inertia]
+                yield need, self.model.interfaces.index(place)
             else:
                 name = contact.get(need, need)
                 yield ("own", self.index[name]) if name else ("none", NUMB)

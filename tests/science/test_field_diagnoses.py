@@ -50,11 +50,7 @@ def stop(friction):
 
 
 def chain(friction):
-    """Return a recording of the first of two bodies, with dry friction (N) at the second, begun at rest.
-
-    The motion is periodic: in chaos the filter loses a body that nothing sees, and that a random force does not reach,
-    as soon as the model is wrong about it, and near relatives of what was hidden are named.
-    """
+    """Return a recording of the first of two bodies, with dry friction (N) at the second, in periodic motion."""
 
     def rates(t, y):
         joint = 0.5 * (y[1] - y[3]) + 900.0 * beyond(y[0] - y[2], 0.004)

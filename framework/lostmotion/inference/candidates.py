@@ -134,7 +134,7 @@ def steps_for_sticking(problem: Problem, theta: Array, *, creep: float = CREEP) 
     for key in problem.active:
         term, slots = term_of(problem, key)
         if "mobility" in term.needs:
-            inertia = full[system.index[place_of(system.model, term).inertia]]
+            inertia = system.inertia(full, place_of(system.model, term))
             force = sum(abs(full[system.index[s.key]]) for s in slots if s.param.dimension == FORCE)
             width = force * max(t.dt for t in problem.tracks) / inertia
             most = max(most, width / (creep * problem.scales.velocity))

@@ -193,7 +193,8 @@ class Problem:
         track, scales = self.tracks[index], self.scales
         offset = 0.0 if theta is None else self.offset(theta, index)
         y0, cov = np.zeros(n), np.zeros((n, n))
-        cov[0, 0], cov[1, 1] = scales.length**2, scales.velocity**2
+        for i, name in enumerate(self.system.model.states):
+            cov[i, i] = (scales.velocity if i == 1 or "velocity" in name else scales.length) ** 2
         if track.channel == "position":
             gain = 1.0 if theta is None else self.gain(theta, index)
             y0[0], y0[1] = (track.first[0] - offset) / gain, track.first[1] / gain

@@ -33,11 +33,15 @@ BARE: dict[str, Any] = {"error_model": "numpy", "nogil": True, "_nrt": False}
 
 @dataclass(frozen=True)
 class Place:
-    """Where a force acts: the row of `dydt`, the index of the inertia in `p`, and the relative motion there."""
+    """Where a force acts: the row of `dydt`, the index of the inertia in `p`, and the relative motion there.
+
+    `against` is row and inertia of a body that feels the opposite force.
+    """
 
     row: int
     inertia: int
     motion: Callable[..., Any]
+    against: tuple[int, int] | None = None
 
 
 @dataclass(frozen=True)
@@ -94,8 +98,11 @@ def _law_text(index: int, law: Law, place: Place, start: int) -> str:
     lines = [
         f"    if on[{i}]:",
         f"        x, v = motion_{law.place}(y, u)",
-        f"        dydt[{place.row}] += force_{i}(t, x, v, u, ({own}), ({states})) / p[{place.inertia}]",
+        f"        push = force_{i}(t, x, v, u, ({own}), ({states}))",
+        f"        dydt[{place.row}] += push / p[{place.inertia}]",
     ]
+    if place.against:
+        lines.append(f"        dydt[{place.against[0]}] -= push / p[{place.against[1]}]")
     if law.states:
         lines.append(f"        rate_{i}(t, x, v, u, ({own}), ({states}), view(dydt, at[{i}], {law.states}))")
     return "\n".join(lines)
@@ -116,11 +123,33 @@ def _text(plan: Blueprint, template: str = "template.txt") -> str:
         "@NOISY@": str(plan.n - 1 if plan.latent else first.row),
         "@NOISE_INERTIA@": "1.0" if plan.latent else f"p[{first.inertia}]",
         "@LAWS@": "\n".join(laws),
+        "@FURTHER@": "" if plan.latent else "\n".join(_noise_text(place) for place in _bodies(plan)[1:]),
     }
     text = resources.files("lostmotion.kernels").joinpath(template).read_text()
     for mark, value in values.items():
         text = text.replace(mark, value)
     return text
+
+
+def _bodies(plan: Blueprint) -> tuple[Place, ...]:
+    """Return one place for each row on which forces act, the first one first."""
+    return tuple({place.row: place for place in reversed(plan.places)}.values())[::-1]
+
+
+def _noise_text(place: Place) -> str:
+    """Return the lines that add the white force on a further body to the covariance."""
+    row = place.row
+    lines = [
+        "            for a in range(n):",
+        f"                fp[a] = soon * (A[a, {row}] + 0.5 * soon * A2[a, {row}])",
+        f"                fm[a] = late * (A[a, {row}] + 0.5 * late * A2[a, {row}])",
+        f"            fp[{row}] += 1.0",
+        f"            fm[{row}] += 1.0",
+        "            for a in range(n):",
+        "                for b in range(n):",
+        f"                    P[a, b] += 0.5 * h * q / (p[{place.inertia}] ** 2) * (fp[a] * fp[b] + fm[a] * fm[b])",
+    ]
+    return "\n".join(lines)
 
 
 def _origin(function: Callable[..., Any]) -> bytes:

@@ -9,7 +9,7 @@ import numpy as np
 
 from lostmotion.beside import SensorTerm
 from lostmotion.case import Case
-from lostmotion.contracts import Array, Model, Term, Values
+from lostmotion.contracts import Array, Interface, Model, Term, Values, place_of
 from lostmotion.errors import DataError
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.latent import Missing, missing_force
@@ -244,7 +244,7 @@ def law_of(fit: Fit, track: Track, states: Array, key: str) -> Array:
     else:
         off[[k for k, _ in system.forces].index(key)] = False
     derivative = system.kernel(problem.active).derivative
-    place = system.model.interfaces[0]
+    place = _felt(system, key)
     inertia = full[system.index[place.inertia]]
     force, with_terms, without = np.empty(len(states)), np.zeros(states.shape[1]), np.zeros(states.shape[1])
     for k, y in enumerate(states):
@@ -253,6 +253,12 @@ def law_of(fit: Fit, track: Track, states: Array, key: str) -> Array:
         derivative(t, y, other.u[i], base, own, off, at, 0.0, without)
         force[k] = (with_terms[place.row] - without[place.row]) * inertia
     return force
+
+
+def _felt(system: System, key: str) -> Interface:
+    """Return the place where a term acts; what acts beside the machine is felt at the first one."""
+    found = [place_of(system.model, term) for known, term in system.forces if known == key]
+    return found[0] if found else system.model.interfaces[0]
 
 
 def base_keys(fit: Fit) -> list[str]:

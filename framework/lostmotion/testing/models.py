@@ -60,9 +60,10 @@ def interfaces_name_rows_and_params(model: Model) -> str:
     if not model.interfaces or repeated(i.name for i in model.interfaces):
         return "there is no interface, or two have the same name"
     for place in model.interfaces:
-        if place.row not in range(len(model.states)):
-            return f"{place.name} acts on row {place.row}, and the rows are 0 to {len(model.states) - 1}"
-        if unknown := [name for name in (place.inertia, *place.holds) if name not in known]:
+        row, other = place.against or (place.row, place.inertia)
+        if wrong := {place.row, row} - set(range(len(model.states))):
+            return f"{place.name} acts on row {min(wrong)}, and the rows are 0 to {len(model.states) - 1}"
+        if unknown := [name for name in (place.inertia, other, *place.holds) if name not in known]:
             return f"{place.name} names {unknown[0]!r}, which is no parameter"
     return ""
 

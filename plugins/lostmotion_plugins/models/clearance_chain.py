@@ -10,6 +10,11 @@ from lostmotion.quantities import DAMPING, INERTIA, LENGTH, STIFFNESS
 from lostmotion_plugins.models.lin import ground
 
 
+def joint(y: Array, u: Array) -> tuple[float, float]:
+    """Return position and velocity of the first body relative to the second."""
+    return y[0] - y[2], y[1] - y[3]
+
+
 def second(y: Array, u: Array) -> tuple[float, float]:
     """Return position and velocity of the second body relative to the ground."""
     return y[2], y[3]
@@ -21,7 +26,7 @@ class ClearanceChain(Model):
 
     F is zero inside the gap |x1 - x2| < x0 and k0 (|x1 - x2| - x0) beyond, with the sign of x1 - x2. The force, and the
     channels "position", "velocity" and "acceleration", are those of the first body. A term acts between the first body
-    and its guide (`ground`), or between the second body and its own (`second`).
+    and its guide (`ground`), between the second body and its own (`second`), or between the two (`joint`).
     """
 
     name: ClassVar[str] = "clearance_chain"
@@ -43,6 +48,9 @@ class ClearanceChain(Model):
     )
     interfaces = (
         Interface("ground", row=1, inertia="m1", motion=ground, holds=("k1",), stiffness="k1"),
+        Interface(
+            "joint", row=1, inertia="m1", motion=joint, holds=("k0", "x0"), stiffness="k0", play="x0", against=(3, "m2")
+        ),
         Interface("second", row=3, inertia="m2", motion=second, holds=("k2",), stiffness="k2"),
     )
 
