@@ -4,13 +4,16 @@ import json
 import pickle
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from lostmotion.errors import DataError
 from lostmotion.registry import Registry, sources
-from lostmotion.study.store import load
+from lostmotion.study.layout import layout_of
+from lostmotion.study.store import _require_same, load
 from lostmotion.study.sweep import Crew
 from lostmotion.workflow.mapping import How, Request, make_map, study_of
 
@@ -55,6 +58,9 @@ def test_a_far_process_computes_cells_of_a_plugin_file(study, tmp_path):
 
 def test_a_map_knows_the_plugin_file_it_was_made_with(study):
     assert set(study.origins) == {"far_guests.py"}
+    other = replace(study, origins={"far_guests.py": "0" * 64})
+    with pytest.raises(DataError, match=r"made otherwise \(plugin far_guests.py has changed\)"):
+        _require_same(Path("map.zarr"), layout_of(study).attrs, layout_of(other))
 
 
 @pytest.mark.slow

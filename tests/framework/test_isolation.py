@@ -13,13 +13,14 @@ from lostmotion import registry
 from lostmotion.cli import main
 from lostmotion.contracts import Series
 from lostmotion.errors import ContractError, PluginWarning
+from lostmotion.inference.tracks import Track
 from lostmotion.registry import Registry
 from lostmotion.results import Embedding
 from lostmotion.system import System
 from lostmotion.workflow import analyse, diagnose
 from lostmotion.workflow.motion import Beat
 from lostmotion.workflow.prepare import Prepared
-from lostmotion.workflow.vetting import Guests, usable_terms
+from lostmotion.workflow.vetting import Guests, raising, usable_terms
 
 pytestmark = pytest.mark.filterwarnings("ignore::lostmotion.errors.PluginWarning")
 ALL = [*guests.GOOD, *(cls for cls, _ in (*guests.TERMS, *guests.METHODS))]
@@ -146,6 +147,13 @@ def late(t, x, v, u, p, s):
     if t > 0.5:
         raise ValueError("too late")
     return -p[0] * v
+
+
+def test_the_term_that_raises_along_the_recording_is_found():
+    guest, at_fault = guests.Drag(), guests.spoiled(guests.Drag, "guest_late", force=staticmethod(late))()
+    track = Track("run", np.sin(np.arange(200) * 0.1), np.zeros(200), 0.01, "position")
+    assert raising([guest, at_fault], [track]) == {"guest_late"}
+    assert raising([guest, at_fault], [track.part(0, 40)]) == set()
 
 
 def test_what_a_term_raises_while_it_runs_becomes_a_sentence():

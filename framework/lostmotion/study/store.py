@@ -210,10 +210,16 @@ def _require_same(path: Path, attrs: Mapping[str, Any], layout: Layout) -> None:
     if old == new:
         return
     parts = [(key, old.get(key), new[key]) for key in ("seed", "versions", "settings") if old.get(key) != new[key]]
-    said = "; ".join(f"{key} {_differences(was, now)}" for key, was, now in parts)
+    told = [f"{key} {_differences(was, now)}" for key, was, now in parts]
+    said = "; ".join([*told, *_changed(old.get("inputs", {}), new["inputs"])])
     raise DataError(
         f"{path} holds a map made otherwise ({said}): give the same settings to continue it, another --out, or --fresh"
     )
+
+
+def _changed(was: Mapping[str, str], now: Mapping[str, str]) -> list[str]:
+    """Return which plugins of other people are not those of the map."""
+    return [f"plugin {name} has changed" for name in sorted({*was, *now}) if was.get(name) != now.get(name)]
 
 
 def _differences(was: Any, now: Any) -> str:

@@ -28,7 +28,7 @@ from lostmotion.workflow.prepare import Prepared, prepare
 from lostmotion.workflow.rivals import confused_with, proposed
 from lostmotion.workflow.show import Seen, shown
 from lostmotion.workflow.verdict import verdict
-from lostmotion.workflow.vetting import blamed, theirs, told_aside
+from lostmotion.workflow.vetting import blamed, raising, theirs, told_aside
 
 Say = Callable[[str], None]
 SHOW, NEXT, EVIDENCE = 1, 2, 3
@@ -91,7 +91,10 @@ def _diagnosed(
         return diagnose(prepared.case, prepared.tracks, system, rng=rng, jobs=jobs, say=say), prepared, rng
     except ContractError as err:
         guests = theirs(registry, prepared.terms)
-        culprits = {err.plugin} & set(guests) or (set() if err.plugin else set(guests))
+        culprits = {err.plugin} & set(guests)
+        if not err.plugin:
+            suspects = [term for term in prepared.terms if key_of(term) in guests]
+            culprits = raising(suspects, prepared.tracks) or set(guests)
         if not culprits:
             raise
         kept = tuple(term for term in prepared.terms if key_of(term) not in culprits)

@@ -7,7 +7,7 @@ the rules of the conformance kit. Methods are watched while they work. What come
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import Any, TypeVar
@@ -16,11 +16,13 @@ import numpy as np
 
 from lostmotion.contracts import Array, Term
 from lostmotion.errors import ContractError, LostMotionError, PluginWarning
+from lostmotion.inference.tracks import Track
 from lostmotion.registry import Registry
 from lostmotion.system import key_of
 from lostmotion.testing import Finding, check
 
 T = TypeVar("T")
+LOOKS = 2000
 
 
 def sound(registry: Registry, kind: str, name: str, **options: Any) -> Any:
@@ -64,6 +66,23 @@ def told_aside(why: str) -> str:
 def theirs(registry: Registry, terms: tuple[Term, ...]) -> tuple[str, ...]:
     """Return the keys of those terms that other people brought."""
     return tuple(key_of(term) for term in terms if not registry.entry("term", term.name).ours)
+
+
+def raising(terms: Iterable[Term], tracks: Sequence[Track]) -> set[str]:
+    """Return the keys of those terms whose force raises somewhere along recorded motions."""
+    return {key_of(term) for term in terms if any(_raises(term, track) for track in tracks)}
+
+
+def _raises(term: Term, track: Track) -> bool:
+    """Return whether the force of a term, of size one, raises at one of many points of a recording."""
+    p, s, u = (1.0,) * (len(term.params) + len(term.needs)), (0.0,) * len(term.states), np.zeros(2)
+    speed = np.gradient(track.z, track.dt)
+    try:
+        for k in range(0, track.samples, max(1, track.samples // LOOKS)):
+            term.force(k * track.dt, float(track.z[k]), float(speed[k]), u, p, s)
+    except Exception:
+        return True
+    return False
 
 
 def blamed(registry: Registry, keys: Iterable[str], err: ContractError) -> str:
