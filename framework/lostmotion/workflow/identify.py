@@ -134,7 +134,8 @@ def _by_quantifiers(case: Case, out: Path, registry: Registry, asked: Asked) -> 
     task = quantifier_task(case, registry, out, rng, survey, say=say)
     posterior = task.posterior
     assert isinstance(posterior, Inversion)  # noqa: S101 - it is what a quantifier task holds
-    facts = _facts(case, order, {"maps": [asdict(survey)["maps"]]}, {"case": case.digest})
+    inputs = {**registry.origins(("model", case.model)), "case": case.digest}
+    facts = _facts(case, order, {"maps": [asdict(survey)["maps"]]}, inputs)
 
     def more(result: Identification) -> Mapping[str, Any]:
         points = coordinates(posterior.free, result.draws)
