@@ -68,3 +68,9 @@ def test_uneven_time_is_refused(time: np.ndarray, words: list[str]) -> None:
         check_time(time, "a.csv")
     message = str(caught.value)
     assert [w for w in ["a.csv", *words] if w not in message] == [], message
+
+
+@pytest.mark.parametrize("step", [1e-300, 1e-15, 1e9, 1e300])
+def test_a_step_that_no_recorder_has_is_refused(step: float) -> None:
+    with pytest.raises(DataError, match="sampling step comes to"):
+        check_time(step * np.arange(200.0), "run.csv")

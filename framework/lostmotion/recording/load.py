@@ -17,7 +17,7 @@ from lostmotion.recording.checks import check_length, check_values, note_stuck
 from lostmotion.recording.doubts import Signal, doubts
 from lostmotion.recording.formats import read_columns
 from lostmotion.recording.spec import Channel, Hold, RecordingSpec
-from lostmotion.recording.timing import check_time
+from lostmotion.recording.timing import check_step, check_time
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -85,6 +85,7 @@ def _samples(spec: RecordingSpec, columns: Mapping[str, Array], source: str) -> 
 def _rate(spec: RecordingSpec) -> float:
     if spec.rate is None or not 0 < spec.rate < np.inf:
         raise DataError(f"{spec.file} has neither time nor a positive rate: give time = 'column' or rate = 1000.0 (Hz)")
+    check_step(1.0 / spec.rate, spec.file)
     return spec.rate
 
 

@@ -11,6 +11,9 @@ Array = NDArray[np.float64]
 JITTER = 0.01
 """Share of the sampling step by which a step may differ from it."""
 
+SHORTEST, LONGEST = 1e-12, 1e6
+"""Sampling steps (s) outside of which no recorder works."""
+
 
 def check_time(time: Array, source: str) -> tuple[float, tuple[str, ...]]:
     """Return the sampling step (s) of the time column (n,), and notes; a column that is no even grid is refused.
@@ -19,9 +22,11 @@ def check_time(time: Array, source: str) -> tuple[float, tuple[str, ...]]:
     accepted, so the step is the mean over the whole column: the median would be a multiple of the rounding.
     """
     _check_order(time, source)
-    steps = np.diff(time)
+    with np.errstate(over="ignore"):
+        steps = np.diff(time)
+    check_step(max(float(np.median(steps)), SHORTEST), source)
     rounding = resolution(time)
-    dt = _typical(steps, rounding)
+    dt = check_step(_typical(steps, rounding), source)
     if rounding > 2 * dt:
         raise DataError(
             f"{source}: the time column is rounded to {rounding:.3g} s, coarser than the step of {dt:.3g} s: "
@@ -36,6 +41,16 @@ def check_time(time: Array, source: str) -> tuple[float, tuple[str, ...]]:
     if rounding <= JITTER * dt or away <= JITTER * dt:
         return dt, ()
     return dt, (f"the time column is rounded to {rounding:.3g} s; an even step of {dt:.6g} s was put in its place",)
+
+
+def check_step(dt: float, source: str) -> float:
+    """Return the sampling step (s), unless no recorder has such a one."""
+    if not SHORTEST <= dt <= LONGEST:
+        raise DataError(
+            f"{source}: the sampling step comes to {dt:.3g} s, wanted {SHORTEST:g} to {LONGEST:g} s: give time in "
+            "seconds, or the rate in Hz"
+        )
+    return dt
 
 
 def resolution(time: Array) -> float:

@@ -12,7 +12,7 @@ from lostmotion.case import Case
 from lostmotion.errors import CaseError, DataError, nearest
 from lostmotion.provenance import digest
 from lostmotion.recording import load_recording, read_columns
-from lostmotion.recording.timing import check_time
+from lostmotion.recording.timing import check_step, check_time
 from lostmotion.registry import Registry
 from lostmotion.workflow.prepare import case_of
 
@@ -165,7 +165,7 @@ def _clocked(
     if wanted.rate is not None:
         if not 0.0 < wanted.rate < np.inf:
             raise DataError(f"the rate is {wanted.rate:g} Hz: give a positive number")
-        return 1.0 / wanted.rate, ()
+        return check_step(1.0 / wanted.rate, source), ()
     if clock is None:
         raise DataError(f"{source} has no column 'time': add one in seconds, or give --rate HZ")
     if len(columns[clock]) != n:
