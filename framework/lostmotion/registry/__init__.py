@@ -53,8 +53,9 @@ class Entry:
 
     @property
     def whose(self) -> str:
-        """The name as a sentence begins with it: `term 'drag' of my_package`."""
-        return f"{self.kind} {self.name!r} of {self.owner}"
+        """The name as a sentence begins with it: `term 'drag' of my_package`; of a file without its folders."""
+        owner = Path(self.owner).name if self.owner.endswith(".py") else self.owner
+        return f"{self.kind} {self.name!r} of {owner}"
 
     @property
     def ours(self) -> bool:
