@@ -235,3 +235,21 @@ def test_what_a_terminal_would_obey_is_shown_as_its_code(tmp_path: Path) -> None
     assert done.exit_code == 2
     assert "\\x9b2Jx" in done.stderr
     assert "\x9b" not in done.stderr
+
+
+@pytest.mark.slow
+def test_the_fuzz_campaign_finds_nothing() -> None:
+    line = [
+        sys.executable,
+        str(Path(__file__).parents[2] / "benchmarks" / "fuzz.py"),
+        "--inputs",
+        "600",
+        "--first",
+        "7",
+    ]
+    kinds = ("csv", "mat5", "h5", "case", "values", "plugin", "chain", "campaign")
+    done = subprocess.run(
+        [*line, *(word for kind in kinds for word in ("--only", kind))], capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stdout
+    assert " 0 findings" in done.stdout.splitlines()[-1]
