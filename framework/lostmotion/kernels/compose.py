@@ -257,6 +257,8 @@ def _told(function: Callable[..., Any]) -> Callable[..., Any]:
                 f"a model or term cannot be compiled ({why.rstrip('.:')}{'; ' * bool(place)}{place.rstrip(':')}): "
                 "write it with numbers and the math module only"
             ) from err
+        except (OSError, MemoryError):  # a full disk under the cache is no fault of a model
+            raise
         except Exception as err:
             raise ContractError(
                 f"a model or term raised {type(err).__name__} ({' '.join(str(err).split())}): let it return a number"
