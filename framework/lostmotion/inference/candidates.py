@@ -11,7 +11,7 @@ import numpy as np
 from lostmotion.contracts import Array, Param, Term, place_of
 from lostmotion.errors import ContractError
 from lostmotion.inference.fit import Fit, Sensitivity, maximise, restarted, sensitivity, solved, warmed
-from lostmotion.inference.problem import Free, Problem, Scales
+from lostmotion.inference.problem import NOISE, RANDOM, Free, Problem, Scales
 from lostmotion.quantities import FORCE
 from lostmotion.system import Slot
 
@@ -20,6 +20,8 @@ SHORT, CLEAR = 1500, 8.0
 """Values far off are tried on so many samples, and count when the log-likelihood gains so much there."""
 SHARES = (1.0, 0.3, 0.01)
 """Fits begin with these shares of what a score test promises."""
+CALM, LARGE = 0.05, 0.7
+"""Noise of a calm start in amplitudes of the response, and a large force in amplitudes of the measured one."""
 SHAPES = (0.3, 1.0, 3.0)
 """Where a shape parameter is tried, in units of its typical value."""
 
@@ -218,6 +220,27 @@ def fit_with(fit: Fit, hint: Hint, *, hopeless: float = -math.inf) -> Fit:
         if fits[-1].status in ("converged", "abandoned") and fits[-1].log_likelihood > fit.log_likelihood - 1.0:
             break
     return max(fits, key=lambda f: f.local.log_posterior)
+
+
+def calmed(fit: Fit) -> Fit:
+    """Return the fit begun anew with what is missing taken for noise of the sensor, and not for a random force."""
+    problem, theta = fit.problem, fit.theta.copy()
+    for i, free in enumerate(problem.free):
+        if free.parameter == NOISE:
+            theta[i] = math.log(CALM * problem.tracks[0].amplitude)
+        elif free.parameter == RANDOM:
+            theta[i] = problem.scales.usual
+    return maximise(problem, theta)
+
+
+def large(problem: Problem, key: str) -> Hint | None:
+    """Return a hint that a term is most of the measured force; None for one that is no force of one amplitude."""
+    _, slots = term_of(problem, key)
+    amplitudes = [s for s in slots if s.param.null is not None]
+    if len(amplitudes) != 1 or amplitudes[0].param.dimension != FORCE or amplitudes[0].param.low < 0.0:
+        return None
+    shapes = {s.key: size_of(s.param, problem.scales) for s in slots if s.param.null is None}
+    return Hint(key, 0.0, {amplitudes[0].key: LARGE * problem.scales.force, **shapes}, 1.0)
 
 
 def fit_in_place(fit: Fit, key: str, hint: Hint, *, hopeless: float = -math.inf) -> Fit:

@@ -9,8 +9,18 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from lostmotion.contracts import Term
-from lostmotion.inference.candidates import Hint, fit_in_place, fit_with, screen, slopes_of, term_of
-from lostmotion.inference.fit import MANY, Fit, maximise, warmed
+from lostmotion.inference.candidates import (
+    Hint,
+    calmed,
+    fit_in_place,
+    fit_with,
+    large,
+    screen,
+    slopes_of,
+    term_of,
+    with_term,
+)
+from lostmotion.inference.fit import MANY, Fit, maximise, restarted, warmed
 from lostmotion.inference.problem import RANDOM
 from lostmotion.inference.standing import CERTAIN, standing
 
@@ -190,6 +200,23 @@ class Selector:
         for hint in sorted(good[:MOST_FITTED], key=lambda h: len(h.start)):
             self.say(f"fit with {hint.key}")
             self._visit(self._fitted(fit, hint))
+        self._large(fit)
+
+    def _large(self, fit: Fit) -> None:
+        """Fit each force as most of what a load cell has measured.
+
+        The random force of a nominal fit follows such a recording as well, sample by sample, and score tests on top of
+        that see next to nothing.
+        """
+        if fit.problem.active or any(track.channel != "force" for track in fit.problem.tracks):
+            return
+        self.say("calm start")
+        calm = calmed(fit)
+        for key in self.candidates:
+            hint = large(fit.problem, key)
+            if hint and calm.status != "diverged":
+                self.say(f"fit with much of {key}")
+                self._visit(maximise(with_term(restarted(calm), hint, hint.start)))
 
     def _fitted(self, fit: Fit, hint: Hint) -> Fit:
         """Return the fit with one more term, begun at the fit with a simpler relative of it where there is one."""
