@@ -186,7 +186,7 @@ def test_what_is_none_of_ours_is_never_touched(tmp_path):
             made(folder, How(Crew(1), fresh=fresh))
     assert (folder / "holiday.txt").read_text() == "sun"
     (tmp_path / "notes.nc").write_text("no netCDF")
-    with pytest.raises(DataError, match="cannot be read as a map"):
+    with pytest.raises(DataError, match="cannot be read as"):
         made(tmp_path / "notes.nc", How(Crew(1), fresh=True))
 
 
