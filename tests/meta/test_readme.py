@@ -16,7 +16,7 @@ from lostmotion.cli import main
 ROOT = Path(__file__).parents[2]
 SET_UP = 'python3 -m venv .venv && .venv/bin/pip install -q -e ".[test]" && '
 DEMO = SET_UP + ".venv/bin/lostmotion demo"
-TESTS = SET_UP + ".venv/bin/pytest -q -n auto --dist loadfile"
+TESTS = SET_UP + ".venv/bin/pytest -q -n auto"
 PAGES = ("README.md", "CHANGELOG.md", "framework/ARCHITECTURE.md", "plugins/template/README.md")
 INDEX = re.compile(r"pypi|pythonhosted|index-url|anaconda\.org|/simple\b|badge", re.IGNORECASE)
 MACHINE = re.compile(r"(?<![\w.!])/(home|root|work|tmp|Users|opt|usr)/")
