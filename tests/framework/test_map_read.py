@@ -226,6 +226,6 @@ def test_what_is_no_map_is_refused(tmp_path):
     with pytest.raises(DataError, match="no map of ours"):
         Map.open(tmp_path / "other.nc")
     (tmp_path / "empty.zarr").mkdir()
-    with pytest.raises(DataError, match="cannot be read"):
+    with pytest.raises(DataError, match="no map of ours"):
         Map.open(tmp_path / "empty.zarr")
     shutil.rmtree(tmp_path / "empty.zarr")
