@@ -34,6 +34,8 @@ def draw():
         axis.ticklabel_format(scilimits=(-3, 3))
     for axis in axes.flat[len(found) :]:
         axis.axis("off")
+    figure.supxlabel("position (m or rad)", fontsize=9)
+    figure.supylabel("velocity (m/s or rad/s)", fontsize=9)
     return figure
 
 
