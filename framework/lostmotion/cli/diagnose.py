@@ -1,13 +1,16 @@
-"""`lostmotion diagnose`: find the physics that the model of a case leaves out."""
+"""`lostmotion diagnose`: find the physics that the model of a case, or of each of many cases, leaves out."""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 import click
 
-from lostmotion.cli._lazy import examples, registry_of
-from lostmotion.cli._options import on_a_case
+from lostmotion.cli._lazy import examples, plain, registry_of
+from lostmotion.cli._options import on_a_trial
 from lostmotion.cli._progress import progress
 
 
@@ -15,16 +18,31 @@ from lostmotion.cli._progress import progress
     epilog=examples(
         "lostmotion diagnose case.toml --out result",
         "lostmotion --plugin my_terms.py diagnose case.toml --out result --seed 1",
+        "lostmotion diagnose machines/*.toml --out results --jobs 8",
     )
 )
-@on_a_case
+@click.argument("cases", metavar="CASE.toml...", nargs=-1, required=True, type=click.Path(path_type=Path))
+@on_a_trial
 @click.pass_context
-def command(ctx: click.Context, case: Path, out: Path, seed: int, jobs: int, quiet: bool) -> None:
+def command(ctx: click.Context, /, cases: tuple[Path, ...], out: Path, **given: Any) -> None:
     """Locate the mismatch, say which physics was left out, model it, show that the fit improves.
 
     Writes diagnosis.json, arrays.nc and report.html into DIR. The last 30 % of the recording (or of several
     recordings) is seen by no fit. Exit status 0 when a diagnosis was reached, 2 for a case that cannot be used.
+
+    Of several cases each has a folder in DIR under the name of its file, with those of the folders above in front
+    where names clash, and DIR/summary.csv has a line for each. --jobs of them are diagnosed at a time, each on one
+    core. Those that cannot be used are set aside and listed, and the rest is done. The same command goes on with a
+    batch that was killed, and does anew what was set aside or has changed; the bytes depend neither on that nor on
+    --jobs. Exit status 0 when every case reached a diagnosis, 1 when some were set aside, 2 when none could be used.
     """
+    if len(cases) > 1:
+        _many(ctx, cases, out, **given)
+    else:
+        _one(ctx, cases[0], out, **given)
+
+
+def _one(ctx: click.Context, case: Path, out: Path, *, quiet: bool, seed: int, jobs: int) -> None:
     from lostmotion.workflow.diagnose import run_diagnosis
 
     with progress("diagnose", quiet=quiet) as say:
@@ -32,3 +50,33 @@ def command(ctx: click.Context, case: Path, out: Path, seed: int, jobs: int, qui
     for sentence in content["says"]:
         click.echo(sentence)
     click.echo(str(out / "report.html"))
+
+
+def _many(ctx: click.Context, cases: tuple[Path, ...], out: Path, *, quiet: bool, seed: int, jobs: int) -> None:
+    from lostmotion.workflow.batch import Batch, named, run_batch
+    from lostmotion.workflow.batch_table import ASIDE, SUMMARY, lines_of
+
+    plugins = tuple(str(Path(file).absolute()) for file in ctx.find_root().params.get("plugin") or ())
+    batch = Batch(named(cases), out.absolute(), plugins, seed)
+    with _bar(len(batch.cases), quiet=quiet) as say:
+        rows = run_batch(batch, jobs=jobs, say=say)
+    aside = [row for row in rows if row["status"] == ASIDE]
+    for row in aside:
+        click.echo(f"lostmotion: {plain(row['case'])} is set aside: {plain(row['says'])}", err=True)
+    for line in (*lines_of(rows), str(out / SUMMARY)):
+        click.echo(line)
+    if aside:
+        ctx.exit(2 if len(aside) == len(rows) else 1)
+
+
+@contextmanager
+def _bar(cases: int, *, quiet: bool) -> Iterator[Callable[[int, int], None]]:
+    """Yield a function that is told how many cases are done of how many."""
+    from tqdm import tqdm
+
+    with tqdm(desc="diagnose", total=cases, unit=" cases", leave=False, disable=True if quiet else None) as bar:
+
+        def say(done: int, _of: int) -> None:
+            bar.update(done - bar.n)
+
+        yield say
