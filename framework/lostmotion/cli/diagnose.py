@@ -18,7 +18,7 @@ from lostmotion.cli._progress import progress
     epilog=examples(
         "lostmotion diagnose case.toml --out result",
         "lostmotion --plugin my_terms.py diagnose case.toml --out result --seed 1",
-        "lostmotion diagnose machines/*.toml --out results --jobs 8",
+        "lostmotion diagnose pump.toml crane.toml --out results --jobs 2",
     )
 )
 @click.argument("cases", metavar="CASE.toml...", nargs=-1, required=True, type=click.Path(path_type=Path))
