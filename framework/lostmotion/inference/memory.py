@@ -20,6 +20,8 @@ from lostmotion.inference.selection import Progress, Selection, Selector, signif
 SHORTEST, LONGEST = 0.7, 0.5
 """The memory lasts at least so many samples, and at most this share of the natural time of the motion: what is slower
 is a motion of the machine, or a zero that drifts."""
+LEAST = 3.0
+"""However coarsely it is sampled, a memory of so many samples is allowed."""
 WORTH = math.log(20.0) + 3.0
 """It is believed when it raises the log evidence by this: odds of twenty, and the price of two parameters."""
 GAIN = 8.0
@@ -45,15 +47,14 @@ def selected(nominal: Fit, candidates: Iterable[str], say: Progress) -> Selectio
 
 
 def remembering(fit: Fit) -> Fit | None:
-    """Return the fit with measurement noise that has a memory beside the white one, or None where it cannot be told.
+    """Return the fit with measurement noise that has a memory beside the white one, or None where it has one already.
 
     Begun at a few lengths of the memory, with the random force at what is usual, since it need not imitate any more.
     """
     problem = fit.problem
-    frees = _frees(problem, fit)
-    if not frees or SLOW in problem.keys:
+    if SLOW in problem.keys:
         return None
-    wider = replace(problem, free=(*problem.free, *frees))
+    wider = replace(problem, free=(*problem.free, *_frees(problem, fit)))
     fits = [maximise(wider, _start(wider, fit, samples)) for samples in STARTS]
     return max(fits, key=lambda f: f.log_evidence)
 
@@ -66,11 +67,9 @@ def believed(plain: Fit, hung: Fit | None) -> bool:
     return higher and hung.log_evidence > plain.log_evidence + WORTH
 
 
-def _frees(problem: Problem, fit: Fit) -> tuple[Free, ...]:
+def _frees(problem: Problem, fit: Fit) -> tuple[Free, Free]:
     dt = problem.tracks[0].dt
-    low, high = math.log(SHORTEST * dt), math.log(LONGEST * problem.scales.time)
-    if high < low + 1.0:
-        return ()
+    low, high = math.log(SHORTEST * dt), math.log(max(LONGEST * problem.scales.time, LEAST * dt))
     noise = float(np.mean([c for f, c in zip(problem.free, fit.theta, strict=True) if f.parameter == NOISE]))
     middle = min(math.log(3.0 * dt), high)
     return (
