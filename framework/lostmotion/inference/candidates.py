@@ -63,6 +63,12 @@ def term_of(problem: Problem, key: str) -> tuple[Term, list[Slot]]:
     return problem.system.terms[i], [s for s in problem.system.slots if s.term == i]
 
 
+def sorted_slots(problem: Problem, key: str) -> tuple[list[Slot], list[Slot]]:
+    """Return the slots of the amplitudes of a term, and those of its shapes."""
+    _, slots = term_of(problem, key)
+    return [s for s in slots if s.param.null is not None], [s for s in slots if s.param.null is None]
+
+
 def slopes_of(fit: Fit) -> Sensitivity:
     """Return the sensitivities of a fit, which all its score tests share."""
     return sensitivity(fit.problem, fit.theta, fit.local.steps)
@@ -71,9 +77,7 @@ def slopes_of(fit: Fit) -> Sensitivity:
 def screen(fit: Fit, slopes: Sensitivity, key: str) -> Hint:
     """Return what adding the term `key` to a fit promises, the base parameters moving along (Rao's score test)."""
     problem = fit.problem
-    _, slots = term_of(problem, key)
-    amplitudes = [s for s in slots if s.param.null is not None]
-    shapes = [s for s in slots if s.param.null is None]
+    amplitudes, shapes = sorted_slots(problem, key)
     grids = [tried_of(s.param, problem.scales) for s in shapes]
     hints = []
     for values in star(grids):
@@ -235,12 +239,11 @@ def calmed(fit: Fit) -> Fit:
 
 def large(problem: Problem, key: str) -> Hint | None:
     """Return a hint that a term is most of the measured force; None for one that is no force of one amplitude."""
-    _, slots = term_of(problem, key)
-    amplitudes = [s for s in slots if s.param.null is not None]
+    amplitudes, shapes = sorted_slots(problem, key)
     if len(amplitudes) != 1 or amplitudes[0].param.dimension != FORCE or amplitudes[0].param.low < 0.0:
         return None
-    shapes = {s.key: size_of(s.param, problem.scales) for s in slots if s.param.null is None}
-    return Hint(key, 0.0, {amplitudes[0].key: LARGE * problem.scales.force, **shapes}, 1.0)
+    usual = {s.key: size_of(s.param, problem.scales) for s in shapes}
+    return Hint(key, 0.0, {amplitudes[0].key: LARGE * problem.scales.force, **usual}, 1.0)
 
 
 def fit_in_place(fit: Fit, key: str, hint: Hint, *, hopeless: float = -math.inf) -> Fit:

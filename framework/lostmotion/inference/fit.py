@@ -224,16 +224,16 @@ def _coasted(problem: Problem, local: Local, rounds: int, tolerance: float) -> F
         local = _local(problem, slopes)
         if _step(problem, local, 1e-3)[1] < tolerance:
             return Fit(problem, local, "converged", turn)
-        point = _coast(problem, slopes)
+        point = _coast(problem, slopes, local)
         if np.array_equal(point, local.theta):
             return Fit(problem, local, "rough", turn)
         local = replace(local, theta=point)
     return Fit(problem, expand(problem, local.theta, local.steps), "not converged", rounds)
 
 
-def _coast(problem: Problem, slopes: Sensitivity) -> Array:
+def _coast(problem: Problem, slopes: Sensitivity, local: Local) -> Array:
     """Return where steps along derivatives that are held lead, as long as they gain; one filter run for each."""
-    local, damping = _local(problem, slopes), 1e-3
+    damping = 1e-3
     for _ in range(COASTING):
         step, promise = _step(problem, local, damping)
         trial = problem.clip(local.theta + step)

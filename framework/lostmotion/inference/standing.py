@@ -8,7 +8,7 @@ import numpy as np
 from scipy.stats import chi2, norm
 
 from lostmotion.contracts import Array
-from lostmotion.inference.candidates import term_of
+from lostmotion.inference.candidates import sorted_slots
 from lostmotion.inference.fit import Fit, robust_covariance
 from lostmotion.inference.problem import Problem
 
@@ -31,7 +31,7 @@ def standing(fit: Fit) -> tuple[float, float]:
 
 def _amplitudes(problem: Problem, key: str) -> list[list[int]]:
     """Return where the amplitudes of a term stand among the free parameters, those together that count as one."""
-    slots = [s for s in term_of(problem, key)[1] if s.param.null is not None]
+    slots, _ = sorted_slots(problem, key)
     alone = [[problem.keys.index(s.key)] for s in slots if s.param.low >= 0.0]
     signed = [problem.keys.index(s.key) for s in slots if s.param.low < 0.0]
     return [*alone, signed] if signed else alone

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from lostmotion.report import identification_figures as drawing
 from lostmotion.report import identification_levels as leveled
 from lostmotion.report import style
-from lostmotion.report.identification_facts import Sampled, read_sampled
+from lostmotion.report.identification_facts import AGAIN, Sampled, read_sampled
 from lostmotion.report.pages import template, written
 from lostmotion.report.words import DASH, Scale, figures, interval, pretty, readable
 
@@ -33,7 +33,7 @@ class Drawn(NamedTuple):
 def write_identification(folder: Path) -> Path:
     """Return the path of `report.html`, written from `identification.json` and `posterior.nc` in the folder."""
     sampled = read_sampled(folder)
-    return written(folder / "report.html", lambda: render(sampled), "run `lostmotion identify` again")
+    return written(folder / "report.html", lambda: render(sampled), AGAIN)
 
 
 def render(sampled: Sampled) -> str:
