@@ -110,7 +110,15 @@ class System:
 
     def kernel(self, active: Iterable[str], *, latent: bool = False, compiled: bool = True) -> Compiled:
         """Return the kernel for as many states as these terms need; it is the same for any terms without states."""
-        return build(self._plan(self.states(active) + latent, latent), compiled)
+        wanted = self.states(active) + latent, latent
+        if wanted not in self._plans:
+            self._plans[wanted] = self._plan(*wanted)
+        return build(self._plans[wanted], compiled)
+
+    @cached_property
+    def _plans(self) -> dict[tuple[int, bool], Blueprint]:
+        """What was planned already: a filter asks for its kernel at every point."""
+        return {}
 
     def _plan(self, n: int, latent: bool) -> Blueprint:
         model = self.model

@@ -44,9 +44,8 @@ def draws(fit: Fit, rng: np.random.Generator, count: int) -> Array:
     which = rng.choice(len(nodes), size=count, p=weights / weights.sum())
     wider = np.sqrt(np.diag(robust_covariance(fit)) / np.maximum(np.diag(fit.local.covariance), 1e-300))
     noise = rng.standard_normal((count, len(fit.theta)))
-    theta = np.array(
-        [nodes[k].local.theta + wider * (_root(nodes[k].local) @ z) for k, z in zip(which, noise, strict=True)]
-    )
+    roots = [_root(node.local) for node in nodes]
+    theta = np.array([nodes[k].local.theta + wider * (roots[k] @ z) for k, z in zip(which, noise, strict=True)])
     if len(nodes) > 1:
         theta[:, fit.problem.keys.index(RANDOM)] += STRIDE * (rng.random(count) - 0.5)
     return fit.problem.clip(theta)

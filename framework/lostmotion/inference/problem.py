@@ -79,12 +79,12 @@ class Problem:
     nsub: int = 3
     jobs: int = 2
 
-    @property
+    @cached_property
     def coloured(self) -> bool:
         """Whether the random force has a memory."""
         return any(f.parameter == PACE for f in self.free)
 
-    @property
+    @cached_property
     def keys(self) -> tuple[str, ...]:
         """The keys of the free parameters."""
         return tuple(f.key for f in self.free)
