@@ -17,7 +17,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -33,6 +33,8 @@ ACCURACY = 0.04
 """Step times fastest rate: 157 steps a cycle. Halving it moves the exponents of a smooth flow by less than 1e-5."""
 FEWEST, MOST = 64, 50_000
 """Steps in a period."""
+ROUGH = 5.0
+"""How many times too long steps may be, where `MOST` are too few; beyond, the motion is too stiff to be followed."""
 LINE = 8
 """Steps that a law needs to pass its steep line, in place of the single one of a filter or a simulation. As the steps
 are as many times finer where there is such a law, the line is as wide as an ordinary step lets it be."""
@@ -155,6 +157,7 @@ class Stepped:
     steps: int
     scale: Array
     compiled: bool = True
+    lacking: float = 1.0
 
     @property
     def states(self) -> tuple[str, ...]:
@@ -169,6 +172,8 @@ class Stepped:
 
     def march(self, start: Array, *, periods: int, tangents: int) -> Orbit:
         """Return the orbit from `start` (n,) at drive phase 0, with `tangents` tangent vectors kept orthogonal."""
+        if self.lacking > ROUGH:
+            return Orbit(np.full((periods + 1, len(start)), np.nan), np.full((periods, tangents), np.nan), "too_stiff")
         states, growth, status = self._run(start, periods, tangents, 1)
         return Orbit(states, growth, status)
 
@@ -239,18 +244,19 @@ class Stepped:
             size = np.abs(seen).max(axis=0)
             scale = np.maximum(0.5 * np.ptp(seen, axis=0), 1e-3 * size)
             scale = np.where(scale > 0.0, scale, max(float(scale.max()), 1e-9))
-            steps = flow.steps if fixed else flow._wanted(seen, looks)
-            flow = Stepped(self.system, self.full, self.beat, self.period, self.start, steps, scale, self.compiled)
+            wanted = float(flow.steps) if fixed else flow._wanted(seen, looks)
+            steps = flow.steps if fixed else int(min(max(wanted, FEWEST), MOST))
+            flow = replace(self, steps=steps, scale=scale, lacking=wanted / steps)
         return flow
 
-    def _wanted(self, seen: Array, looks: int) -> int:
+    def _wanted(self, seen: Array, looks: int) -> float:
         """Return how many steps a period needs for the fastest rate met in the states `seen`."""
         picked = np.unique(np.linspace(0, len(seen) - 1, PROBES).astype(int))
         inputs = self._inputs(looks, self.period / looks)[3 * (picked % looks)]
         n = len(self.system.model.states)
         rate = self.system.stiffness(self.full, self.system.everything, seen[picked][:, :n], inputs)
         finer = LINE if self._steep.any() else 1
-        return int(min(max(math.ceil(finer * rate * self.period / ACCURACY), FEWEST), MOST))
+        return math.ceil(asked) if math.isfinite(asked := finer * rate * self.period / ACCURACY) else math.inf
 
 
 def _frame(tangents: int, n: int) -> Array:

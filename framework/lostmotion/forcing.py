@@ -67,4 +67,4 @@ class Drive:
 
 def substeps(rate: float, dt: float, *, accuracy: float = 0.06, most: int = 64) -> int:
     """Return how many steps to take between samples so that `rate * step <= accuracy` (0.06: 105 steps a cycle)."""
-    return int(min(max(math.ceil(rate * dt / accuracy), 1), most))
+    return math.ceil(min(max(rate * dt / accuracy, 1.0), most))

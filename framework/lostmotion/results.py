@@ -45,6 +45,7 @@ STATUSES: Mapping[str, str] = {
     "diverged": "the motion runs away",
     "jumps": "the force jumps, and the tangent flow across the jump is not treated",
     "failed": "the method broke down",
+    "too_stiff": "the fastest motion asks for more and shorter steps than are taken",
 }
 """What may be wrong with a number, in words: the vocabulary of `status`."""
 

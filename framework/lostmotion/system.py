@@ -240,13 +240,16 @@ class System:
         )
 
     def stiffness(self, full: Array, active: Iterable[str], states: Array, inputs: Array) -> float:
-        """Return the fastest rate (1/s) of the linearised motion over the given states (points, n) and inputs."""
+        """Return the fastest rate (1/s) of the linearised motion over the given states (points, n) and inputs.
+
+        Infinite where it is beyond all numbers.
+        """
         chosen = tuple(active)
         base, own = self.pack(full, 1.0)
         on, at = self.wiring(chosen)
         derivative = self.kernel(chosen).derivative
         n, fastest = self.states(chosen), 0.0
-        spread = 1e-6 * (np.ptp(states, axis=0) + 1e-12)
+        spread = np.maximum(1e-6 * (np.ptp(states, axis=0) + 1e-12), 1e-9 * np.abs(states).max(axis=0))
 
         def slope(y: Array, u: Array) -> Array:
             dydt = np.zeros(n)
@@ -260,6 +263,8 @@ class System:
             jac = np.array(
                 [(slope(full_y + _unit(n, a) * spread[a], u) - slope(full_y, u)) / spread[a] for a in range(m)]
             )
+            if not np.all(np.isfinite(jac)):
+                return math.inf
             fastest = max(fastest, float(np.abs(np.linalg.eigvals(jac[:, :m])).max()))
         return fastest
 

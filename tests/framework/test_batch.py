@@ -81,7 +81,7 @@ def calls(monkeypatch):
             (out / name).write_text(json.dumps(told), encoding="utf-8")
 
     monkeypatch.setattr(batch, "run_diagnosis", diagnosis)
-    monkeypatch.setattr(batch, "Campaign", lambda trial, count, identity, apart: Campaign(trial, count, identity))
+    monkeypatch.setattr(batch, "Campaign", lambda trial, count, identity, **_: Campaign(trial, count, identity))
     return made
 
 

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from toy_campaign import COUNT, campaign, placed
+from toy_campaign import COUNT, buried, campaign, deadly, placed
 
 from lostmotion.case import Prior
 from lostmotion.errors import DataError
@@ -128,6 +128,20 @@ def broken(number):
 def test_a_slip_of_the_code_is_no_failed_machine(tmp_path):
     with pytest.raises(TypeError, match="a slip"):
         Campaign(broken, 3, {}).run(tmp_path, 1)
+
+
+def test_trials_whose_process_is_killed_are_lost_and_no_others(tmp_path):
+    """What ran beside them is made again, and they are tried once more by themselves."""
+    told = []
+    made = Campaign(deadly, 7, {}, lost=buried).run(tmp_path, 2, lambda done, of: told.append(done))
+    assert [row["number"] for row in made] == list(range(7))
+    assert [row["number"] for row in made if row.get("lost")] == [2, 5]
+    assert told == list(range(8))
+
+
+def test_without_a_word_for_the_lost_a_killed_process_ends_the_campaign(tmp_path):
+    with pytest.raises(DataError, match="killed, perhaps for want of memory"):
+        Campaign(deadly, 7, {}).run(tmp_path, 2)
 
 
 def rows(machines, *, width=1.0, shift=0.0, seed=0):

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -86,15 +88,38 @@ def test_a_term_that_cannot_be_compiled_is_told_in_a_sentence():
     assert "\n" not in str(told.value)
 
 
+class Rootless(Misspelt):
+    """A term whose force is a number while the body moves forth, and none while it moves back."""
+
+    name = "rootless"
+
+    @staticmethod
+    def force(t, x, v, u, p, s):
+        return -p[0] * math.sqrt(v) if v >= 0.0 else math.nan
+
+
+class Plain(Misspelt):
+    name = "plain"
+
+    @staticmethod
+    def force(t, x, v, u, p, s):
+        return -p[0] * v
+
+
+class Lost:
+    """Sensitivities that are not numbers."""
+
+    gradient = staticmethod(lambda: np.array([1.0, np.nan]))
+    information = staticmethod(lambda: np.eye(2))
+
+
 def test_a_term_without_a_finite_force_is_refused():
-    class Lost:
-        """Sensitivities that are not numbers."""
-
-        gradient = staticmethod(lambda: np.array([1.0, np.nan]))
-        information = staticmethod(lambda: np.eye(2))
-
-    with pytest.raises(ContractError, match="force of cogging is not a finite number"):
-        _hint(None, Trial("cogging", (None,), {}), Lost())
+    """Where a filter ran away with a sound term, the term promises nothing, and is not blamed."""
+    track = Track("seen", np.sin(np.arange(40.0)), np.zeros((40, 1)), 0.1, "position")
+    fit = SimpleNamespace(problem=SimpleNamespace(system=oscillator(Rootless, Plain), tracks=(track,)))
+    with pytest.raises(ContractError, match="force of rootless is not a finite number"):
+        _hint(fit, Trial("rootless", (None,), {}), Lost())
+    assert _hint(fit, Trial("plain", (None,), {}), Lost()).gain == 0.0
 
 
 @pytest.mark.parametrize("size", [1e200, np.nan])

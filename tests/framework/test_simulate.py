@@ -166,10 +166,15 @@ WRONG = {
     "term parameter": ((*LIN, "--term", "coulomb_friction:forse=1"), "did you mean 'force'?"),
     "term value": ((*LIN, "--term", "coulomb_friction"), "lacks coulomb_friction.force (friction force, N)"),
     "place": ((*LIN, "--term", "coulomb_friction@base:force=1"), "acts at 'base', but lin_backlash has ground"),
-    "samples": ((*LIN, "--rate", "0.1"), "is 0 samples: wanted two or more"),
+    "samples": ((*LIN, "--rate", "0.1"), "is 0.2 samples: wanted 2 to 2500000"),
     "rate": ((*LIN, "--rate", "-5"), "the rate is -5: wanted"),
-    "size": ((*LIN, "--duration", "1e9"), "shorten the duration"),
+    "size": ((*LIN, "--duration", "1e9"), "is 5e+11 samples: wanted 2 to"),
     "noise": ((*LIN, "--noise", "-1"), "the noise is -1: wanted a share"),
+    "stiff": (("lin_backlash", "--set", "m=1,c=8,k0=4e16,x0=0.005"), "is too stiff: 2e+08 rad/s ask for"),
+    "huge": ((*LIN, "--drive", "step:size=1e300"), "the drive reaches 1e+300: check its unit"),
+    "fast": ((*LIN, "--drive", "noise:rms=1,bandwidth=300"), "reaches 300 Hz, of which 500 samples per second show"),
+    "endless": ((*LIN, "--drive", "noise:rms=1,bandwidth=1e200"), "drive noise up to 1e+200 Hz for 2 s is too long"),
+    "lines": ((*LIN, "--drive", "multisine:rms=1,low=1,high=2,lines=1e9"), "wanted a whole number up to 10000"),
 }
 
 

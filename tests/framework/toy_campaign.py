@@ -1,6 +1,7 @@
 """A campaign whose posterior is known in closed form; it imports little, so that processes begin soon."""
 
 import os
+import signal
 import time
 from functools import partial
 
@@ -24,6 +25,17 @@ def toy(pause, number):
 def whoami(number):
     """Return a trial that tells in which process it was made."""
     return {"number": number, "process": os.getpid()}
+
+
+def deadly(number):
+    """Return a trial, but for two whose process the system kills."""
+    if number in (2, 5):
+        os.kill(os.getpid(), signal.SIGKILL)
+    return {"number": number}
+
+
+def buried(number):
+    return {"number": number, "lost": True}
 
 
 def placed(number, truth, chain):

@@ -121,7 +121,7 @@ def test_march_equals_its_slow_twin(monkeypatch):
     for name in ("propagator", "piece", "leap", "seen", "crossed", "stay", "march"):
         monkeypatch.setattr(_kernels, name, getattr(_kernels, name).py_func)
     states, growth = np.zeros((7, 2)), np.zeros((6, 2))
-    assert _kernels.march(START, exact().numbers, 1, states, growth) == (7, exact().crossings(START, periods=6))
+    assert _kernels.march(START, exact().numbers, 1, states, growth) == (7, exact().crossings(START, periods=6), False)
     np.testing.assert_allclose(fast.states, states, rtol=1e-9)
     np.testing.assert_allclose(fast.growth, growth, rtol=1e-6)
 

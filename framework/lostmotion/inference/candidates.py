@@ -12,6 +12,7 @@ from lostmotion.contracts import Array, Param, Term, place_of
 from lostmotion.errors import ContractError
 from lostmotion.inference.fit import Fit, Sensitivity, maximise, restarted, sensitivity, solved, warmed
 from lostmotion.inference.problem import NOISE, RANDOM, Free, Problem, Scales
+from lostmotion.inference.tracks import Track
 from lostmotion.quantities import FORCE
 from lostmotion.system import Slot
 
@@ -22,6 +23,9 @@ SHARES = (1.0, 0.3, 0.01)
 """Fits begin with these shares of what a score test promises."""
 CALM, LARGE = 0.05, 0.7
 """Noise of a calm start in amplitudes of the response, and a large force in amplitudes of the measured one."""
+LOOKS = 200
+"""Places of a recording at which a force is looked at, when a filter with it does not get through."""
+_ONES, _ZEROS = (1.0,) * 40, (0.0,) * 9
 SHAPES = (0.3, 1.0, 3.0)
 """Where a shape parameter is tried, in units of its typical value."""
 
@@ -186,9 +190,8 @@ def _hint(fit: Fit, trial: Trial, joint: Sensitivity) -> Hint:
     key, amplitudes, shape = trial.key, trial.amplitudes, trial.shape
     gradient, information = joint.gradient(), joint.information()
     if not (np.all(np.isfinite(gradient)) and np.all(np.isfinite(information))):
-        raise ContractError(
-            f"the force of {key} is not a finite number along the recorded motion: mend the term, or leave it out", key
-        )
+        _require_finite(fit.problem, key)
+        return Hint(key, 0.0, dict(shape), 0.0)
     k = len(amplitudes)
     base, cross, own = information[:-k, :-k], information[:-k, -k:], information[-k:, -k:]
     base = base + np.diag([f.pull for f in fit.problem.free])
@@ -207,6 +210,26 @@ def _hint(fit: Fit, trial: Trial, joint: Sensitivity) -> Hint:
         return Hint(key, 0.0, dict(shape), distinct)
     start = {amplitudes[i].key: float(a) for i, a in zip(kept, estimate, strict=True)}
     return Hint(key, 0.5 * float(force[kept] @ estimate), {**shape, **start}, distinct)
+
+
+def _require_finite(problem: Problem, key: str) -> None:
+    """Raise a `ContractError` if force or rates of a term, all its numbers one, are not finite along a recording."""
+    term, _ = term_of(problem, key)
+    if term.acts == "motion" and not all(_finite(term, track) for track in problem.tracks):
+        raise ContractError(
+            f"the force of {key} is not a finite number along the recorded motion: mend the term, or leave it out", key
+        )
+
+
+def _finite(term: Term, track: Track) -> bool:
+    p, s, u, change = _ONES[: len(term.params) + len(term.needs)], _ZEROS[: len(term.states)], np.zeros(2), np.zeros(9)
+    speed = np.gradient(track.z, track.dt)
+    for k in np.flatnonzero(np.isfinite(speed))[:: max(1, track.samples // LOOKS)].tolist():
+        t, x, v = k * track.dt, float(track.z[k]), float(speed[k])
+        term.rate(t, x, v, u, p, s, change)
+        if not (math.isfinite(term.force(t, x, v, u, p, s)) and np.all(np.isfinite(change))):
+            return False
+    return True
 
 
 def fit_with(fit: Fit, hint: Hint, *, hopeless: float = -math.inf) -> Fit:

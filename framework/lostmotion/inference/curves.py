@@ -134,6 +134,7 @@ def _projected(fit: Fit, slopes: Sensitivity, key: str) -> tuple[Array, Array]:
     zero = np.concatenate([slopes.theta, np.zeros(term.count)])
     points = [zero, *(zero + width * row for row in np.eye(len(zero))[len(slopes.theta) :])]
     here, *above = wider.many(points)
+    above = [a if a.finite else here for a in above]
     de = np.array([(a.errors - here.errors) / width for a in above])
     dv = np.array([(a.variances - here.variances) / width for a in above])
     joint = Sensitivity(

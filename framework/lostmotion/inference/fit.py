@@ -135,9 +135,11 @@ def sensitivity(problem: Problem, theta: Array, steps: Array) -> Sensitivity:
     points = [_moved(theta, i, up[i]) for i in range(len(theta))] + [_moved(theta, i, down[i]) for i in central]
     here, *around = problem.around(theta, points)
     below = dict(zip(central, around[len(theta) :], strict=True))
-    pairs = [(around[i], below.get(i, here), up[i] - down[i]) for i in range(len(theta))]
-    de = np.array([_difference(a.errors, b.errors, w) for a, b, w in pairs])
-    dv = np.array([_difference(a.variances, b.variances, w) for a, b, w in pairs])
+    sides = [((up[i], around[i]), (down[i], below.get(i, here))) for i in range(len(theta))]
+    # Where the filter does not get through on one side, the other has to do.
+    pairs = [[side if side[1].finite else (theta[i], here) for side in both] for i, both in enumerate(sides)]
+    de = np.array([_difference(a.errors, b.errors, x - y) for (x, a), (y, b) in pairs])
+    dv = np.array([_difference(a.variances, b.variances, x - y) for (x, a), (y, b) in pairs])
     return Sensitivity(theta, here, de, dv, steps)
 
 

@@ -14,6 +14,8 @@ from lostmotion.inference.tracks import Track
 
 ENOUGH = 0.4
 """A prediction is valid until its error exceeds this share of the standard deviation of the response."""
+WORST = 1e3
+"""An error in standard deviations of the response; a run that leaves all bounds errs by so much, and none by more."""
 
 
 @dataclass(frozen=True)
@@ -66,7 +68,9 @@ def free_runs(problem: Problem, theta: Array, states: Array, starts: Array, step
         run = free_run(problem, theta, states[start], int(start), steps, index)
         seen = observed(problem, theta, run, (int(start), index))
         error[row] = seen - track.z[start : start + steps]
-    return FreeRuns(np.asarray(np.arange(steps) * track.dt, dtype=float), error)
+        error[row, ~np.isfinite(seen)] = math.inf
+    worst = WORST * float(np.nanstd(track.z))
+    return FreeRuns(np.asarray(np.arange(steps) * track.dt, dtype=float), np.clip(error, -worst, worst))
 
 
 def free_run(problem: Problem, theta: Array, y0: Array, start: int, steps: int, index: int = 0) -> Array:

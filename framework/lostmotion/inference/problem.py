@@ -246,7 +246,8 @@ class Problem:
         track = self.tracks[index]
         errors, variances = np.zeros(track.samples), np.ones(track.samples)
         done = self.track(index, theta, errors, variances, None)
-        return errors, variances, bool(done == track.samples)
+        whole = done == track.samples and math.isfinite(float(errors @ (errors / variances)))
+        return errors, variances, whole
 
     def track(self, index: int, theta: Array, errors: Array, variances: Array, kept: Kept | None) -> int:
         """Run the filter over one recording into the given arrays; return how many samples it got through."""

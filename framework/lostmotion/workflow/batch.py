@@ -57,6 +57,12 @@ class Batch:
         _clear(place)
         return row_aside(name, said)
 
+    def lost(self, number: int) -> dict[str, Any]:
+        """Return the row of a case whose process was killed from outside, twice: the second time it ran by itself."""
+        name, _ = self.cases[number]
+        _clear(self.out / name)
+        return row_aside(name, "the system killed its process, for want of memory perhaps: cut the recording")
+
     def _settle(self, path: Path, place: Path) -> None:
         """See to it that the diagnosis of a case stands in its folder."""
         if not self._stands(path, place):
@@ -88,7 +94,7 @@ class Batch:
 def run_batch(batch: Batch, *, jobs: int, say: Say = lambda _done, _of: None) -> list[dict[str, Any]]:
     """Return a row for each case after writing its diagnosis into the folder of its name, and all rows as a table."""
     identity = provenance("diagnose many", {}, batch.seed, {})
-    campaign = Campaign(batch, len(batch.cases), identity, apart=True)
+    campaign = Campaign(batch, len(batch.cases), identity, apart=True, lost=batch.lost)
     rows = campaign.run(folder_for(batch.out) / KEPT, jobs, say, fresh=True)
     save_rows(batch.out / SUMMARY, rows)
     return rows

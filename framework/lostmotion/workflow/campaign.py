@@ -40,13 +40,15 @@ Say = Callable[[int, int], None]
 class Campaign:
     """Trials 0 to `count` - 1 and what makes them: `identity`, plain as JSON knows it, without the number of trials.
 
-    With `apart` no trial is made in this process, even if a single one is left.
+    With `apart` no trial is made in this process, even if a single one is left. A trial whose process is killed, by a
+    system that runs out of memory for instance, has the outcome `lost`; without that it ends the campaign.
     """
 
     trial: Trial
     count: int
     identity: Mapping[str, Any]
     apart: bool = False
+    lost: Trial | None = None
 
     def run(self, folder: Path, jobs: int, say: Say = lambda _done, _of: None, *, fresh: bool = False) -> list[Any]:
         """Return the outcome of every trial in order; those that `folder` already holds are not made again.
@@ -84,7 +86,7 @@ class Campaign:
         make = partial(_kept, self.trial, folder)
         if not missing or (not self.apart and (jobs == 1 or len(missing) < 2)):
             return (make(k) for k in missing)
-        return _spread(make, missing, min(jobs, len(missing)))
+        return _spread(make, missing, min(jobs, len(missing)), self.lost and partial(_kept, self.lost, folder))
 
 
 def _plan(path: Path) -> dict[str, Any] | None:
@@ -114,24 +116,46 @@ def _kept(trial: Trial, folder: Path, number: int) -> int:
     return number
 
 
-def _spread(make: Callable[[int], int], numbers: list[int], jobs: int) -> Generator[int, None, None]:
-    """Yield each number as it is made, by processes that end at once when this one is interrupted, closed or killed."""
+def _spread(
+    make: Callable[[int], int], numbers: list[int], jobs: int, lose: Callable[[int], int] | None
+) -> Generator[int, None, None]:
+    """Yield each number as it is made; what was under way when a process was killed is tried again, one at a time."""
+    waiting = numbers[::-1]
+    while waiting:
+        suspects = yield from _together(make, waiting, jobs)
+        if suspects and lose is None:
+            raise DataError(
+                "a process of the campaign was killed, perhaps for want of memory: run the same command again, with"
+                " fewer --jobs; what is done is kept"
+            )
+        for number in suspects:
+            if (yield from _together(make, [number], 1)) and lose:
+                yield lose(number)
+
+
+def _together(make: Callable[[int], int], waiting: list[int], jobs: int) -> Generator[int, None, list[int]]:
+    """Yield the numbers that are `waiting`, last first, as they are made; return those on which a process was killed.
+
+    The processes end at once when this one is interrupted, closed or killed.
+    """
     spawn = multiprocessing.get_context("spawn")
     ear, mouth = spawn.Pipe(duplex=False)
     pool = ProcessPoolExecutor(jobs, mp_context=spawn, initializer=_listen, initargs=(ear,))
-    waiting, running = numbers[::-1], set[Future[int]]()
+    running: dict[Future[int], int] = {}
     try:
         while waiting or running:
             while waiting and len(running) < jobs:
-                running.add(pool.submit(make, waiting.pop()))
-            finished, running = wait(running, return_when=FIRST_COMPLETED)
-            for future in finished:
+                number = waiting.pop()
+                try:
+                    running[pool.submit(make, number)] = number
+                except BrokenProcessPool:
+                    return sorted([number, *running.values()])
+            for future in wait(running, return_when=FIRST_COMPLETED).done:
+                if isinstance(future.exception(), BrokenProcessPool):
+                    return sorted(running.values())
                 yield future.result()
-    except BrokenProcessPool as err:
-        raise DataError(
-            "a process of the campaign was killed, perhaps for want of memory: run the same command again, with"
-            " fewer --jobs; what is done is kept"
-        ) from err
+                del running[future]
+        return []
     finally:
         if running or waiting:
             mouth.close()

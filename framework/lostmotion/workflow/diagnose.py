@@ -28,13 +28,14 @@ from lostmotion.workflow.prepare import Prepared, prepare
 from lostmotion.workflow.rivals import confused_with, proposed
 from lostmotion.workflow.show import Seen, shown
 from lostmotion.workflow.verdict import verdict
-from lostmotion.workflow.vetting import blamed, raising, theirs, told_aside
+from lostmotion.workflow.vetting import blamed, raising, theirs, told_aside, within_numbers
 
 Say = Callable[[str], None]
 SHOW, NEXT, EVIDENCE = 1, 2, 3
 """The streams of random numbers for what is shown, proposed and checked: no finding depends on them."""
 
 
+@within_numbers()
 def run_diagnosis(
     path: Path,
     out: Path,

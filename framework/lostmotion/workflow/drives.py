@@ -13,17 +13,21 @@ from lostmotion.contracts import Array
 from lostmotion.errors import CaseError, nearest
 
 Function = Callable[[Array], Array]
+LINES, KNOTS = 10_000, 10_000_000
+"""The most lines of a multisine, and values that noise is drawn through."""
 
 
 @dataclass(frozen=True)
 class Signal:
-    """A function of time (s) and its exact derivative, both of arrays."""
+    """A function of time (s) and its exact derivative, both of arrays; nothing in it is faster than `top` (Hz)."""
 
     value: Function
     slope: Function
+    top: float
 
     def __add__(self, other: Signal) -> Signal:
-        return Signal(lambda t: self.value(t) + other.value(t), lambda t: self.slope(t) + other.slope(t))
+        top = max(self.top, other.top)
+        return Signal(lambda t: self.value(t) + other.value(t), lambda t: self.slope(t) + other.slope(t), top)
 
 
 def signal_of(text: str, *, duration: float, rng: np.random.Generator) -> Signal:
@@ -106,6 +110,7 @@ def _waves(waves: Sequence[tuple[float, float, float]]) -> Signal:
     return Signal(
         lambda t: sum((a * np.cos(w * t + f) for a, w, f in waves), np.zeros(len(t))),
         lambda t: sum((-a * w * np.sin(w * t + f) for a, w, f in waves), np.zeros(len(t))),
+        max((w for a, w, _ in waves if a), default=0.0) / (2.0 * math.pi),
     )
 
 
@@ -123,14 +128,15 @@ def _sweep(options: Options, duration: float, rng: np.random.Generator) -> Signa
     return Signal(
         lambda t: amplitude * np.sin((first + 0.5 * pace * t) * t),
         lambda t: amplitude * (first + pace * t) * np.cos((first + 0.5 * pace * t) * t),
+        max(first, last) / (2.0 * math.pi),
     )
 
 
 def _multisine(options: Options, duration: float, rng: np.random.Generator) -> Signal:
     """Return equal lines from `low` to `high` (Hz) with random phases."""
     rms, lines = options.number("rms"), options.number("lines", positive=True)
-    if lines != round(lines):
-        raise CaseError(f"lines of drive multisine is {lines:g}: wanted a whole number")
+    if lines != round(lines) or lines > LINES:
+        raise CaseError(f"lines of drive multisine is {lines:g}: wanted a whole number up to {LINES}")
     omegas = 2.0 * math.pi * np.linspace(*options.band(), round(lines))
     phases = rng.uniform(0.0, 2.0 * math.pi, len(omegas))
     amplitude = rms * math.sqrt(2.0 / len(omegas))
@@ -147,16 +153,19 @@ def _step(options: Options, duration: float, rng: np.random.Generator) -> Signal
     return Signal(
         lambda t: size * share(t) ** 3 * (10.0 - 15.0 * share(t) + 6.0 * share(t) ** 2),
         lambda t: size / rise * 30.0 * (share(t) * (1.0 - share(t))) ** 2,
+        0.0,
     )
 
 
 def _noise(options: Options, duration: float, rng: np.random.Generator) -> Signal:
     """Return a spline through normal values, so that little lies above `bandwidth` (Hz)."""
     rms, bandwidth = options.number("rms"), options.number("bandwidth", positive=True)
+    if 2.0 * bandwidth * duration > KNOTS:
+        raise CaseError(f"drive noise up to {bandwidth:g} Hz for {duration:g} s is too long: lower the bandwidth")
     knots = np.arange(math.ceil(2.0 * bandwidth * duration) + 8) / (2.0 * bandwidth)
     values = rng.standard_normal(len(knots))
     spline = CubicSpline(knots, rms * values / values.std())
-    return Signal(spline, spline.derivative())
+    return Signal(spline, spline.derivative(), bandwidth)
 
 
 Maker = Callable[[Options, float, np.random.Generator], Signal]

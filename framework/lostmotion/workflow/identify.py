@@ -27,8 +27,10 @@ from lostmotion.storage import folder_for, save_datasets, save_json
 from lostmotion.study.inversion import Inversion, predicted
 from lostmotion.workflow.identification_words import modes_said, statement
 from lostmotion.workflow.levels import Survey, derived, quantifier_task
+from lostmotion.workflow.notes import fleeting
 from lostmotion.workflow.prepare import case_of, prepared_of
 from lostmotion.workflow.trajectory import best_fits, chosen_terms, doubts, task_for
+from lostmotion.workflow.vetting import within_numbers
 
 ROUTES = ("trajectory", "quantifiers")
 CHAIN = "chain.h5"
@@ -70,6 +72,7 @@ class Way:
     more: Callable[[Identification], Mapping[str, Any]] = lambda _result: {}
 
 
+@within_numbers()
 def run_identification(
     path: Path, out: Path, registry: Registry, order: Order, watch: Watch = lambda _steps, _says: None
 ) -> Identified:
@@ -117,7 +120,7 @@ def _by_trajectory(case: Case, out: Path, registry: Registry, asked: Asked) -> W
         **_facts(case, order, settings, prepared.inputs),
         "model": " + ".join([case.model, *sorted(problem.active)]),
         "modes": len(fits),
-        "notes": [*prepared.notes, *modes_said(len(fits)), *doubts(fits[0])],
+        "notes": [*prepared.notes, *modes_said(len(fits)), *fleeting(fits[0]), *doubts(fits[0])],
     }
     return Way(task_for(prepared, fits, terms), facts)
 

@@ -124,6 +124,7 @@ def _delayed(signal: Signal, begin: float) -> Signal:
     return Signal(
         lambda t: signal.value(np.maximum(t - begin, 0.0)),
         lambda t: np.where(t > begin, signal.slope(np.maximum(t - begin, 0.0)), 0.0),
+        signal.top,
     )
 
 

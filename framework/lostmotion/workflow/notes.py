@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from lostmotion.inference.fit import Fit
 from lostmotion.inference.problem import LEVELS
 from lostmotion.stages.diagnose import Diagnosis
 from lostmotion.workflow.findings import Outcome
@@ -18,7 +19,25 @@ EDGE = 1e-3
 def notes_of(outcome: Outcome, said: Sequence[str]) -> list[str]:
     """Return the notes of a diagnosis: what the recordings `said` of themselves, and what a reader should doubt."""
     d = outcome.diagnosis
-    return [*said, *_declined(d), *_on_the_edge(d), *_far_off(outcome), *_drifting(d), *_slow(d)]
+    doubts = [*fleeting(d.after), *_declined(d), *_on_the_edge(d), *_far_off(outcome), *_drifting(d), *_slow(d)]
+    return [*said, *doubts]
+
+
+def fleeting(fit: Fit) -> list[str]:
+    """Return a note for each contact that is so stiff that a bounce falls between two samples."""
+    problem, notes = fit.problem, []
+    for place in problem.system.model.interfaces:
+        for i, track in enumerate(problem.tracks):
+            full = problem.full(fit.theta, i)
+            stiff = full[problem.system.index[place.stiffness]] if place.stiffness else 0.0
+            lasts = np.pi * np.sqrt(problem.system.inertia(full, place) / stiff) if stiff > 0.0 else np.inf
+            if lasts < track.dt:
+                notes.append(
+                    f"{track.name}: a bounce at the {place.name} lasts {lasts:.2g} s and samples are {track.dt:.2g} s"
+                    " apart. What happens between them is guessed, so intervals may be too narrow and findings wrong:"
+                    f" sample at {2.0 / lasts:.2g} Hz or more."
+                )
+    return notes
 
 
 def _slow(d: Diagnosis) -> list[str]:

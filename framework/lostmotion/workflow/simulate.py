@@ -15,7 +15,7 @@ import numpy as np
 from lostmotion.beside import SensorTerm
 from lostmotion.contracts import Array, Assembly, Model, Term
 from lostmotion.errors import CaseError, nearest
-from lostmotion.forcing import SILENT, Drive, substeps
+from lostmotion.forcing import SILENT, Drive
 from lostmotion.inference.tracks import Track, tone_of
 from lostmotion.provenance import provenance
 from lostmotion.quantities import ANGULAR, SI
@@ -27,10 +27,11 @@ from lostmotion.workflow.vetting import sound
 
 ACCURACY = 0.02
 """Step times fastest rate: 300 steps a cycle. At a kink the method is of first order, whatever the step."""
-FEWEST, MOST = 4, 2000
-LARGEST = 10_000_000
-"""Steps between samples, and steps in all, which is what a gigabyte holds."""
+FEWEST, LARGEST = 4, 10_000_000
+"""Steps between samples at least, and steps in all at most, which is what a gigabyte holds."""
 PROBES = 200
+HUGE = 1e150
+"""What no input and no channel reaches: its square would be infinite."""
 
 
 @dataclass(frozen=True)
@@ -73,19 +74,22 @@ def simulate(plan: Plan) -> Table:
     system = System.of(plan.assembly)
     full, y0 = _parameters(system, plan.values), _initial(plan)
     signals = _inputs(plan)
-    nsub = _substeps(system, full, y0, _drive(signals, plan, 1))
-    _require_size(samples, nsub)
+    coarse = _drive(signals, plan, 1)
+    if not np.abs(coarse.u).max() < HUGE:
+        raise CaseError(f"the drive reaches {np.abs(coarse.u).max():.3g}: check its unit")
+    nsub = _substeps(system, full, y0, coarse)
     recorded = _drive(signals, plan, nsub)
     drive = _acting(system, full, signals, recorded)
     motion = system.simulate(full, system.everything, y0, drive)
-    if motion.finite < samples:
+    inputs = recorded.u[:: 3 * nsub]
+    columns = dict(zip(plan.assembly.model.inputs, inputs.T, strict=True))
+    channels = _channels(system, full, motion.states, drive)
+    if motion.finite < samples or not all(np.abs(x).max() < HUGE for x in channels.values()):
         raise CaseError(
             f"the motion left all bounds after {motion.finite / plan.rate:.4g} s of {plan.duration:g} s:"
             " check the signs and sizes of the parameters"
         )
-    inputs = recorded.u[:: 3 * nsub]
-    columns = dict(zip(plan.assembly.model.inputs, inputs.T, strict=True))
-    columns |= _shown(system, full, _noisy(_channels(system, full, motion.states, drive), plan), plan)
+    columns |= _shown(system, full, _noisy(channels, plan), plan)
     return _table(plan, {"time": np.arange(samples) / plan.rate, **columns}, nsub)
 
 
@@ -118,19 +122,12 @@ def _samples(plan: Plan) -> int:
             raise CaseError(f"the {what} is {value:g}: wanted a finite number above zero")
     if not (0.0 <= plan.noise < math.inf):
         raise CaseError(f"the noise is {plan.noise:g}: wanted a share of the standard deviation, such as 0.01")
-    samples = round(plan.duration * plan.rate)
-    if samples < 2:
-        raise CaseError(f"{plan.duration:g} s at {plan.rate:g} Hz is {samples} samples: wanted two or more")
-    _require_size(samples, FEWEST)
-    return samples
-
-
-def _require_size(samples: int, nsub: int) -> None:
-    if samples * nsub > LARGEST:
+    samples = plan.duration * plan.rate
+    if not 1.5 <= samples <= LARGEST / FEWEST:
         raise CaseError(
-            f"{samples} samples with {nsub} steps between them are {samples * nsub} steps, and {LARGEST} fit:"
-            " shorten the duration, or simulate in pieces"
+            f"{plan.duration:g} s at {plan.rate:g} Hz is {samples:.4g} samples: wanted 2 to {LARGEST // FEWEST}"
         )
+    return round(samples)
 
 
 def _parameters(system: System, values: Mapping[str, float]) -> Array:
@@ -178,7 +175,12 @@ def _inputs(plan: Plan) -> list[Signal]:
     streams = np.random.default_rng(np.random.SeedSequence(plan.seed, spawn_key=(0,))).spawn(len(plan.drives))
     parts = [signal_of(d, duration=plan.duration, rng=r) for d, r in zip(plan.drives, streams, strict=True)]
     total = functools.reduce(operator.add, parts)
-    known = {"force": total, "base_position": total, "base_velocity": Signal(total.slope, total.slope)}
+    if total.top > 0.5 * plan.rate:
+        raise CaseError(
+            f"the drive reaches {total.top:.4g} Hz, of which {plan.rate:g} samples per second show nothing:"
+            f" wanted a rate above {2.0 * total.top:.4g} Hz, or a slower drive"
+        )
+    known = {"force": total, "base_position": total, "base_velocity": Signal(total.slope, total.slope, total.top)}
     for name in model.inputs:
         if name not in known:
             raise CaseError(
@@ -218,7 +220,7 @@ def _shown(system: System, full: Array, channels: Mapping[str, Array], plan: Pla
 
 
 def _substeps(system: System, full: Array, y0: Array, coarse: Drive) -> int:
-    """Return the steps between samples, from the fastest rate met in a coarse run.
+    """Return the steps between samples, from the fastest rate met in a coarse run, or refuse what would take too many.
 
     The coarse run may be unstable; it then still reaches the contacts, and they are what is fast.
     """
@@ -229,7 +231,14 @@ def _substeps(system: System, full: Array, y0: Array, coarse: Drive) -> int:
     picked = np.unique(np.linspace(0, max(motion.finite - 1, 0), PROBES).astype(int))
     states, inputs = motion.states[picked, :n], coarse.u[3 * picked]
     rate = system.stiffness(full, system.everything, states, inputs)
-    return max(FEWEST, substeps(rate, coarse.dt, accuracy=ACCURACY, most=MOST))
+    asked = rate * coarse.dt / ACCURACY
+    if not asked * coarse.samples <= LARGEST:
+        after = f"left all bounds after {motion.finite * coarse.dt:.4g} s, or " * (motion.finite < coarse.samples)
+        raise CaseError(
+            f"the motion {after}is too stiff: {rate:.3g} rad/s ask for {asked:.3g} steps between samples, and {LARGEST}"
+            " in all are taken at most; check signs and sizes of the parameters, or shorten the duration"
+        )
+    return max(FEWEST, math.ceil(asked))
 
 
 def _channels(system: System, full: Array, states: Array, drive: Drive) -> dict[str, Array]:

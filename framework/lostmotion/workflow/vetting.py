@@ -7,7 +7,8 @@ the rules of the conformance kit. Methods are watched while they work. What come
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import Any, TypeVar
@@ -15,7 +16,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from lostmotion.contracts import Array, Term
-from lostmotion.errors import ContractError, LostMotionError, PluginWarning
+from lostmotion.errors import ContractError, DataError, LostMotionError, PluginWarning
 from lostmotion.inference.tracks import Track
 from lostmotion.registry import Registry
 from lostmotion.system import key_of
@@ -23,6 +24,18 @@ from lostmotion.testing import Finding, check
 
 T = TypeVar("T")
 LOOKS = 2000
+
+
+@contextmanager
+def within_numbers() -> Iterator[None]:
+    """Tell in one sentence that a computation left all numbers: as a decorator of what fits a model."""
+    try:
+        yield
+    except np.linalg.LinAlgError as err:
+        raise DataError(
+            f"the computation broke down ({err}): where it was tried, the model leaves all bounds along the recording;"
+            " narrow the priors, check units and signs, or sample a stiff contact faster"
+        ) from err
 
 
 def sound(registry: Registry, kind: str, name: str, **options: Any) -> Any:

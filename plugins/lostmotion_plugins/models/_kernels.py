@@ -15,8 +15,8 @@ from typing import Any
 import numba
 
 _FAST: dict[str, Any] = {"cache": True, "nogil": True, "error_model": "numpy"}
-_STUCK = 1_000_000
-"""Leaps in one look beyond which something is wrong."""
+_MOST = 1_000_000
+"""Leaps in one look beyond which a motion is given up as too stiff."""
 
 
 @numba.njit(**_FAST)
@@ -92,10 +92,10 @@ def crossed(law, angle, h0, g0, to, sense, x0, now, early, late):  # type: ignor
 
 
 @numba.njit(**_FAST)
-def stay(law, angle, x, v, side, x0, left):  # type: ignore[no-untyped-def]
+def stay(law, angle, x, v, side, x0, left, most):  # type: ignore[no-untyped-def]
     """Return time, propagator, position and velocity at the end of a stay on a side, and the boundary crossed there.
 
-    0.0 stands for none until `left`.
+    0.0 stands for none until `left`. The last is how many of `most` leaps are left, -1 when they did not suffice.
     """
     _, a, _, w2, re, im, middle, omega = law
     cosine, sine = math.cos(angle), math.sin(angle)
@@ -107,11 +107,14 @@ def stay(law, angle, x, v, side, x0, left):  # type: ignore[no-untyped-def]
     rough = math.sqrt(4.0 * a * a + w2)
     tau, whole, part = 0.0, 1.0, 0.0
     sense = 1.0 if side == 0.0 else -1.0
-    for _ in range(_STUCK):
+    if math.isinf(x0):
+        whole, part, _, _, x, v, _ = seen(law, angle, h0, g0, left)
+        return left, whole, part, x, v, 0.0, most
+    for spare in range(most - 1, -1, -1):
         to = side if side != 0.0 else (1.0 if v > 0.0 else -1.0)
         d, r = sense * (x0 - to * x), sense * to * v
         if d <= 0.0 and r > 0.0:
-            return tau, whole, part, to * x0, v, to
+            return tau, whole, part, to * x0, v, to, spare
         d = max(d, 0.0)
         bound = rough * math.sqrt(g * g + w2 * h * h) + swing + 1e-300
         sure = r > 0.0 and r * r >= 2.0 * bound * d
@@ -123,9 +126,9 @@ def stay(law, angle, x, v, side, x0, left):  # type: ignore[no-untyped-def]
                 late = left
                 whole, part, h, g, x, v, push = seen(law, angle, h0, g0, left)
                 if sense * (x0 - to * x) > 0.0:
-                    return left, whole, part, x, v, 0.0
+                    return left, whole, part, x, v, 0.0, spare
             whole, part, v, tau = crossed(law, angle, h0, g0, to, sense, x0, guess, tau + hop, late)
-            return tau, whole, part, to * x0, v, to
+            return tau, whole, part, to * x0, v, to, spare
         if side == 0.0:
             hop = min(hop, leap(max(x0 + to * x, 0.0), -r, bound))
         tau += max(hop, math.sqrt((2e-16 * x0 + 1e-150) / bound), 1e-12 * left)
@@ -133,18 +136,21 @@ def stay(law, angle, x, v, side, x0, left):  # type: ignore[no-untyped-def]
         tau = min(tau, left)
         whole, part, h, g, x, v, push = seen(law, angle, h0, g0, tau)
         if over:
-            return left, whole, part, x, v, 0.0
-    return math.nan, whole, part, math.nan, math.nan, 0.0
+            return left, whole, part, x, v, 0.0, spare
+    return math.nan, whole, part, math.nan, math.nan, 0.0, -1
 
 
 @numba.njit(**_FAST)
 def march(start, numbers, looks, states, growth):  # type: ignore[no-untyped-def]
     """Write `states` (periods * looks + 1, 2) and the logarithms of tangent growth (periods, tangents).
 
-    Returns how many looks were reached, and how often a boundary was crossed. The force is continuous, so the tangent
-    is the product of the propagators. Areas shrink by exactly c / m, which gives the second exponent.
+    Returns how many looks were reached, how often a boundary was crossed, and whether leaps ran out. The force is
+    continuous, so the tangent is the product of the propagators. Areas shrink by exactly c / m, which gives the second
+    exponent.
     """
     m, c, k1, k0, x0, amplitude, omega, phase = numbers
+    if x0 == 0.0:
+        k1, k0, x0 = k1 + k0, 0.0, math.inf
     kind, a, wd, w2, re, im = piece(m, c, k1, amplitude, omega)
     free = (kind, a, wd, w2, re, im, 0.0, omega)
     kind, a, wd, w2, re, im = piece(m, c, k1 + k0, amplitude, omega)
@@ -159,15 +165,18 @@ def march(start, numbers, looks, states, growth):  # type: ignore[no-untyped-def
     for n in range(states.shape[0]):
         states[n, 0], states[n, 1] = x, v
         if not (math.isfinite(x) and math.isfinite(v)):
-            return n, crossings
+            return n, crossings, False
         if n == states.shape[0] - 1:
             break
         theta, begun = phase + 2.0 * math.pi * (n % looks) / looks, 0.0
-        for _ in range(_STUCK):
+        spare = _MOST
+        while True:
             law = free if side == 0.0 else (upper if side > 0.0 else lower)
             last = span - begun <= patience
             ahead = span - begun if last else patience
-            tau, whole, part, x, v, to = stay(law, theta + omega * begun, x, v, side, x0, ahead)
+            tau, whole, part, x, v, to, spare = stay(law, theta + omega * begun, x, v, side, x0, ahead, spare)
+            if spare < 0:
+                return n, crossings, True
             # As E p = (whole + a part) p + part q, and with -w2 part and whole - a part in the second row.
             p, q = (whole + a * part) * p + part * q, (whole - a * part) * q - law[3] * part * p
             begun += tau
@@ -184,4 +193,4 @@ def march(start, numbers, looks, states, growth):  # type: ignore[no-untyped-def
     if growth.shape[1] > 1:
         for n in range(growth.shape[0]):
             growth[n, 1] = -c / m * span * looks - growth[n, 0]
-    return states.shape[0], crossings
+    return states.shape[0], crossings, False

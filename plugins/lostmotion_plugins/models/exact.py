@@ -58,11 +58,11 @@ class ExactBacklash:
             raise ContractError(f"a start of shape {begin.shape} and {tangents} tangents do not fit 2 states")
         states, growth = np.full((periods * looks + 1, 2), np.nan), np.zeros((periods, tangents))
         carried = self._carried(np.arange(len(states)) % looks / looks)
-        done, crossings = march(begin - carried[0], self.numbers, looks, states, growth)
+        done, crossings, stiff = march(begin - carried[0], self.numbers, looks, states, growth)
         states += carried
         if done < len(states):
             growth[max(done - 1, 0) // looks :] = np.nan
-        return Orbit(states, growth, "ok" if done == len(states) else "failed"), crossings
+        return Orbit(states, growth, "too_stiff" if stiff else "ok" if done == len(states) else "failed"), crossings
 
     def _carried(self, share: Array) -> Array:
         """Return position and velocity (looks, 2) of the base at these shares of the period."""

@@ -1,0 +1,269 @@
+"""Where numbers grow extreme: rigid contacts, no gap, no damping, long filters, and motions that nobody can follow."""
+
+from __future__ import annotations
+
+import json
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+from scipy.integrate import solve_ivp
+
+from lostmotion.cli import main
+from lostmotion.flow import flow_of, stepped
+from lostmotion.forcing import Drive
+from lostmotion.inference.fit import sensitivity
+from lostmotion.inference.free import Free
+from lostmotion.inference.noise import LEAST
+from lostmotion.inference.predict import WORST, FreeRuns, free_runs
+from lostmotion.inference.problem import USUAL, Innovations
+from lostmotion.study.cells import CODES
+from lostmotion.system import System
+from lostmotion_plugins.models.exact import ExactBacklash
+from lostmotion_plugins.models.lin import LinBacklash
+
+MACHINE = {"m": 1.0, "c": 8.0, "k1": 0.0, "k0": 4e4, "x0": 0.005}
+DRIVE = (100.0, 40.0)
+START = np.array([0.001, 0.1])
+
+
+def marched(flow, periods=1, tangents=0):
+    orbit = flow.march(START, periods=periods, tangents=tangents)
+    assert orbit.status == "ok"
+    return orbit.states
+
+
+def bouncing(periods):
+    """Return the state between rigid walls that throw the mass back with the speed it came with, by DOP853."""
+    m, c, x0 = MACHINE["m"], MACHINE["c"], MACHINE["x0"]
+
+    def rates(t, y):
+        return [y[1], (DRIVE[0] * math.cos(DRIVE[1] * t) - c * y[1]) / m]
+
+    def hits(t, y):
+        return x0 - abs(y[0])
+
+    hits.terminal, hits.direction = True, -1.0
+    t, y, end, bounces = 0.0, START, periods * 2.0 * math.pi / DRIVE[1], 0
+    while t < end:
+        done = solve_ivp(rates, (t, end), y, "DOP853", rtol=1e-12, atol=1e-15, events=hits, max_step=1e-3)
+        t, y = done.t[-1], done.y[:, -1] * ([1.0 - 1e-13, -1.0] if done.status == 1 else 1.0)
+        bounces += done.status == 1
+    return y, bounces
+
+
+def test_a_stiff_contact_becomes_a_rigid_wall():
+    """The time in contact, and with it the distance from the rigid limit, falls with the root of the stiffness."""
+    wall, bounces = bouncing(1)
+    assert bounces >= 2
+    stiff = {k0: np.abs(marched(flow_of(LinBacklash(), {**MACHINE, "k0": k0}, drive=DRIVE))[-1] - wall).max()
+             for k0 in (1e10, 1e12, 1e14)}  # fmt: skip
+    assert stiff[1e14] < 1e-3
+    assert stiff[1e10] / stiff[1e12] == pytest.approx(10.0, rel=0.3)
+    assert stiff[1e12] / stiff[1e14] == pytest.approx(10.0, rel=0.3)
+
+
+@pytest.mark.parametrize("make", [flow_of, stepped])
+def test_no_gap_is_a_linear_oscillator(make):
+    def state(x0, **more):
+        machine = LinBacklash() if make is flow_of else System.of(LinBacklash())
+        return marched(make(machine, {**MACHINE, "x0": x0, **more}, drive=DRIVE, start=START), 3)[-1]
+
+    linear = state(0.005, k1=4e4, k0=0.0)
+    assert state(0.0) == pytest.approx(linear, rel=1e-9, abs=1e-12)
+    assert state(1e-9) == pytest.approx(linear, abs=1e-6)
+
+
+def test_without_gap_nothing_is_crossed():
+    flow = flow_of(LinBacklash(), {**MACHINE, "x0": 0.0, "k0": 1e16}, drive=DRIVE, start=START)
+    assert isinstance(flow, ExactBacklash)
+    assert flow.crossings(START, periods=1000) == 0
+
+
+@pytest.mark.parametrize(("make", "most"), [(flow_of, 1e-9), (stepped, 1e-3)])
+def test_without_damping_no_energy_is_lost(make, most):
+    machine = LinBacklash() if make is flow_of else System.of(LinBacklash())
+    states = marched(make(machine, {**MACHINE, "c": 0.0}, drive=(0.0, 40.0), start=START), 200)
+    deep = np.maximum(np.abs(states[:, 0]) - MACHINE["x0"], 0.0)
+    energy = 0.5 * states[:, 1] ** 2 + 0.5 * MACHINE["k0"] * deep**2
+    assert np.ptp(energy) < most * energy[0]
+
+
+def test_a_motion_too_stiff_to_follow_has_a_status():
+    """It is given up within seconds, and no number is made of what was seen of it."""
+    machine, stiff = System.of(LinBacklash()), {**MACHINE, "k0": 1e18, "x0": 1e-12}
+    for flow, statuses in (
+        (flow_of(LinBacklash(), stiff, drive=DRIVE, start=START), {"too_stiff"}),
+        (stepped(machine, {**MACHINE, "c": 1e9}, drive=DRIVE, start=START), {"too_stiff"}),
+        (stepped(machine, stiff, drive=DRIVE, start=START), {"too_stiff", "diverged"}),
+    ):
+        orbit = flow.march(START, periods=200, tangents=1)
+        assert orbit.status in statuses
+        assert np.isnan(orbit.growth[-1]).all()
+
+
+def test_a_map_tells_where_a_motion_is_too_stiff(tmp_path):
+    import xarray as xr
+
+    line = ["--x", "k0=1e4:1e18:2:log", "--y", "x0=0.001:0.005:2", "--set", "m=1,c=8", "--starts", "1", "--jobs", "1"]
+    line += [
+        "--term",
+        "coulomb_friction",
+        "--set",
+        "coulomb_friction.force=1",
+        "--drive",
+        "harmonic:amplitude=100,omega=40",
+    ]
+    out = tmp_path / "map.nc"
+    done = CliRunner().invoke(
+        main, ["map", "--model", "lin_backlash", *line, "--periods", "40", "--transient", "20", "--out", str(out)]
+    )
+    assert done.exit_code == 0, done.output
+    with xr.open_dataset(out) as found:
+        status = found["status"].sel(start=0).transpose("k0", "x0").values
+        lost = [CODES["too_stiff"], CODES["diverged"]]
+        assert np.isin(status[1], lost).all()
+        assert not np.isin(status[0], lost).any()
+        assert np.isnan(found["lyapunov_max"].transpose("k0", "x0", "start").values[1]).all()
+
+
+@dataclass(frozen=True)
+class Filter:
+    """A filter with its covariance, run piece by piece: `q` and `r` are intensity and variance of the noises."""
+
+    system: System
+    full: np.ndarray
+    dt: float
+    q: float
+    r: float
+    pace: float = 0.0
+
+    def run(self, z, u, y, cov):
+        """Return innovations, variances, covariances behind the samples, and state and covariance before the last."""
+        n, samples = len(y), len(z)
+        base, own = self.system.pack(self.full, self.dt)
+        on, at = self.system.wiring(self.system.everything)
+        errors, variances = np.zeros(samples), np.ones(samples)
+        kept = [np.zeros((samples, *shape)) for shape in ((n,), (n, n), (n,), (n, n), (n, n))]
+        done = self.system.kernel(self.system.everything, latent=self.pace > 0.0).track(
+            z, u, 0.0, self.dt, 1, base, own, on, at, self.pace, self.q, self.r, 0.0, 0.0, y, cov, 0, 0, errors,
+            variances, True, *kept,
+        )  # fmt: skip
+        assert done == samples
+        return errors, variances, kept[1], kept[2][-1], kept[3][-1]
+
+
+@pytest.mark.parametrize(
+    ("c", "share", "pace", "noise"),
+    [(0.0, math.exp(0.5 * LEAST) * USUAL, 0.0, 1e-9), (8.0, 0.3, 0.0, 1e-9), (0.2, 0.3, 5.0, 1e-5)],
+    ids=["least", "sharp", "coloured"],
+)
+def test_covariances_stay_positive_over_ten_million_steps(c, share, pace, noise):
+    """Of a chaotic motion: the least random force of any fit and no damping, a sensor of seven digits, a latent force.
+
+    The random force is a `share` of the drive.
+    """
+    steps, piece, dt = 10_000_000, 250_000, 4e-4
+    system = System.of(LinBacklash())
+    full = system.vector({**MACHINE, "c": c})
+    rng, y0 = np.random.default_rng(1), START
+    y, cov = np.array([*START, 0.0][: 2 + (pace > 0)]), np.diag([1e-8, 1e-2, 1.0][: 2 + (pace > 0)])
+    kalman = Filter(system, full, dt, (share * 100.0) ** 2 * dt * (pace**2 if pace else 1.0), noise**2, pace)
+    for _ in range(steps // piece):
+        force = np.repeat(100.0 * np.cos(40.0 * dt * np.arange(piece)), 3)[:, None]
+        states = system.simulate(full, (), y0, Drive(force, dt, 1, piece)).states
+        z = states[:, 0] + noise * rng.standard_normal(piece)
+        _, variances, covs, y, cov = kalman.run(z, force, y, cov)
+        y0 = states[-1]
+        assert np.isfinite(variances).all()
+        assert variances.min() >= noise**2
+        sd = np.sqrt(np.diagonal(covs, axis1=1, axis2=2))
+        assert sd.min() > 0.0
+        scaled = covs / (sd[:, :, None] * sd[:, None, :])
+        assert np.linalg.det(scaled).min() > 0.0
+
+
+@dataclass(frozen=True)
+class Cliff:
+    """A likelihood in one coordinate, that of a mean; beyond 1 the filter does not get through."""
+
+    free: tuple[Free, ...] = (Free("mean", "1", 0.0, -5.0, 5.0),)
+
+    def clip(self, theta):
+        return np.clip(theta, -5.0, 5.0)
+
+    def around(self, theta, points):
+        seen = np.linspace(-1.0, 1.0, 9)
+        return [
+            Innovations(np.where(p[0] > 1.0, np.nan, seen - p[0]), np.ones(9), bool(p[0] <= 1.0))
+            for p in (theta, *points)
+        ]
+
+
+def test_derivatives_at_the_edge_of_a_runaway_are_taken_from_the_safe_side():
+    for at in (0.0, 0.9999, 1.0):
+        slopes = sensitivity(Cliff(), np.array([at]), np.array([1e-3]))
+        assert slopes.gradient() == pytest.approx([-9.0 * at], abs=1e-9)
+        assert slopes.information() == pytest.approx(np.array([[9.0]]))
+
+
+def test_a_free_run_that_leaves_all_bounds_errs_by_the_most(monkeypatch):
+    """It is not left out of the mean, which would flatter the model."""
+    from lostmotion.inference import predict
+
+    class Still:
+        tracks = (replace_track(),)
+
+    def observed(problem, theta, states, where=(0, 0)):
+        return np.array([0.0, 1e200, np.nan])
+
+    monkeypatch.setattr(predict, "free_run", lambda *args: np.zeros((3, 2)))
+    monkeypatch.setattr(predict, "observed", observed)
+    runs = free_runs(Still(), np.zeros(1), np.zeros((4, 2)), np.array([0]), 3)
+    assert isinstance(runs, FreeRuns)
+    spread = float(np.std(Still.tracks[0].z))
+    assert runs.growth(spread) == pytest.approx([abs(Still.tracks[0].z[0]) / spread, WORST, WORST])
+
+
+def replace_track():
+    from lostmotion.inference.tracks import Track
+
+    return Track("still", np.array([1.0, 2.0, 3.0, 5.0]), np.zeros((4, 1)), 1.0, "position")
+
+
+CASE = """
+[[recordings]]
+file = "stiff.csv"
+time = "time"
+excitation = { column = "force", quantity = "force", unit = "N" }
+response = { column = "position", quantity = "position", unit = "m" }
+[model]
+name = "lin_backlash"
+[model.known]
+m = 1.0
+k0 = 1e9
+k1 = 0.0
+[model.estimate]
+c = { low = 0.8, high = 80.0, scale = "log" }
+x0 = { low = 1e-3, high = 2e-2, scale = "log" }
+"""
+
+
+@pytest.mark.slow
+def test_a_contact_shorter_than_a_sample_is_doubted(tmp_path):
+    """A tenth of a millisecond of contact between samples of 1.6 ms: a verdict with a doubt, and finite numbers."""
+    line = ["simulate", "lin_backlash", "--set", "m=1,c=8,k0=1e9,x0=0.005", "--term", "coulomb_friction:force=3"]
+    line += ["--drive", "harmonic:amplitude=100,omega=40", "--duration", "3", "--rate", "640", "--noise", "0.01"]
+    done = CliRunner().invoke(main, [*line, "--out", str(tmp_path / "stiff.csv")])
+    assert done.exit_code == 0, done.output
+    (tmp_path / "stiff.toml").write_text(CASE)
+    done = CliRunner().invoke(
+        main, ["diagnose", str(tmp_path / "stiff.toml"), "--out", str(tmp_path / "out"), "--quiet"]
+    )
+    assert done.exit_code == 0, done.output
+    text = (tmp_path / "out" / "diagnosis.json").read_text()
+    assert "NaN" not in text
+    assert "Infinity" not in text
+    assert any("a bounce at the ground lasts 9.9e-05 s" in note for note in json.loads(text)["notes"])
