@@ -9,7 +9,7 @@ import json
 import math
 import os
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -217,6 +217,13 @@ def save_bytes(path: Path, content: bytes) -> Path:
     with whole(path) as spare:
         spare.write_bytes(content)
     return path
+
+
+def require_files(folder: Path, names: Iterable[str], command: str) -> None:
+    """Raise a `DataError` where a file of a folder is missing that the `command` writes."""
+    missing = [name for name in names if not (folder / name).is_file()]
+    if missing:
+        raise DataError(f"no {missing[0]} in {folder}: run `{command} --out {folder}` first")
 
 
 def load_json(path: Path, wanted: str) -> dict[str, Any]:

@@ -310,8 +310,11 @@ def test_case_that_cannot_be_diagnosed_is_kept_as_failed(tmp_path):
     assert "lacks 'model'" in outcome["says"]
 
 
-def test_single_trial_is_made_apart(tmp_path):
+def test_single_trial_is_made_apart(tmp_path, monkeypatch):
+    """It takes one thread, whatever this process was told to take."""
+    monkeypatch.setenv("OPENBLAS_NUM_THREADS", "7")
     (apart,) = Campaign(whoami, 1, {"seed": 0}, apart=True).run(tmp_path / "apart", 1)
     (here,) = Campaign(partial(whoami), 1, {"seed": 0}).run(tmp_path / "here", 1)
     assert apart["process"] != os.getpid()
     assert here["process"] == os.getpid()
+    assert (apart["threads"], here["threads"]) == ("1", "7")

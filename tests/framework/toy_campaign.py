@@ -23,8 +23,8 @@ def toy(pause, number):
 
 
 def whoami(number):
-    """Return a trial that tells in which process it was made."""
-    return {"number": number, "process": os.getpid()}
+    """Return a trial that tells in which process it was made, and how many threads algebra may take there."""
+    return {"number": number, "process": os.getpid(), "threads": os.environ.get("OPENBLAS_NUM_THREADS")}
 
 
 def deadly(number):

@@ -7,6 +7,22 @@ from contextlib import contextmanager
 
 
 @contextmanager
+def counted(what: str, total: int, unit: str, *, quiet: bool) -> Iterator[Callable[[int, int], None]]:
+    """Yield a function that is told how many are done of how many; what was done before the start costs no time."""
+    from tqdm import tqdm
+
+    with tqdm(desc=what, total=total, unit=f" {unit}", leave=False, disable=True if quiet else None) as bar:
+
+        def say(done: int, _of: int) -> None:
+            if not bar.n:
+                bar.initial = done
+            bar.n = done
+            bar.refresh()
+
+        yield say
+
+
+@contextmanager
 def progress(what: str, *, quiet: bool) -> Iterator[Callable[[str], None]]:
     """Yield a function that is told each step; it shows nothing when `quiet` or when nobody watches."""
     from tqdm import tqdm

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +10,7 @@ import click
 
 from lostmotion.cli._lazy import PluginName, examples
 from lostmotion.cli._options import on_a_case
+from lostmotion.cli._progress import counted
 
 
 @click.command(
@@ -98,28 +98,12 @@ def command(ctx: click.Context, /, case: Path, out: Path, drives: tuple[str, ...
     maps = tuple(path.absolute() for path in given["maps"])
     chosen = {key: given[key] for key in ("hide", "terms", "route", "seed")}
     design = Design(case.absolute(), bench, plan=plan, plugins=plugins, maps=maps, **chosen)
-    with _bar(given["machines"], quiet=given["quiet"]) as say:
+    with counted("calibrate", given["machines"], "machines", quiet=given["quiet"]) as say:
         options = {key: given[key] for key in ("machines", "jobs", "fresh")}
         content = run_calibration(design, out, say=say, **options)
     for line in (*_table(content), *content["says"]):
         click.echo(line)
     click.echo(str(out / "report.html"))
-
-
-@contextmanager
-def _bar(machines: int, *, quiet: bool) -> Iterator[Callable[[int, int], None]]:
-    """Yield a function that is told how many machines are done of how many."""
-    from tqdm import tqdm
-
-    with tqdm(desc="calibrate", total=machines, unit=" machines", leave=False, disable=True if quiet else None) as bar:
-
-        def say(done: int, _of: int) -> None:
-            if not bar.n:
-                bar.initial = done
-            bar.n = done
-            bar.refresh()
-
-        yield say
 
 
 def _table(content: Mapping[str, Any]) -> list[str]:

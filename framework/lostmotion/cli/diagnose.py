@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +9,7 @@ import click
 
 from lostmotion.cli._lazy import examples, plain, registry_of
 from lostmotion.cli._options import on_a_trial
-from lostmotion.cli._progress import progress
+from lostmotion.cli._progress import counted, progress
 
 
 @click.command(
@@ -58,7 +56,7 @@ def _many(ctx: click.Context, cases: tuple[Path, ...], out: Path, *, quiet: bool
 
     plugins = tuple(str(Path(file).absolute()) for file in ctx.find_root().params.get("plugin") or ())
     batch = Batch(named(cases), out.absolute(), plugins, seed)
-    with _bar(len(batch.cases), quiet=quiet) as say:
+    with counted("diagnose", len(batch.cases), "cases", quiet=quiet) as say:
         rows = run_batch(batch, jobs=jobs, say=say)
     aside = [row for row in rows if row["status"] == ASIDE]
     for row in aside:
@@ -67,16 +65,3 @@ def _many(ctx: click.Context, cases: tuple[Path, ...], out: Path, *, quiet: bool
         click.echo(line)
     if aside:
         ctx.exit(2 if len(aside) == len(rows) else 1)
-
-
-@contextmanager
-def _bar(cases: int, *, quiet: bool) -> Iterator[Callable[[int, int], None]]:
-    """Yield a function that is told how many cases are done of how many."""
-    from tqdm import tqdm
-
-    with tqdm(desc="diagnose", total=cases, unit=" cases", leave=False, disable=True if quiet else None) as bar:
-
-        def say(done: int, _of: int) -> None:
-            bar.update(done - bar.n)
-
-        yield say

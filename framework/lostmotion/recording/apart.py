@@ -21,6 +21,8 @@ from numpy.typing import NDArray
 from lostmotion.errors import DataError
 
 Array = NDArray[np.float64]
+ALONE = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "MKL_NUM_THREADS": "1"}
+"""The environment of a process that has one core to itself."""
 REFUSED = 3
 """Exit status of the reader when it says why in a sentence."""
 SECONDS, SPEED, MEMORY = 7, 4 * 2**20, 2 * 2**30
@@ -49,9 +51,8 @@ def walk_apart(path: Path) -> None:
 def _said(path: Path, what: str) -> bytes:
     """Return the standard output of the reader."""
     line = [sys.executable, "-P", "-c", _READER, what, str(Path(path).absolute())]
-    alone = {**os.environ, "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
     try:
-        done = subprocess.run(line, capture_output=True, env=alone, timeout=WALL, check=False)
+        done = subprocess.run(line, capture_output=True, env={**os.environ, **ALONE}, timeout=WALL, check=False)
     except subprocess.TimeoutExpired as err:
         raise _given_up(path, f"no end within {WALL} s") from err
     if done.returncode == 0:

@@ -6,6 +6,7 @@ Listing the names imports neither NumPy nor numba nor the contracts.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from contextlib import nullcontext
 from dataclasses import dataclass, fields, is_dataclass, replace
 from functools import lru_cache
@@ -73,11 +74,13 @@ class Registry:
         self._files: dict[str, str] = {}
 
     @classmethod
-    def discover(cls) -> Registry:
-        """Return a registry of all installed packages with an entry point in the group `lostmotion.v1`."""
+    def discover(cls, files: Iterable[str | Path] = ()) -> Registry:
+        """Return a registry of installed packages with entry points in the group `lostmotion.v1`, and of `files`."""
         registry = cls()
         for point in metadata.entry_points(group=GROUP):
             registry._admit(point)
+        for file in files:
+            registry.add_file(file)
         return registry
 
     def add(self, obj: object, name: str | None = None) -> Registry:

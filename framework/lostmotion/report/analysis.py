@@ -80,5 +80,5 @@ def _drawn(evidence: Evidence) -> Iterator[Drawn]:
         figure = section.draw(evidence)
         if figure is not None:
             # The markup is drawn by matplotlib, which escapes the words it is given.
-            markup = Markup(style.embedded(figure, section.name))  # noqa: S704
+            markup = style.embedded(figure, section.name)
             yield Drawn(section.name, section.title, markup, section.caption(evidence))

@@ -19,7 +19,7 @@ from lostmotion.report.calibration_figures import CAPTIONS, Found, ecdf, histogr
 from lostmotion.report.pages import template, written
 from lostmotion.report.posteriors import words_of
 from lostmotion.report.words import DASH, figures, pretty, readable, sentence, spoken
-from lostmotion.storage import load_json
+from lostmotion.storage import load_json, require_files
 
 FILES = ("calibration.json", "machines.csv")
 AGAIN = "run `lostmotion calibrate` again"
@@ -70,9 +70,7 @@ def write_calibration(folder: Path) -> Path:
 
 def read_calibration(folder: Path) -> Calibration:
     """Return what `lostmotion calibrate` wrote into a folder."""
-    missing = [name for name in FILES if not (folder / name).is_file()]
-    if missing:
-        raise DataError(f"no {missing[0]} in {folder}: run `lostmotion calibrate CASE.toml --out {folder}` first")
+    require_files(folder, FILES, "lostmotion calibrate CASE.toml")
     facts = load_json(folder / "calibration.json", AGAIN)
     try:
         with (folder / "machines.csv").open(encoding="utf-8", newline="") as stream:
@@ -92,7 +90,8 @@ def render(calibration: Calibration) -> str:
     facts = calibration.facts
     with style.applied():
         drawn = [
-            Drawn(name, title, _embedded(figure, name), said) for name, title, figure, said in _figures(calibration)
+            Drawn(name, title, style.embedded(figure, name), said)
+            for name, title, figure, said in _figures(calibration)
         ]
     return template("calibration.html.j2").render(
         title=str(facts["title"]),
@@ -125,11 +124,6 @@ def _figures(calibration: Calibration) -> Iterator[tuple[str, str, Figure, str]]
         yield "ecdf", "Do they stay in their band?", ecdf(drawn, bands["ecdf"]), CAPTIONS["ecdf"]
     if everything := calibration.found(drawn=False):
         yield "intervals", "Where do intervals miss?", intervals(everything), CAPTIONS["intervals"]
-
-
-def _embedded(figure: Figure, name: str) -> Markup:
-    # The markup is drawn by matplotlib, which escapes the words it is given.
-    return Markup(style.embedded(figure, name))  # noqa: S704
 
 
 def _facts(calibration: Calibration) -> list[str]:

@@ -10,9 +10,8 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from lostmotion.errors import DataError
 from lostmotion.results import Array
-from lostmotion.storage import load_arrays, load_json
+from lostmotion.storage import load_arrays, load_json, require_files
 
 
 @dataclass(frozen=True)
@@ -69,8 +68,7 @@ def read_evidence(folder: Path) -> Evidence:
 def gathered(folder: Path, names: tuple[str, str], command: str) -> Evidence:
     """Return the facts and the arrays that a command left in a folder; the arrays may be absent, the facts may not."""
     page, arrays = folder / names[0], folder / names[1]
-    if not page.is_file():
-        raise DataError(f"no {page.name} in {folder}: run `{command} --out {folder}` first")
+    require_files(folder, [page.name], command)
     again = f"run `{' '.join(command.split()[:2])}` again"
     facts = load_json(page, again)
     return _with_arrays(facts, load_arrays(arrays, again) if arrays.is_file() else xr.Dataset())

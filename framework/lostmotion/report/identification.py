@@ -8,7 +8,6 @@ from typing import NamedTuple
 
 import numpy as np
 from markupsafe import Markup
-from matplotlib.figure import Figure
 
 from lostmotion.report import identification_figures as drawing
 from lostmotion.report import identification_levels as leveled
@@ -78,12 +77,7 @@ def _figures(sampled: Sampled) -> list[Drawn]:
     if sampled.converged and len(sampled.joint) > 1:
         said = drawing.CORNER + (" Dashed: the known value." if known else "")
         parts.insert(0, ("corner", "How the parameters hang together", drawing.corner(sampled), said))
-    return [Drawn(name, title, _embedded(figure, name), said) for name, title, figure, said in parts]
-
-
-def _embedded(figure: Figure, name: str) -> Markup:
-    # The markup is drawn by matplotlib, which escapes the words it is given.
-    return Markup(style.embedded(figure, name))  # noqa: S704
+    return [Drawn(name, title, style.embedded(figure, name), said) for name, title, figure, said in parts]
 
 
 def _head(sampled: Sampled) -> list[str]:

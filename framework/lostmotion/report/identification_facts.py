@@ -9,11 +9,10 @@ from typing import Any
 
 import numpy as np
 
-from lostmotion.errors import DataError
 from lostmotion.report.posteriors import words_of
 from lostmotion.report.words import Scale, readable, spoken
 from lostmotion.results import Array
-from lostmotion.storage import load_arrays, load_json
+from lostmotion.storage import load_arrays, load_json, require_files
 
 AGAIN = "run `lostmotion identify` again"
 MOST = 8
@@ -65,9 +64,7 @@ class Sampled:
 
 def read_sampled(folder: Path) -> Sampled:
     """Return what `lostmotion identify` wrote into a folder."""
-    missing = [name for name in ("identification.json", "posterior.nc") if not (folder / name).is_file()]
-    if missing:
-        raise DataError(f"no {missing[0]} in {folder}: run `lostmotion identify CASE.toml --out {folder}` first")
+    require_files(folder, ["identification.json", "posterior.nc"], "lostmotion identify CASE.toml")
     facts = load_json(folder / "identification.json", AGAIN)
     data = load_arrays(folder / "posterior.nc", AGAIN, group="posterior")
     draws = {str(name): np.asarray(v.values, dtype=float) for name, v in data.data_vars.items()}

@@ -84,7 +84,7 @@ def _drawn(evidence: Evidence) -> Iterator[Drawn]:
         table = TABLES[section.name](evidence) if section.name in TABLES else None
         if figure is not None or (table and table.rows):
             # The markup is drawn by matplotlib, which escapes the words it is given.
-            markup = Markup(style.embedded(figure, section.name) if figure else "")  # noqa: S704
+            markup = style.embedded(figure, section.name) if figure else Markup()
             caption = section.caption(evidence) if figure else ""
             kind = "prose" if section.name in PROSE else "tight"
             yield Drawn(section.name, section.title, markup, caption, table, kind)

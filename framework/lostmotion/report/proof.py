@@ -10,12 +10,11 @@ from typing import Any, NamedTuple
 from markupsafe import Markup
 from matplotlib.figure import Figure
 
-from lostmotion.errors import DataError
 from lostmotion.report import style
 from lostmotion.report.pages import template, written
 from lostmotion.report.proof_figures import CAPTIONS, detection, heldout, reliability
 from lostmotion.report.words import DASH, figures, percent, sentence, spoken
-from lostmotion.storage import load_json
+from lostmotion.storage import load_json, require_files
 
 Facts = Mapping[str, Any]
 AGAIN = "run `lostmotion prove` again"
@@ -41,17 +40,16 @@ class Listed(NamedTuple):
 
 def write_proof(folder: Path) -> Path:
     """Return the path of `report.html`, written from `proof.json` in the folder."""
-    source = folder / "proof.json"
-    if not source.is_file():
-        raise DataError(f"no proof.json in {folder}: run `lostmotion prove --out {folder}` first")
-    facts = load_json(source, AGAIN)
+    require_files(folder, ["proof.json"], "lostmotion prove")
+    facts = load_json(folder / "proof.json", AGAIN)
     return written(folder / "report.html", lambda: render(facts), AGAIN)
 
 
 def render(facts: Facts) -> str:
     """Return the page as one self-contained HTML text."""
     with style.applied():
-        drawn = [Drawn(name, title, _embedded(figure, name), CAPTIONS[name]) for name, title, figure in _figures(facts)]
+        parts = _figures(facts)
+        drawn = [Drawn(name, title, style.embedded(figure, name), CAPTIONS[name]) for name, title, figure in parts]
     states = [row["state"] for row in facts["targets"]]
     return template("proof.html.j2").render(
         title=str(facts["title"]),
@@ -81,11 +79,6 @@ def _figures(facts: Facts) -> Iterator[tuple[str, str, Figure]]:
         yield "reliability", "Are stated probabilities right?", reliability(facts)
     if facts["heldout"]["ratios"]:
         yield "heldout", "Is the found model as good as the true one?", heldout(facts)
-
-
-def _embedded(figure: Figure, name: str) -> Markup:
-    # The markup is drawn by matplotlib, which escapes the words it is given.
-    return Markup(style.embedded(figure, name))  # noqa: S704
 
 
 def _plain(*cells: str) -> list[tuple[str, bool]]:

@@ -12,6 +12,7 @@ from typing import Any
 
 import matplotlib as mpl
 import numpy as np
+from markupsafe import Markup
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
 from matplotlib.figure import Figure
@@ -127,12 +128,15 @@ def legend_above(figure: Figure, axes: Axes) -> None:
         figure.legend(handles, names, loc="outside upper left", ncols=len(names))
 
 
-def embedded(figure: Figure, name: str) -> str:
-    """Return a figure as markup that stands by itself: inline SVG, or a PNG where the SVG would be too large."""
+def embedded(figure: Figure, name: str) -> Markup:
+    """Return a figure as markup that stands by itself: inline SVG, or a PNG where the SVG would be too large.
+
+    Matplotlib escapes the words it draws, and `name` is one of ours.
+    """
     drawing = io.StringIO()
     figure.savefig(drawing, format="svg", metadata={"Date": None, "Creator": None})
     text = drawing.getvalue()
-    return _inline(text, name) if len(text) <= LARGEST_SVG else _image(figure, name)
+    return Markup(_inline(text, name) if len(text) <= LARGEST_SVG else _image(figure, name))  # noqa: S704
 
 
 def save(figure: Figure, path: Path) -> Path:

@@ -85,10 +85,7 @@ class Batch:
 
     def _registry(self) -> Registry:
         """Return a registry for one case, which may bring plugins that the next one does not know."""
-        registry = Registry.discover()
-        for file in self.plugins:
-            registry.add_file(file)
-        return registry
+        return Registry.discover(self.plugins)
 
 
 def run_batch(batch: Batch, *, jobs: int, say: Say = lambda _done, _of: None) -> list[dict[str, Any]]:

@@ -23,6 +23,7 @@ from pathlib import Path
 from typing import Any
 
 from lostmotion.errors import DataError
+from lostmotion.recording.apart import ALONE
 from lostmotion.storage import folder_for, load_json, save_json, writing
 
 SCHEMA = "lostmotion.campaign/1"
@@ -140,6 +141,8 @@ def _together(make: Callable[[int], int], waiting: list[int], jobs: int) -> Gene
     """
     spawn = multiprocessing.get_context("spawn")
     ear, mouth = spawn.Pipe(duplex=False)
+    before = {name: os.environ.get(name) for name in ALONE}
+    os.environ.update(ALONE)  # as many processes as cores: threads of their own would only wait for one another
     pool = ProcessPoolExecutor(jobs, mp_context=spawn, initializer=_listen, initargs=(ear,))
     running: dict[Future[int], int] = {}
     try:
@@ -162,6 +165,15 @@ def _together(make: Callable[[int], int], waiting: list[int], jobs: int) -> Gene
         pool.shutdown(cancel_futures=True)
         mouth.close()
         ear.close()
+        _restore(before)
+
+
+def _restore(before: Mapping[str, str | None]) -> None:
+    """Set each of these variables of the environment to what it was, or to nothing."""
+    for name, value in before.items():
+        os.environ.pop(name, None)
+        if value is not None:
+            os.environ[name] = value
 
 
 def _listen(ear: Connection) -> None:

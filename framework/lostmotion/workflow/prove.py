@@ -61,12 +61,8 @@ class Scorer:
         return judged(self.out, _registry(self.plugins), number)
 
 
-@lru_cache(maxsize=1)
-def _registry(plugins: tuple[str, ...]) -> Registry:
-    registry = Registry.discover()
-    for path in plugins:
-        registry.add_file(path)
-    return registry
+_registry = lru_cache(maxsize=1)(Registry.discover)
+"""A registry with these plugin files, the same one for all cases of a process."""
 
 
 def run_proof(

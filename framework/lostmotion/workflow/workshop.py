@@ -144,9 +144,7 @@ def workshop(design: Design) -> Workshop:
     if design.route == "quantifiers" and design.terms:
         raise CaseError("the quantifier route knows no terms, since its maps have none: leave --term out")
     case = load_case(design.case)
-    registry = Registry.discover()
-    for file in (*map(Path, design.plugins), *(case.folder / name for name in case.plugins)):
-        registry.add_file(file)
+    registry = Registry.discover([*design.plugins, *(case.folder / name for name in case.plugins)])
     if not case.estimate:
         raise CaseError(f"{design.case.name} estimates nothing: give priors in [model.estimate]")
     model: Model = registry.make("model", case.model)
