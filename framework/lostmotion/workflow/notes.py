@@ -29,7 +29,7 @@ def fleeting(fit: Fit) -> list[str]:
     for place in problem.system.model.interfaces:
         for i, track in enumerate(problem.tracks):
             full = problem.full(fit.theta, i)
-            stiff = full[problem.system.index[place.stiffness]] if place.stiffness else 0.0
+            stiff = full[problem.system.index[place.stiffness]] if place.stiffness and place.play else 0.0
             lasts = np.pi * np.sqrt(problem.system.inertia(full, place) / stiff) if stiff > 0.0 else np.inf
             if lasts < track.dt:
                 notes.append(
