@@ -30,6 +30,10 @@ SHAPES = (0.3, 1.0, 3.0)
 """Where a shape parameter is tried, in units of its typical value."""
 
 
+Shapes = Mapping[str, Sequence[Mapping[str, float]]]
+"""For a term by key, the values of its shape parameters that are tried beyond the usual."""
+
+
 @dataclass(frozen=True)
 class Hint:
     """What a score test says of a term: the gain in log-likelihood it promises, and where to start its fit."""
@@ -78,15 +82,16 @@ def slopes_of(fit: Fit) -> Sensitivity:
     return sensitivity(fit.problem, fit.theta, fit.local.steps)
 
 
-def screen(fit: Fit, slopes: Sensitivity, key: str) -> Hint:
-    """Return what adding the term `key` to a fit promises, the base parameters moving along (Rao's score test)."""
+def screen(fit: Fit, slopes: Sensitivity, key: str, more: Sequence[Mapping[str, float]] = ()) -> Hint:
+    """Return what adding the term `key` to a fit promises, the base parameters moving along (Rao's score test).
+
+    `more` are shapes to be tried beyond the usual.
+    """
     problem = fit.problem
     amplitudes, shapes = sorted_slots(problem, key)
     grids = [tried_of(s.param, problem.scales) for s in shapes]
-    hints = []
-    for values in star(grids):
-        shape = {s.key: value for s, value in zip(shapes, values, strict=True)}
-        hints.append(_score(fit, slopes, Trial(key, amplitudes, shape)))
+    usual = [dict(zip((s.key for s in shapes), values, strict=True)) for values in star(grids)]
+    hints = [_score(fit, slopes, Trial(key, amplitudes, shape)) for shape in (*usual, *more)]
     if len(amplitudes) == 1 and amplitudes[0].param.far and not problem.active:
         hints.append(_afar(fit, amplitudes[0], key, hints[0].distinct))
     return max(hints, key=lambda h: h.gain)

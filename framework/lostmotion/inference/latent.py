@@ -63,6 +63,21 @@ def missing_force(problem: Problem, theta: Array, index: int = 0) -> Missing:
     return Missing(states[:, -1], sd, states[:, :-1], share, problem.scales.time / pace, heights[best] - base)
 
 
+def leaning(problem: Problem, theta: Array, index: int = 0) -> tuple[Array, Array]:
+    """Return the smoothed states (samples, n) of a recording, and how much it leans (samples,) to a force each time.
+
+    That is the expected random force, which is proportional to the gradient of the log-likelihood with respect to an
+    added force: a law that belongs there goes with it, however much of the law is shrunk away.
+    """
+    single = problem.on((problem.tracks[index],))
+    pace = problem.scales.time / problem.tracks[index].dt
+    intensity, _ = problem.noise(theta, index)
+    share = math.sqrt(0.5 * intensity * pace / problem.scales.time) / problem.scales.force
+    kept, _, _ = kept_by(*_with_force(single, theta, share, pace))
+    states, _ = smooth(*kept)
+    return states[:, :-1], states[:, -1]
+
+
 def kept_by(problem: Problem, theta: Array) -> tuple[Kept, Array, Array]:
     """Return what a smoother needs of the first recording, and the innovations with their variances."""
     rows = problem.tracks[0].samples

@@ -12,6 +12,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from lostmotion.inference.candidates import Shapes
 from lostmotion.inference.fit import Fit, maximise
 from lostmotion.inference.free import FADE, NOISE, RANDOM, SLOW, Free
 from lostmotion.inference.problem import Problem
@@ -31,10 +32,13 @@ NOTICED = 4.0
 """A random force that gains this much is reason enough to look for a memory."""
 
 
-def selected(nominal: Fit, candidates: Iterable[str], say: Progress) -> Selection:
-    """Return the selection among `candidates`, made again with a memory of the measurement noise where it has one."""
+def selected(nominal: Fit, candidates: Iterable[str], say: Progress, shapes: Shapes | None = None) -> Selection:
+    """Return the selection among `candidates`, made again with a memory of the measurement noise where it has one.
+
+    `shapes` are tried beyond the usual.
+    """
     keys = tuple(candidates)
-    course = Selector(nominal, keys, say).run()
+    course = Selector(nominal, keys, say, shapes).run()
     chosen = course.chosen
     if not chosen.problem.active and significant_random_force(chosen) < NOTICED:
         return course
@@ -43,7 +47,7 @@ def selected(nominal: Fit, candidates: Iterable[str], say: Progress) -> Selectio
     if not believed(chosen, hung):
         return course
     hung = hung if chosen is nominal else remembering(nominal)
-    return Selector(hung, keys, say).run() if hung is not None and hung.status != "diverged" else course
+    return Selector(hung, keys, say, shapes).run() if hung is not None and hung.status != "diverged" else course
 
 
 def remembering(fit: Fit) -> Fit | None:

@@ -11,6 +11,7 @@ import numpy as np
 from lostmotion.contracts import Term
 from lostmotion.inference.candidates import (
     Hint,
+    Shapes,
     calmed,
     fit_in_place,
     fit_with,
@@ -90,9 +91,9 @@ class Selection:
 class Selector:
     """Carries out one selection from the `nominal` fit; `say` is told what is being tried."""
 
-    def __init__(self, nominal: Fit, candidates: Iterable[str], say: Progress) -> None:
+    def __init__(self, nominal: Fit, candidates: Iterable[str], say: Progress, shapes: Shapes | None = None) -> None:
         self.candidates = tuple(candidates)
-        self.say = say
+        self.say, self.shapes = say, shapes or {}
         self.course = Selection(nominal, nominal)
         self._settled: set[frozenset[str]] = set()
         self._sure: dict[frozenset[str], tuple[float, float]] = {}
@@ -193,7 +194,7 @@ class Selector:
             if self._rich(fit, key) and not any(h.gain > PROMISING and self._related(fit, key, h.key) for h in hints):
                 continue
             self.say(f"score test of {key}")
-            hints.append(screen(fit, slopes, key))
+            hints.append(screen(fit, slopes, key, self.shapes.get(key, ())))
         if not fit.problem.active:
             self.course.hints = {h.key: h for h in hints}
         good = sorted((h for h in hints if h.gain > PROMISING and h.distinct > SAME), key=lambda h: -h.gain)

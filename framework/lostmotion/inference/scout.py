@@ -1,0 +1,96 @@
+"""Shapes far from the usual, such as a pitch that is a tenth of the travel: looked for along the recording at once.
+
+A score test costs filter runs, and a wave over position is seen only by who tries its pitch to a few per cent. A law
+without states can be held against the gradient of the log-likelihood itself, at hundreds of shapes in a moment; one
+that goes with it is then tried by the filter like any other.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+import numpy as np
+
+from lostmotion.contracts import Array, place_of
+from lostmotion.inference.candidates import screen, size_of, slopes_of, sorted_slots, term_of, tried_of
+from lostmotion.inference.fit import Fit
+from lostmotion.inference.latent import leaning
+from lostmotion.inference.problem import Problem
+from lostmotion.inference.setup import stepped
+
+REACH, COUNT = 3.9, 240
+"""Shapes are looked at up to this logarithm from the typical value, as far as a prior reaches, and so many: 3 % apart,
+which tells a wave with fifteen periods over the travel."""
+MOST_SAMPLES = 6000
+BLOCKS = 40
+STEADY = 3.0
+"""A law is looked at more closely when it goes with the gradient in all parts of the recording: its mean over `BLOCKS`
+parts is so many standard errors from zero."""
+CLEAR = 8.0
+"""It is told of when a score test then promises this gain in log-likelihood, and more than at any usual shape."""
+
+
+def scouted(fit: Fit) -> dict[str, list[dict[str, float]]]:
+    """Return for each law without states the far shape to which the recording leans, where there is one."""
+    whole = fit.problem.tracks[0]
+    problem = stepped(fit.problem, fit.theta).on((whole.part(0, min(whole.samples, MOST_SAMPLES)),))
+    eligible = [key for key in problem.system.keys if key not in problem.active and _open(problem, key)]
+    if not eligible:
+        return {}
+    track = problem.tracks[0]
+    states, lean = leaning(problem, fit.theta)
+    slopes, found = None, {}
+    for key in eligible:
+        x, v = track.motion_at(place_of(problem.system.model, term_of(problem, key)[0]), states)
+        if best := _best(problem, key, np.stack([track.time, x, v]), lean):
+            slopes = slopes or slopes_of(fit)
+            hint = screen(fit, slopes, key, [best])
+            if hint.gain > CLEAR and best.items() <= hint.start.items():
+                found[key] = [best]
+    return found
+
+
+def _open(problem: Problem, key: str) -> bool:
+    """Return whether a term is a force without states that needs nothing but its own numbers, one a free shape."""
+    term, _ = term_of(problem, key)
+    _, shapes = sorted_slots(problem, key)
+    plain = term.acts == "motion" and not term.states and not term.needs
+    return plain and any(s.param.scale == "log" and not s.param.choices for s in shapes)
+
+
+def _best(problem: Problem, key: str, seen: Array, lean: Array) -> dict[str, float] | None:
+    """Return the shape that goes with the gradient best, and better than the usual ones, or None."""
+    _, shapes = sorted_slots(problem, key)
+    usual = {s.key: tried_of(s.param, problem.scales) for s in shapes}
+    middle = {name: grid[len(grid) // 2] for name, grid in usual.items()}
+    spread = np.exp(np.linspace(-REACH, REACH, COUNT))
+    far = {s.key: size_of(s.param, problem.scales) * spread for s in shapes if s.param.scale == "log"}
+
+    def steadiest(grids: Mapping[str, Array | tuple[float, ...]]) -> tuple[float, dict[str, float]]:
+        tried = [{**middle, name: float(value)} for name, grid in grids.items() for value in grid]
+        return max(((_steady(problem, key, shape, seen, lean), shape) for shape in tried), key=lambda pair: pair[0])
+
+    top, best = steadiest({name: grid for name, grid in far.items() if not _chosen(problem, name)})
+    return best if top > max(STEADY, steadiest(usual)[0]) else None
+
+
+def _chosen(problem: Problem, name: str) -> bool:
+    return bool(problem.system.slot(name).param.choices)
+
+
+def _steady(problem: Problem, key: str, shape: Mapping[str, float], seen: Array, lean: Array) -> float:
+    """Return by how many standard errors a law goes with the gradient, the best of its amplitudes alone."""
+    term, slots = term_of(problem, key)
+    amplitudes, _ = sorted_slots(problem, key)
+    edges, u = np.linspace(0, len(lean), BLOCKS + 1).astype(int)[:-1], np.zeros(2)
+    most = 0.0
+    for one in amplitudes:
+        p = tuple(shape.get(s.key, float(s.key == one.key)) for s in slots)
+        law = np.array([term.force(t, x, v, u, p, ()) for t, x, v in seen.T.tolist()])
+        if not np.all(np.isfinite(law)):
+            return 0.0
+        parts = np.add.reduceat((law - law.mean()) * lean, edges)
+        error = float(parts.std(ddof=1)) / math.sqrt(BLOCKS)
+        most = max(most, abs(float(parts.mean())) / error if error > 0.0 else 0.0)
+    return most

@@ -1,0 +1,70 @@
+"""Laws whose shape lies far from the usual are found by a look along the missing force, and only where there is one."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pytest
+from test_unknown_force import CLEAN, RIPPLE, fitted
+from truths import case_of
+
+from lostmotion.contracts import Param, Term
+from lostmotion.inference.scout import scouted
+from lostmotion.quantities import FORCE, LENGTH
+from lostmotion.registry import default
+from lostmotion.stages.diagnose import candidates_of, diagnose
+from lostmotion.system import System
+
+PITCH = 0.002
+"""Thirteen periods over the travel, a fifth of the half gap."""
+
+
+@dataclass(frozen=True)
+class Cogging(Term):
+    """The example of the README: a force that pulls a motor from pole to pole."""
+
+    at: str = "ground"
+    name = "cogging"
+    physics = "Cogging of {force}, from pole to pole over {pitch}, acts"
+    formula = "-force * sin(2 pi x / pitch)"
+    paper = "Zhu, Howe, IEEE Trans. Energy Conversion 15 (2000) 407-412"
+    params = (
+        Param("force", "largest cogging force", FORCE, null=0.0),
+        Param("pitch", "travel from pole to pole", LENGTH, low=0.0, scale="log"),
+    )
+
+    @staticmethod
+    def force(t, x, v, u, p, s):
+        return -p[0] * math.sin(2.0 * math.pi * x / p[1])
+
+
+def with_cogging(fit, *more):
+    """Return a fit of the nominal model in a system that has cogging too."""
+    model, registry = fit.problem.system.model, default()
+    system = System(model, candidates_of(model, [Cogging, *(registry.load("term", name) for name in more)]))
+    known = system.vector({q.name: fit.problem.known[i] for i, q in enumerate(model.params)})
+    return replace(fit, problem=replace(fit.problem, system=system, known=known))
+
+
+def test_a_pitch_far_shorter_than_the_travel_is_scouted():
+    found = scouted(with_cogging(fitted(RIPPLE)))
+    assert list(found) == ["cogging"]
+    assert found["cogging"][0]["cogging.pitch"] == pytest.approx(PITCH, rel=0.03)
+
+
+def test_where_nothing_is_missing_nothing_is_scouted():
+    assert scouted(with_cogging(fitted(CLEAN))) == {}
+
+
+@pytest.mark.slow
+def test_a_short_pitch_is_named_with_its_size():
+    """1 N with thirteen periods over the travel, hidden by an integrator of its own; it was learned as a curve."""
+    fit = with_cogging(fitted(RIPPLE), "coulomb_friction", "cubic_stiffness", "linear_stiffness", "quadratic_damping")
+    found = diagnose(case_of(("c", "x0")), fit.problem.tracks, fit.problem.system, rng=np.random.default_rng(0))
+    assert found.named == ("cogging",)
+    assert found.learned is None
+    values = found.after.values
+    assert values["cogging.force"] == pytest.approx(-1.0, abs=0.1)
+    assert values["cogging.pitch"] == pytest.approx(PITCH, rel=0.01)
