@@ -37,8 +37,7 @@ NEARLY = 2.5
 DECISIVE = math.log(20.0)
 """A term is taken when it makes the posterior odds of the model twenty times better."""
 REMEMBERS = 2.0
-WORTH = 0.2
-RICH = 4
+WORTH, RICH = 0.2, 4
 SAME = 1e-4
 """Below this share of its own information a term cannot be told from parameters that are estimated anyway."""
 
