@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from toy_campaign import COUNT, buried, campaign, deadly, placed
+from toy_campaign import COUNT, buried, campaign, deadly, placed, whoami
 
 from lostmotion.case import Prior
 from lostmotion.errors import DataError
@@ -137,6 +137,15 @@ def test_trials_whose_process_is_killed_are_lost_and_no_others(tmp_path):
     assert [row["number"] for row in made] == list(range(7))
     assert [row["number"] for row in made if row.get("lost")] == [2, 5]
     assert told == list(range(8))
+
+
+def test_processes_are_renewed_so_that_memory_does_not_grow(tmp_path, monkeypatch):
+    monkeypatch.setattr("lostmotion.workflow.campaign.RENEWED", 2)
+    made = Campaign(whoami, 9, {}).run(tmp_path, 2)
+    assert [row["number"] for row in made] == list(range(9))
+    makers = [{row["process"] for row in made[k : k + 4]} for k in (0, 4, 8)]
+    assert not makers[0] & makers[1]
+    assert not makers[1] & makers[2]
 
 
 def test_without_a_word_for_the_lost_a_killed_process_ends_the_campaign(tmp_path):

@@ -30,6 +30,8 @@ SCHEMA = "lostmotion.campaign/1"
 PLAN = "campaign.json"
 """What a folder of a campaign is known by: how its trials are made."""
 TRIALS = "trials"
+RENEWED = 100
+"""Trials that a process makes: a kernel it compiles holds 35 MiB for good, and one from the cache next to nothing."""
 
 Trial = Callable[[int], Mapping[str, Any]]
 """Makes the outcome of one trial, ready for JSON, from its number; it can be pickled."""
@@ -120,10 +122,14 @@ def _kept(trial: Trial, folder: Path, number: int) -> int:
 def _spread(
     make: Callable[[int], int], numbers: list[int], jobs: int, lose: Callable[[int], int] | None
 ) -> Generator[int, None, None]:
-    """Yield each number as it is made; what was under way when a process was killed is tried again, one at a time."""
-    waiting = numbers[::-1]
-    while waiting:
+    """Yield each number as it is made; what was under way when a process was killed is tried again, one at a time.
+
+    Processes give way to fresh ones after a while, so that memory does not grow with all that they have compiled.
+    """
+    while numbers:
+        waiting, numbers = numbers[: RENEWED * jobs][::-1], numbers[RENEWED * jobs :]
         suspects = yield from _together(make, waiting, jobs)
+        numbers = waiting[::-1] + numbers
         if suspects and lose is None:
             raise DataError(
                 "a process of the campaign was killed, perhaps for want of memory: run the same command again, with"
