@@ -2,7 +2,9 @@
 
 import importlib.util
 import json
+import os
 import re
+import subprocess
 import sys
 from pathlib import Path
 
@@ -57,3 +59,16 @@ def test_the_baseline_holds_ratios_of_every_speed_test_and_nothing_of_a_machine(
     kept = [name.partition("[") for name in content["ratios"]]
     assert {name for name, _, _ in kept} == set(re.findall(r"def (test_\w+)\(", source))
     assert [label for _, _, label in kept if f'"{label[:-1]}"' not in source and label] == []
+
+
+def test_benchmarks_measure_although_our_settings_share_tests_out():
+    """For a day they did not: a setting for many workers, without any, disables them."""
+    line = [sys.executable, "-m", "pytest", str(FOLDER), "-q", "-k", "no_such_name", "-p", "no:cacheprovider"]
+    done = subprocess.run(line, capture_output=True, text=True, cwd=FOLDER.parent, env=alone(), check=False)
+    assert "deselected" in done.stdout, done.stdout + done.stderr
+    assert "disabled" not in done.stdout + done.stderr
+
+
+def alone():
+    """Return the environment of a run that is no part of this one."""
+    return {name: value for name, value in os.environ.items() if not name.startswith("PYTEST_")}
