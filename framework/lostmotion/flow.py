@@ -245,7 +245,7 @@ class Stepped:
             scale = np.maximum(0.5 * np.ptp(seen, axis=0), 1e-3 * size)
             scale = np.where(scale > 0.0, scale, max(float(scale.max()), 1e-9))
             wanted = float(flow.steps) if fixed else flow._wanted(seen, looks)
-            steps = flow.steps if fixed else int(min(max(wanted, FEWEST), MOST))
+            steps = flow.steps if fixed else math.ceil(min(max(wanted, FEWEST), MOST))
             flow = replace(self, steps=steps, scale=scale, lacking=wanted / steps)
         return flow
 
@@ -256,7 +256,7 @@ class Stepped:
         n = len(self.system.model.states)
         rate = self.system.stiffness(self.full, self.system.everything, seen[picked][:, :n], inputs)
         finer = LINE if self._steep.any() else 1
-        return math.ceil(asked) if math.isfinite(asked := finer * rate * self.period / ACCURACY) else math.inf
+        return finer * rate * self.period / ACCURACY
 
 
 def _frame(tangents: int, n: int) -> Array:

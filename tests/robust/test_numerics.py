@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 from scipy.integrate import solve_ivp
+from test_units import CASE
 
 from lostmotion.cli import main
 from lostmotion.flow import flow_of, stepped
@@ -19,6 +20,7 @@ from lostmotion.inference.free import Free
 from lostmotion.inference.noise import LEAST
 from lostmotion.inference.predict import WORST, FreeRuns, free_runs
 from lostmotion.inference.problem import USUAL, Innovations
+from lostmotion.inference.tracks import Track
 from lostmotion.study.cells import CODES
 from lostmotion.system import System
 from lostmotion_plugins.models.exact import ExactBacklash
@@ -214,7 +216,7 @@ def test_a_free_run_that_leaves_all_bounds_errs_by_the_most(monkeypatch):
     from lostmotion.inference import predict
 
     class Still:
-        tracks = (replace_track(),)
+        tracks = (Track("still", np.array([1.0, 2.0, 3.0, 5.0]), np.zeros((4, 1)), 1.0, "position"),)
 
     def observed(problem, theta, states, where=(0, 0)):
         return np.array([0.0, 1e200, np.nan])
@@ -227,38 +229,14 @@ def test_a_free_run_that_leaves_all_bounds_errs_by_the_most(monkeypatch):
     assert runs.growth(spread) == pytest.approx([abs(Still.tracks[0].z[0]) / spread, WORST, WORST])
 
 
-def replace_track():
-    from lostmotion.inference.tracks import Track
-
-    return Track("still", np.array([1.0, 2.0, 3.0, 5.0]), np.zeros((4, 1)), 1.0, "position")
-
-
-CASE = """
-[[recordings]]
-file = "stiff.csv"
-time = "time"
-excitation = { column = "force", quantity = "force", unit = "N" }
-response = { column = "position", quantity = "position", unit = "m" }
-[model]
-name = "lin_backlash"
-[model.known]
-m = 1.0
-k0 = 1e9
-k1 = 0.0
-[model.estimate]
-c = { low = 0.8, high = 80.0, scale = "log" }
-x0 = { low = 1e-3, high = 2e-2, scale = "log" }
-"""
-
-
 @pytest.mark.slow
 def test_a_contact_shorter_than_a_sample_is_doubted(tmp_path):
     """A tenth of a millisecond of contact between samples of 1.6 ms: a verdict with a doubt, and finite numbers."""
     line = ["simulate", "lin_backlash", "--set", "m=1,c=8,k0=1e9,x0=0.005", "--term", "coulomb_friction:force=3"]
     line += ["--drive", "harmonic:amplitude=100,omega=40", "--duration", "3", "--rate", "640", "--noise", "0.01"]
-    done = CliRunner().invoke(main, [*line, "--out", str(tmp_path / "stiff.csv")])
+    done = CliRunner().invoke(main, [*line, "--out", str(tmp_path / "recording.csv")])
     assert done.exit_code == 0, done.output
-    (tmp_path / "stiff.toml").write_text(CASE)
+    (tmp_path / "stiff.toml").write_text(CASE.format(force="N", length="m").replace("40000.0", "1e9"))
     done = CliRunner().invoke(
         main, ["diagnose", str(tmp_path / "stiff.toml"), "--out", str(tmp_path / "out"), "--quiet"]
     )

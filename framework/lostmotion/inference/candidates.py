@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from lostmotion.contracts import Array, Param, Term, place_of
+from lostmotion.contracts import Array, Param, Term, Values, place_of
 from lostmotion.errors import ContractError
 from lostmotion.inference.fit import Fit, Sensitivity, maximise, restarted, sensitivity, solved, warmed
 from lostmotion.inference.problem import NOISE, RANDOM, Free, Problem, Scales
@@ -25,7 +25,6 @@ CALM, LARGE = 0.05, 0.7
 """Noise of a calm start in amplitudes of the response, and a large force in amplitudes of the measured one."""
 LOOKS = 200
 """Places of a recording at which a force is looked at, when a filter with it does not get through."""
-_ONES, _ZEROS = (1.0,) * 40, (0.0,) * 9
 SHAPES = (0.3, 1.0, 3.0)
 """Where a shape parameter is tried, in units of its typical value."""
 
@@ -227,14 +226,21 @@ def _require_finite(problem: Problem, key: str) -> None:
 
 
 def _finite(term: Term, track: Track) -> bool:
-    p, s, u, change = _ONES[: len(term.params) + len(term.needs)], _ZEROS[: len(term.states)], np.zeros(2), np.zeros(9)
-    speed = np.gradient(track.z, track.dt)
-    for k in np.flatnonzero(np.isfinite(speed))[:: max(1, track.samples // LOOKS)].tolist():
-        t, x, v = k * track.dt, float(track.z[k]), float(speed[k])
-        term.rate(t, x, v, u, p, s, change)
-        if not (math.isfinite(term.force(t, x, v, u, p, s)) and np.all(np.isfinite(change))):
-            return False
+    change = np.zeros(len(term.states))
+    for told in called_with(term, track, LOOKS):
+        if math.isfinite(told[1]) and math.isfinite(told[2]):
+            term.rate(*told, change)
+            if not (math.isfinite(term.force(*told)) and np.all(np.isfinite(change))):
+                return False
     return True
+
+
+def called_with(term: Term, track: Track, looks: int) -> Iterator[tuple[float, float, float, Array, Values, Values]]:
+    """Yield what the force of a term is told at about `looks` points of a recording, all its numbers one at rest."""
+    p, s, u = (1.0,) * (len(term.params) + len(term.needs)), (0.0,) * len(term.states), np.zeros(2)
+    speed = np.gradient(track.z, track.dt)
+    for k in range(0, track.samples, max(1, track.samples // looks)):
+        yield k * track.dt, float(track.z[k]), float(speed[k]), u, p, s
 
 
 def fit_with(fit: Fit, hint: Hint, *, hopeless: float = -math.inf) -> Fit:

@@ -18,6 +18,7 @@ from lostmotion.inference.fit import Fit
 from lostmotion.inference.latent import leaning
 from lostmotion.inference.problem import Problem
 from lostmotion.inference.setup import stepped
+from lostmotion.system import Slot
 
 REACH, COUNT = 3.9, 240
 """Shapes are looked at up to this logarithm from the typical value, as far as a prior reaches, and so many: 3 % apart,
@@ -33,15 +34,14 @@ CLEAR = 8.0
 
 def scouted(fit: Fit) -> dict[str, list[dict[str, float]]]:
     """Return for each law without states the far shape to which the recording leans, where there is one."""
-    whole = fit.problem.tracks[0]
-    problem = stepped(fit.problem, fit.theta).on((whole.part(0, min(whole.samples, MOST_SAMPLES)),))
-    eligible = [key for key in problem.system.keys if key not in problem.active and _open(problem, key)]
-    if not eligible:
+    keys, whole = scoutable(fit.problem), fit.problem.tracks[0]
+    if not keys:
         return {}
+    problem = stepped(fit.problem, fit.theta).on((whole.part(0, min(whole.samples, MOST_SAMPLES)),))
     track = problem.tracks[0]
     states, lean = leaning(problem, fit.theta)
     slopes, found = None, {}
-    for key in eligible:
+    for key in keys:
         x, v = track.motion_at(place_of(problem.system.model, term_of(problem, key)[0]), states)
         if best := _best(problem, key, np.stack([track.time, x, v]), lean):
             slopes = slopes or slopes_of(fit)
@@ -51,12 +51,15 @@ def scouted(fit: Fit) -> dict[str, list[dict[str, float]]]:
     return found
 
 
-def _open(problem: Problem, key: str) -> bool:
-    """Return whether a term is a force without states that needs nothing but its own numbers, one a free shape."""
-    term, _ = term_of(problem, key)
-    _, shapes = sorted_slots(problem, key)
-    plain = term.acts == "motion" and not term.states and not term.needs
-    return plain and any(s.param.scale == "log" and not s.param.choices for s in shapes)
+def scoutable(problem: Problem) -> list[str]:
+    """Return the keys of forces without states that need nothing but their own numbers, one of them a free shape."""
+    idle = [(key, term_of(problem, key)[0]) for key in problem.system.keys if key not in problem.active]
+    plain = [key for key, term in idle if term.acts == "motion" and not term.states and not term.needs]
+    return [key for key in plain if _free_shapes(problem, key)]
+
+
+def _free_shapes(problem: Problem, key: str) -> list[Slot]:
+    return [s for s in sorted_slots(problem, key)[1] if s.param.scale == "log" and not s.param.choices]
 
 
 def _best(problem: Problem, key: str, seen: Array, lean: Array) -> dict[str, float] | None:
@@ -65,18 +68,14 @@ def _best(problem: Problem, key: str, seen: Array, lean: Array) -> dict[str, flo
     usual = {s.key: tried_of(s.param, problem.scales) for s in shapes}
     middle = {name: grid[len(grid) // 2] for name, grid in usual.items()}
     spread = np.exp(np.linspace(-REACH, REACH, COUNT))
-    far = {s.key: size_of(s.param, problem.scales) * spread for s in shapes if s.param.scale == "log"}
+    far = {s.key: size_of(s.param, problem.scales) * spread for s in _free_shapes(problem, key)}
 
     def steadiest(grids: Mapping[str, Array | tuple[float, ...]]) -> tuple[float, dict[str, float]]:
         tried = [{**middle, name: float(value)} for name, grid in grids.items() for value in grid]
         return max(((_steady(problem, key, shape, seen, lean), shape) for shape in tried), key=lambda pair: pair[0])
 
-    top, best = steadiest({name: grid for name, grid in far.items() if not _chosen(problem, name)})
+    top, best = steadiest(far)
     return best if top > max(STEADY, steadiest(usual)[0]) else None
-
-
-def _chosen(problem: Problem, name: str) -> bool:
-    return bool(problem.system.slot(name).param.choices)
 
 
 def _steady(problem: Problem, key: str, shape: Mapping[str, float], seen: Array, lean: Array) -> float:

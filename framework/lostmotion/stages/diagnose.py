@@ -17,7 +17,7 @@ from lostmotion.inference.learned import Learned
 from lostmotion.inference.locate import Curve, covariates, curve, edges_of, further, summary
 from lostmotion.inference.memory import selected
 from lostmotion.inference.problem import LEVELS, Problem
-from lostmotion.inference.scout import scouted
+from lostmotion.inference.scout import scoutable, scouted
 from lostmotion.inference.selection import Selection, significant_random_force
 from lostmotion.inference.setup import polish, problem_of, search, split, stepped
 from lostmotion.inference.shares import Covariate, Share, shares_of, significant
@@ -139,7 +139,7 @@ def diagnose(
     say("fit of the nominal model")
     nominal = search(problem_of(system, case, train, jobs=jobs), rng)
     selection = selected(nominal, fitted_keys(system), say)
-    if significant_random_force(selection.chosen) > SIGNIFICANT:
+    if scoutable(selection.chosen.problem) and significant_random_force(selection.chosen) > SIGNIFICANT:
         say("shapes far from the usual")
         if shapes := scouted(selection.chosen):
             selection = selected(nominal, fitted_keys(system), say, shapes)

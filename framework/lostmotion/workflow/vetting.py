@@ -17,6 +17,7 @@ import numpy as np
 
 from lostmotion.contracts import Array, Term
 from lostmotion.errors import ContractError, DataError, LostMotionError, PluginWarning
+from lostmotion.inference.candidates import called_with
 from lostmotion.inference.tracks import Track
 from lostmotion.registry import Registry
 from lostmotion.system import key_of
@@ -88,11 +89,9 @@ def raising(terms: Iterable[Term], tracks: Sequence[Track]) -> set[str]:
 
 def _raises(term: Term, track: Track) -> bool:
     """Return whether the force of a term, of size one, raises at one of many points of a recording."""
-    p, s, u = (1.0,) * (len(term.params) + len(term.needs)), (0.0,) * len(term.states), np.zeros(2)
-    speed = np.gradient(track.z, track.dt)
     try:
-        for k in range(0, track.samples, max(1, track.samples // LOOKS)):
-            term.force(k * track.dt, float(track.z[k]), float(speed[k]), u, p, s)
+        for told in called_with(term, track, LOOKS):
+            term.force(*told)
     except Exception:
         return True
     return False
