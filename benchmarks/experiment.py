@@ -21,14 +21,14 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from lostmotion.case import Case, Prior
-from lostmotion.forcing import Tone
 from lostmotion.inference.candidates import fit_with, screen, slopes_of
 from lostmotion.inference.fit import maximise
 from lostmotion.inference.setup import problem_of, search
-from lostmotion.inference.tracks import Track
+from lostmotion.likelihood.drive import Tone
+from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.system import System, key_of
 from lostmotion.registry import Registry
 from lostmotion.stages.experiment import news, propose
-from lostmotion.system import System, key_of
 
 FINE = 40
 """Leapfrog steps between samples."""
@@ -114,10 +114,10 @@ def recorded(machine, inputs, rng, tone=None):
     x = moved(u, dt / FINE, FINE, machine.m, machine.c, machine.law, (0.0, 0.0, 0.0))
     seen = x + machine.noise * SIZES[machine.name] * rng.standard_normal(n)
     force = inputs + 1e-3 * math.sqrt(2.0) * float(np.std(inputs)) * rng.standard_normal(n)
-    bare = Track("recording", seen, force[:, None], dt, "position")
+    bare = Observation.of("recording", seen, force[:, None], dt, "position")
     period = bare.period
     found = Tone(2.0 * math.pi / (period * dt) if period else 0.0, bare.travel)
-    return Track("recording", seen, force[:, None], dt, "position", tone=tone or found)
+    return Observation.of("recording", seen, force[:, None], dt, "position", tone=tone or found)
 
 
 SIZES = {}
@@ -129,17 +129,17 @@ def first(machine, rng):
     t = np.arange(machine.samples) / machine.rate
     inputs = machine.level * np.sin(2.0 * math.pi * machine.frequency * t)
     SIZES[machine.name] = 0.0
-    SIZES[machine.name] = float(np.std(recorded(machine, inputs, rng).z))
+    SIZES[machine.name] = float(np.std(recorded(machine, inputs, rng).response))
     return inputs, recorded(machine, inputs, rng)
 
 
-def fitted(machine, track):
+def fitted(machine, observation):
     """Return the fits with the true term and with the other one."""
     registry = Registry.discover()
     terms = tuple(registry.make("term", name) for name in (machine.truth, machine.other))
     case = Case(machine.name, Path(), (), machine.model, machine.known, machine.estimate, {}, (), "")
     nominal = search(
-        problem_of(System(registry.make("model", machine.model), terms), case, (track,)), np.random.default_rng(0)
+        problem_of(System(registry.make("model", machine.model), terms), case, (observation,)), np.random.default_rng(0)
     )
     slopes = slopes_of(nominal)
     fits = [fit_with(nominal, screen(nominal, slopes, key_of(term))) for term in terms]
@@ -150,8 +150,8 @@ def fitted(machine, track):
 def studied(machine, draws=3, seed=0):
     """Return what a study of one machine finds, as numbers; log Bayes factors in favour of the truth."""
     rng = np.random.default_rng(seed)
-    inputs, track = first(machine, rng)
-    truth, other = fitted(machine, track)
+    inputs, observation = first(machine, rng)
+    truth, other = fitted(machine, observation)
     start = time.perf_counter()
     proposal = propose(truth, other, rng=rng)
     taken = time.perf_counter() - start

@@ -239,9 +239,9 @@ def speed(args):
     """24,000 samples, two unknowns, all terms: the command from start to end."""
     rows = []
     for hidden in (3.0, 0.0):
-        track = track_for(Study(hidden, 900, 120))
+        observation = track_for(Study(hidden, 900, 120))
         with tempfile.TemporaryDirectory() as name:
-            columns = np.stack([track.time, track.inputs[:, 0], track.z], axis=1)
+            columns = np.stack([observation.time, observation.inputs[:, 0], observation.response], axis=1)
             np.savetxt(Path(name) / "recording.csv", columns, "%.12g", ",", header="time,force,position", comments="")
             seen, taken = command(CASE, Path(name))
         found = ", ".join(f["mechanism"] for f in seen["found"]) or "adequate"

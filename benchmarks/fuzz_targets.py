@@ -17,12 +17,12 @@ from fuzz_seeds import CASE, COLUMNS, TABLES, N
 from lostmotion.case import Channel, RecordingSpec, dump_case, load_case
 from lostmotion.errors import LostMotionError
 from lostmotion.inference.setup import known_of
+from lostmotion.likelihood.system import System
 from lostmotion.recording import load, load_recording
 from lostmotion.recording.formats import columns_of
 from lostmotion.registry import Registry, default
 from lostmotion.stages import _keep
 from lostmotion.study import store
-from lostmotion.system import System
 from lostmotion.workflow import source
 from lostmotion.workflow.prepare import prepare
 from lostmotion.workflow.source import Wanted, source_of

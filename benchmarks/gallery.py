@@ -18,9 +18,9 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from lostmotion.contracts import Assembly
-from lostmotion.forcing import Drive
+from lostmotion.likelihood.drive import Drive
+from lostmotion.likelihood.system import System
 from lostmotion.registry import Registry, default
-from lostmotion.system import System
 from lostmotion.workflow.diagnose import run_diagnosis
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -83,14 +83,14 @@ def arrow(content: Mapping[str, Any], data: Path, registry: Registry) -> dict[st
     table = np.load(data / "silverbox" / "SNLS80mV.npz")
     u, y = (table[k].ravel()[ARROW] for k in ("V1", "V2"))
     grid = np.arange(len(u)) / RATE
-    drive = Drive.smooth([CubicSpline(grid, u)], 1.0 / RATE, 8, len(u))
+    drive = Drive.smooth([CubicSpline(grid, u)], 1.0 / RATE, len(u))
     errors = {}
     for when, terms in (("before", ()), ("after", tuple(f for f in content["found"] if f.get("at") == "ground"))):
         model = registry.make("model", "linear_oscillator")
         system = System.of(Assembly(model, tuple(registry.make("term", f["mechanism"]) for f in terms)))
         known = {s.key for s in system.slots}
         values = {k: v["median"] for k, v in content["parameters"][when].items() if k in known}
-        run = system.simulate(system.vector(values), system.everything, np.array([y[0], 0.0]), drive)
+        run = system.simulate(system.vector(values), system.everything, np.array([y[0], 0.0]), drive, 8)
         errors[when] = float(np.sqrt(np.mean((run.states[SETTLING:, 0] - y[SETTLING:]) ** 2)))
     return errors
 

@@ -22,13 +22,13 @@ from typing import Any
 import numpy as np
 
 from lostmotion.inference.fit import Fit, maximise
-from lostmotion.inference.problem import RANDOM, Problem
 from lostmotion.inference.setup import modes, polished, problem_of, stepped
-from lostmotion.inference.tracks import Track
+from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.problem import RANDOM, Problem
+from lostmotion.likelihood.reference import Reference
+from lostmotion.likelihood.system import System
 from lostmotion.stages.identify import Identification, Plan, identify, task_of
-from lostmotion.system import System
 from studies import TRUE, case_of, system_of
-from yardstick_identification import plain_log_likelihood
 
 from cramer_rao import bounds  # isort: skip - beside the tests, as `studies` has made known
 from independent import Machine, Recording, recording  # isort: skip
@@ -41,16 +41,18 @@ WIDTH, MOST = 8.0, 60_000
 """Other samplers look so many deviations about the maximum, and compute the likelihood so often at most."""
 
 
-def measured(machine: Machine, periods: int, seed: int, excitation: float) -> tuple[Recording, Track]:
-    """Return a recording and its track, the force measured with noise of `excitation` times its amplitude."""
+def measured(machine: Machine, periods: int, seed: int, excitation: float) -> tuple[Recording, Observation]:
+    """Return a recording and its observation, the force measured with noise of `excitation` times its amplitude."""
     seen = recording(machine, periods=periods, noise=NOISE_SHARE, seed=seed)
     noise = excitation * machine.amplitude * np.random.default_rng([seed, 1]).standard_normal(len(seen.force))
-    return seen, Track("recording", seen.position, (seen.force + noise)[:, None], float(seen.time[1]), "position")
+    return seen, Observation.of(
+        "recording", seen.position, (seen.force + noise)[:, None], float(seen.time[1]), "position"
+    )
 
 
-def posed(track: Track, jobs: int = 2) -> Problem:
+def posed(observation: Observation, jobs: int = 2) -> Problem:
     """Return the problem of c, x0 and both noise levels, started at the truth."""
-    problem = problem_of(System(system_of().model, ()), case_of(("c", "x0")), (track,), jobs=jobs)
+    problem = problem_of(System(system_of().model, ()), case_of(("c", "x0")), (observation,), jobs=jobs)
     start = {"c": math.log(TRUE["c"]), "x0": math.log(TRUE["x0"])}
     frees = tuple(replace(f, start=start.get(f.key, f.start)) for f in problem.free)
     return replace(problem, free=frees)
@@ -74,13 +76,13 @@ def sharpness(draws: float) -> None:
 
 
 def _sharp(machine: Machine, excitation: float, draws: float) -> str:
-    seen, track = measured(machine, PERIODS, 1, excitation)
-    fit = fitted(posed(track))
+    seen, observation = measured(machine, PERIODS, 1, excitation)
+    fit = fitted(posed(observation))
     found = identify(task_of([fit]), rng=np.random.default_rng(0), plan=Plan(ess=draws))
     logs = np.log(found.draws[:, :2])
     sd, sigma = logs.std(axis=0), NOISE_SHARE * float(seen.states[:, 0].std())
     pieces = PIECES * PER_PERIOD if machine.amplitude == LEVELS["chaotic"] and not excitation else None
-    least = bounds(machine, seen, sigma, (excitation * machine.amplitude) ** 2 * track.dt, window=pieces)
+    least = bounds(machine, seen, sigma, (excitation * machine.amplitude) ** 2 * observation.dt, window=pieces)
     at_least = bounds(machine, seen, sigma, math.exp(fit.problem.free[fit.problem.keys.index(RANDOM)].low))
     missed = (logs.mean(axis=0) - np.log([TRUE["c"], TRUE["x0"]])) / sd
     told = f"{_pair(1e6 * sd)}{_pair(1e6 * least)}{_pair(sd / least)}  misses by {missed[0]:+.1f} {missed[1]:+.1f} sd"
@@ -96,8 +98,8 @@ def _pair(values: Any) -> str:
 def speed(samples: int) -> None:
     """Print likelihood runs and effective draws a second, and what a plain NumPy filter would do of both."""
     begin = time.perf_counter()
-    _, track = measured(Machine(), round(samples / PER_PERIOD), 1, 1e-3)
-    problem = posed(track)
+    _, observation = measured(Machine(), round(samples / PER_PERIOD), 1, 1e-3)
+    problem = posed(observation)
     problem.innovations(problem.start)
     begin = time.perf_counter()
     fits = polished(modes(problem, np.random.default_rng(0)))
@@ -105,9 +107,11 @@ def speed(samples: int) -> None:
     problem = fits[0].problem
     theta = fits[0].theta
     alone, both = runs_a_second(replace(problem, jobs=1), theta), runs_a_second(problem, theta)
-    print(f"{track.samples} samples, {len(theta)} unknowns, {problem.nsub} steps at most between samples")
+    print(f"{observation.samples} samples, {len(theta)} unknowns, {problem.nsub} steps at most between samples")
     print(f"search and fits of {len(fits)} mode(s)            {searched:10.1f} s")
-    print(f"likelihood runs a second, one core      {alone:10.1f}   {1e9 / alone / track.samples:.0f} ns a sample")
+    print(
+        f"likelihood runs a second, one core      {alone:10.1f}   {1e9 / alone / observation.samples:.0f} ns a sample"
+    )
     print(f"likelihood runs a second, two cores     {both:10.1f}")
     plain, apart = against_plain(problem, theta)
     print(f"the same by plain NumPy, one core       {plain:10.4f}   (log-likelihood apart by {apart:.1e})")
@@ -138,11 +142,11 @@ def against_plain(problem: Problem, theta: Any, samples: int = 2000) -> tuple[fl
 
     The second is relative to the log-likelihood of that beginning.
     """
-    part = problem.on((problem.tracks[0].part(0, samples),))
+    part = problem.on((problem.observations[0].part(0, samples),))
     ours = part.innovations(theta).log_likelihood
     begin = time.perf_counter()
-    plain = plain_log_likelihood(part, theta)
-    taken = (time.perf_counter() - begin) * problem.tracks[0].samples / samples
+    plain = replace(part, engine=Reference()).innovations(theta).log_likelihood
+    taken = (time.perf_counter() - begin) * problem.observations[0].samples / samples
     return 1.0 / taken, abs(plain - ours) / abs(ours)
 
 
@@ -175,8 +179,8 @@ class Counted:
 
 def peers(samples: int, only: str) -> None:
     """Print effective draws a run and a second of our sampler and of others, on one posterior about one maximum."""
-    _, track = measured(Machine(), round(samples / PER_PERIOD), 1, 1e-3)
-    fits = polished([fitted(posed(track))])
+    _, observation = measured(Machine(), round(samples / PER_PERIOD), 1, 1e-3)
+    fits = polished([fitted(posed(observation))])
     truth: Any = None
     print(f"{'':<34}{'runs':>9}{'s':>9}{'effective':>11}{'a run':>9}{'a second':>10}   mean of log x0, deviation")
     for name, call in _samplers(fits):

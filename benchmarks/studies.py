@@ -18,7 +18,7 @@ import numpy as np
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "tests" / "science"))
 
-from truths import FORCE, FRICTION, TRUE, case_of, system_of, track_of  # noqa: E402 - they lie beside the tests
+from truths import FORCE, FRICTION, TRUE, case_of, observation_of, system_of  # noqa: E402 - they lie beside the tests
 
 __all__ = ["FORCE", "FRICTION", "ROOT", "TRUE", "Study", "command", "rms", "several", "track_for", "z_scores"]
 
@@ -41,17 +41,17 @@ class Study:
 
 def track_for(study):
     """Return the recording of a study."""
-    return track_of(study.hidden, seed=study.seed, periods=study.periods, noise=study.noise)[0]
+    return observation_of(study.hidden, seed=study.seed, periods=study.periods, noise=study.noise)[0]
 
 
 def run(study):
     """Return what a diagnosis says of a study, as numbers and names."""
     from lostmotion.stages.diagnose import diagnose
 
-    track, start = track_for(study), time.perf_counter()
-    d = diagnose(case_of(study.unknown), [track], system_of(), rng=np.random.default_rng(0), jobs=1)
+    observation, start = track_for(study), time.perf_counter()
+    d = diagnose(case_of(study.unknown), [observation], system_of(), rng=np.random.default_rng(0), jobs=1)
     taken = time.perf_counter() - start
-    more = predictions(d, track, study.hidden) if study.predict else {}
+    more = predictions(d, observation, study.hidden) if study.predict else {}
     return {**asdict(study), "seconds": taken, **findings(d), **more}
 
 
@@ -85,13 +85,13 @@ def findings(d):
     }
 
 
-def predictions(d, track, hidden):
+def predictions(d, observation, hidden):
     """Return valid-prediction times on held-out starts, in Lyapunov times: before, after, and with the truth."""
     from lostmotion.stages.compare import exponent_of, horizon_for, pieces_of, predict
 
-    pieces = pieces_of([track], d.held)
+    pieces = pieces_of([observation], d.held)
     fits = {"before": d.before, "after": d.after, "truth": truth_of(d, hidden)}
-    exponents = {name: exponent_of(fit, [track]) for name, fit in fits.items()}
+    exponents = {name: exponent_of(fit, [observation]) for name, fit in fits.items()}
     horizon = horizon_for(d.after, pieces, exponents["after"])
     seen = {name: predict(fit, pieces, horizon, exponents[name]) for name, fit in fits.items()}
     return {
@@ -105,7 +105,7 @@ def predictions(d, track, hidden):
 
 def truth_of(d, hidden):
     """Return the fit with every parameter at its true value and the noise levels as they were found."""
-    from lostmotion.inference.problem import LEVELS
+    from lostmotion.likelihood.problem import LEVELS
 
     fit, system = d.after, d.after.problem.system
     kept = [i for i, key in enumerate(fit.problem.keys) if key in LEVELS]

@@ -2,16 +2,16 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from identification import Machine, fitted, measured, posed
+from lostmotion.likelihood.reference import Reference
 from yardstick import ratio_of
-from yardstick_identification import plain_log_likelihood
 
 LEAST = 500.0
 """Plain NumPy over ours on one core, whatever else the machine does; a quiet one has several thousand."""
-AS_LONG_AS, PART, OFTEN = 6_000, 500, 40
-"""A run takes a millisecond: many together outlast what interrupts them."""
+AS_LONG_AS, PART, POINTS = 6_000, 500, 16
 
 
 @pytest.fixture(scope="module")
@@ -20,21 +20,24 @@ def fit():
     return fitted(posed(measured(Machine(), AS_LONG_AS // 200, 1, 1e-3)[1]))
 
 
-def repeated(problem, theta):
-    """Run the likelihood many times."""
-    for _ in range(OFTEN):
-        problem.innovations(theta)
+def near(theta):
+    """Return points about `theta`, (POINTS, parameters)."""
+    return theta + 1e-6 * np.arange(POINTS)[:, None]
 
 
 def test_likelihood_outruns_plain_numpy_and_agrees_with_it(benchmark, fit):
     problem, theta = replace(fit.problem, jobs=1), fit.theta
-    part = problem.on((problem.tracks[0].part(0, PART),))
-    benchmark.pedantic(lambda: problem.innovations(theta).log_likelihood, rounds=9, warmup_rounds=1)
-    often = ratio_of(lambda: repeated(problem, theta), lambda: plain_log_likelihood(part, theta), rounds=12)
-    ratio = often / OFTEN
-    ours, plain = part.innovations(theta).log_likelihood, plain_log_likelihood(part, theta)
+    part = problem.on((problem.observations[0].part(0, PART),))
+
+    def plainly():
+        return replace(part, engine=Reference()).innovations(theta).log_likelihood
+
+    benchmark.pedantic(lambda: problem.log_likelihoods(near(theta)), rounds=9, warmup_rounds=1)
+    often = ratio_of(lambda: problem.log_likelihoods(near(theta)), plainly, rounds=12)
+    ratio = often / POINTS
+    ours, plain = part.innovations(theta).log_likelihood, plainly()
     faster = AS_LONG_AS / PART / ratio
-    benchmark.extra_info.update(ratio=ratio, samples_per_second=AS_LONG_AS / benchmark.stats.stats.min)
+    benchmark.extra_info.update(ratio=ratio, samples_per_second=POINTS * AS_LONG_AS / benchmark.stats.stats.min)
     print(f"\n{faster:.0f} times as fast as plain NumPy; apart: {abs(plain - ours) / abs(ours):.1e}")
     assert abs(plain - ours) < 1e-6 * abs(ours)
     assert faster > LEAST
@@ -44,7 +47,9 @@ def test_steps_where_the_force_is_straight_cost_little(benchmark, fit):
     """Eight times finer steps at a contact take less than three times as long: the rest of the way is one step."""
     problem, theta = replace(fit.problem, jobs=1), fit.theta
     finer = replace(problem, nsub=8 * problem.nsub)
-    benchmark.pedantic(lambda: finer.innovations(theta), rounds=9, warmup_rounds=1)
-    ratio = ratio_of(lambda: repeated(finer, theta), lambda: repeated(problem, theta), rounds=15)
+    benchmark.pedantic(lambda: finer.log_likelihoods(near(theta)), rounds=9, warmup_rounds=1)
+    ratio = ratio_of(
+        lambda: finer.log_likelihoods(near(theta)), lambda: problem.log_likelihoods(near(theta)), rounds=15
+    )
     benchmark.extra_info["ratio"] = ratio
     assert ratio < 3.0

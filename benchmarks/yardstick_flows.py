@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
 from lostmotion.flow import flow_of, stepped
-from lostmotion.system import System
+from lostmotion.likelihood.system import System
 from lostmotion_plugins.models.lin import LinBacklash
 from lostmotion_plugins.quantifiers.flows import LyapunovMax
 from yardstick import Case, clocked

@@ -8,11 +8,11 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 import numpy as np
 
-from lostmotion.inference.predict import filtered, free_run, observed
-from lostmotion.inference.problem import NOISE
 from lostmotion.inference.setup import problem_of, stepped
+from lostmotion.likelihood.predict import filtered, free_run, observed
+from lostmotion.likelihood.problem import NOISE
+from lostmotion.likelihood.system import System
 from lostmotion.registry import default
-from lostmotion.system import System
 from lostmotion.workflow.prepare import prepare
 from lostmotion.workflow.simulate import Plan, assembly_of, simulate
 
@@ -59,18 +59,21 @@ def measures():
         simulate(plan).save(Path(folder) / "recording.csv")
         (Path(folder) / "case.toml").write_text(CASE, encoding="utf-8")
         prepared = prepare(Path(folder) / "case.toml", registry)
-    problem = problem_of(System(prepared.model, ()), prepared.case, prepared.tracks)
+    problem = problem_of(System(prepared.model, ()), prepared.case, prepared.observations)
     problem = stepped(problem, problem.start)
-    track = prepared.tracks[0]
+    observation = prepared.observations[0]
     theta = problem.start.copy()
     gap, noise = problem.keys.index("x0"), problem.keys.index(NOISE)
-    theta[noise] = np.log(0.01 * np.std(track.z))
+    theta[noise] = np.log(0.01 * np.std(observation.response))
     free, likelihood = [], []
     for value in np.log(GAPS):
         theta[gap] = value
         begin = filtered(problem, theta).states[0]
-        states = free_run(problem, theta, begin, 0, track.samples)
-        free.append(np.sqrt(np.mean((observed(problem, theta, states) - track.z) ** 2)) / np.std(track.z))
+        states = free_run(problem, theta, begin, 0, observation.samples)
+        free.append(
+            np.sqrt(np.mean((observed(problem, theta, states) - observation.response) ** 2))
+            / np.std(observation.response)
+        )
         likelihood.append(problem.innovations(theta).log_likelihood)
     return np.array(free), np.array(likelihood)
 

@@ -1,4 +1,4 @@
-"""The six kinds of plugin, in one file: subclass one once, as a frozen dataclass.
+"""The seven kinds of plugin, in one file: subclass one once, as a frozen dataclass.
 
 `rhs`, `observe`, `force` and `rate` are plain scalar Python on NumPy arrays. The host compiles them with
 numba into one kernel, so they may use `math`, arithmetic, branches and other such functions, and nothing else;
@@ -11,7 +11,7 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from typing import Any, ClassVar, Generic, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar, Generic, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,12 +21,19 @@ from lostmotion.quantities import Dimension
 from lostmotion.results import Embedding, Estimate
 from lostmotion.subjects import Data, Flow, Orbit, Series
 
+if TYPE_CHECKING:
+    from lostmotion.likelihood.engine import Dynamics, Innovations, Points, Smoothed
+    from lostmotion.likelihood.observation import Observation
+
 __all__ = [
-    "KINDS", "PSEUDO_NEEDS", "Array", "Assembly", "Data", "Denoiser", "Drive", "Embedder", "Flow", "Group", "Interface",
-    "Model", "Orbit", "Param", "Quantifier", "Series", "Surrogate", "Term", "Values", "place_of",
+    "KINDS", "PSEUDO_NEEDS", "Array", "Assembly", "Data", "Denoiser", "Drive", "DriveTerm", "Embedder", "Engine",
+    "Flow", "Group", "Input", "Interface", "Model", "Orbit", "Param", "Quantifier", "SensorTerm", "Series",
+    "Surrogate", "Term", "Values", "place_of",
 ]  # fmt: skip
 
 Array = NDArray[np.float64]
+Input = Callable[[Array, int], Array]
+"""A recorded input: its value (order 0) or its first derivative (order 1) at times (s) of any shape."""
 Values = tuple[float, ...]
 """What a term is handed for its parameters and states: numbers to be indexed, nothing to be written."""
 Drive = tuple[float, float, float]
@@ -187,6 +194,71 @@ class Term(ABC):
         return True
 
 
+class DriveTerm(Term):
+    """Something between the recorded excitation and the one that acts: no force, but another input.
+
+    `true` returns what acts at the times `t` (s from the start of the recording), or its time derivative (`order` 1,
+    for a model that is driven by a base velocity), of the recorded input `u`; `p` is as for `Term.force`.
+    """
+
+    acts = "drive"
+
+    @staticmethod
+    def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
+        """Return no force."""
+        return 0.0
+
+    @staticmethod
+    @abstractmethod
+    def true(u: Input, t: Array, p: Values, order: int) -> Array:
+        """Return the input that acts at times `t`, as `t`, or its derivative."""
+
+
+class SensorTerm(Term):
+    """Something between the motion and its recording: no force.
+
+    The sensor shows `gain(p)` times what is there, `delay(p)` seconds late, `rounded` at the end. One that leaves marks
+    in the values themselves, as rounding does, says by `marks` what they tell; it is not fitted by likelihood.
+    """
+
+    acts = "sensor"
+
+    @staticmethod
+    def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
+        """Return no force."""
+        return 0.0
+
+    @staticmethod
+    def gain(p: Values) -> float:
+        """Return what the sensor shows of one unit."""
+        return 1.0
+
+    @staticmethod
+    def delay(p: Values) -> float:
+        """Return how late it shows it, in s."""
+        return 0.0
+
+    @staticmethod
+    def rounded(z: Array, p: Values) -> Array:
+        """Return the shown values (samples,) as they are stored."""
+        return z
+
+    @staticmethod
+    def marks(z: Array) -> tuple[Values, Values]:
+        """Return the parameters that the stored values (samples,) betray, with their errors; or nothing."""
+        return (), ()
+
+    @staticmethod
+    def scatter(p: Values) -> float:
+        """Return the standard deviation of the error that such marks bring with them."""
+        return 0.0
+
+    @property
+    def marked(self) -> bool:
+        """Whether the values themselves tell of this term, so that it is not fitted."""
+        return type(self).marks is not SensorTerm.marks
+
+
 @dataclass(frozen=True)
 class Assembly:
     """A model plus named terms: the one description that is simulated, fitted, diagnosed and drawn."""
@@ -289,6 +361,32 @@ class Denoiser(ABC):
         """Return the cleaned series (n,); `noise` is the estimated standard deviation of the noise in it, as x."""
 
 
+class Engine(ABC):
+    """Filters, smooths and simulates a model with its terms at many parameter points at once.
+
+    What comes out for a point depends on neither the other points nor their order. A point at which the computation
+    leaves all numbers is told by how many samples it `reached`, and never raises. Calls may come from several threads.
+    """
+
+    name: ClassVar[str]
+    paper: ClassVar[str]
+
+    @abstractmethod
+    def filter(self, dynamics: Dynamics, observation: Observation, points: Points) -> Innovations:
+        """Return one-step errors and their variances, (points, samples, sensors)."""
+
+    @abstractmethod
+    def smooth(self, dynamics: Dynamics, observation: Observation, points: Points) -> Smoothed:
+        """Return filtered and smoothed states of one point, and their covariances."""
+
+    @abstractmethod
+    def simulate(self, dynamics: Dynamics, points: Points, start: Array, steps: int) -> Array:
+        """Return the states (points, steps, n) of free runs from `start` (points, n), NaN where they leave all numbers.
+
+        Each begins at the sample `points.first`, (points,), of its drive.
+        """
+
+
 KINDS: Mapping[str, type[Any]] = {
     "model": Model,
     "term": Term,
@@ -296,4 +394,5 @@ KINDS: Mapping[str, type[Any]] = {
     "quantifier": Quantifier,
     "surrogate": Surrogate,
     "denoiser": Denoiser,
+    "engine": Engine,
 }

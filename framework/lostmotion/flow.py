@@ -25,9 +25,9 @@ from numpy.typing import NDArray
 
 from lostmotion.contracts import Array, Assembly, Flow, Model, Orbit
 from lostmotion.errors import ContractError
-from lostmotion.forcing import SILENT, Tone
-from lostmotion.kernels.compose import build_march
-from lostmotion.system import System
+from lostmotion.likelihood.drive import SILENT, Tone
+from lostmotion.likelihood.stroboscopic import stroboscopic_map
+from lostmotion.likelihood.system import System
 
 ACCURACY = 0.04
 """Step times fastest rate: 157 steps a cycle. Halving it moves the exponents of a smooth flow by less than 1e-5."""
@@ -202,7 +202,7 @@ class Stepped:
 
     @cached_property
     def _kernel(self) -> Callable[..., int]:
-        return build_march(self.system._plan(len(self.start), False), self.compiled)
+        return stroboscopic_map(self.system.blueprint, len(self.start), self.compiled)
 
     def _every(self, steps: int) -> int:
         """Return the steps between two orthonormalisations: about the time in which the fastest rate acts."""
@@ -224,9 +224,13 @@ class Stepped:
 
     def _packed(self, h: float) -> tuple[Array, Array]:
         """Return the parameters of model and terms, the mobility being that of `LINE` steps."""
-        base, own = self.system.pack(self.full, h, self._tone)
+        packed = self.system.pack(self.full[None], h, self._tone)[0]
+        base, own = np.split(
+            packed[: self.system.blueprint.rows.pace - self.system.blueprint.rows.params],
+            [len(self.system.model.params)],
+        )
         own[self._steep] *= LINE
-        return base, own
+        return np.ascontiguousarray(base), np.ascontiguousarray(own)
 
     @cached_property
     def _steep(self) -> NDArray[np.bool_]:

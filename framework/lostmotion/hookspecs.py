@@ -47,3 +47,9 @@ def lostmotion_surrogates() -> Mapping[str, str]:
 def lostmotion_denoisers() -> Mapping[str, str]:
     """Return `{"name": "package.module:Class"}` for each `Denoiser`."""
     raise NotImplementedError
+
+
+@hookspec
+def lostmotion_engines() -> Mapping[str, str]:
+    """Return `{"name": "package.module:Class"}` for each `Engine`."""
+    raise NotImplementedError

@@ -103,3 +103,10 @@ def lostmotion_denoisers() -> dict[str, str]:
         "local_projective": f"{at}.projective:LocalProjective",
         "simple_nonlinear": f"{at}.simple:SimpleNonlinear",
     }
+
+
+@hookimpl
+def lostmotion_engines() -> dict[str, str]:
+    """Return the built-in engines, which are parts of the framework itself."""
+    at = "lostmotion.likelihood"
+    return {"lanes": f"{at}.lanes:Lanes", "reference": f"{at}.reference:Reference"}

@@ -8,7 +8,7 @@ import pytest
 
 from lostmotion.inference.evidence import checked
 from lostmotion.inference.fit import Fit, Local
-from lostmotion.inference.free import Free
+from lostmotion.likelihood.space import Free
 
 
 @dataclass(frozen=True)
@@ -24,6 +24,9 @@ class Toy:
 
     def log_likelihoods(self, points):
         return -0.5 * np.sum(((points - self.middle) / self.sd) ** 2, axis=1)
+
+    def log_posteriors(self, points):
+        return self.log_likelihoods(points) + np.array([self.log_prior(point) for point in points])
 
 
 def fit_of(middle, sd, low, high):

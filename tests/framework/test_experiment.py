@@ -11,10 +11,10 @@ import pytest
 
 from lostmotion.case import Experiment, load_case
 from lostmotion.errors import CaseError
-from lostmotion.forcing import Tone
-from lostmotion.inference.free import FADE, SLOW, Free
 from lostmotion.inference.selection import Selection, Visit
-from lostmotion.inference.tracks import Track
+from lostmotion.likelihood.drive import Tone
+from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.space import FADE, SLOW, Free
 from lostmotion.stages._excitations import Limits, candidates_for, usual_limits
 from lostmotion.stages._rehearsal import Asked, Model, _slow, evidence, simulated
 from lostmotion.stages.experiment import Proposal, _counted, natural_of, news, propose
@@ -38,8 +38,8 @@ def springs(bench):
     """The machine with a cubic spring, its recording, and the fits with the true and with the other term."""
     machine = next(m for m in bench.MACHINES if m.truth == "cubic_stiffness")
     rng = np.random.default_rng(0)
-    inputs, track = bench.first(machine, rng)
-    return machine, inputs, bench.fitted(machine, track)
+    inputs, observation = bench.first(machine, rng)
+    return machine, inputs, bench.fitted(machine, observation)
 
 
 def sine(base=False):
@@ -47,14 +47,14 @@ def sine(base=False):
     omega = 2 * math.pi * FREQUENCY
     value, slope = LEVEL * np.sin(omega * t), LEVEL * omega * np.cos(omega * t)
     inputs = np.stack([value, slope], axis=1) if base else value[:, None]
-    return Track("old", np.sin(omega * t), inputs, 1 / RATE, "position", tone=Tone(omega, LEVEL))
+    return Observation.of("old", np.sin(omega * t), inputs, 1 / RATE, "position", tone=Tone(omega, LEVEL))
 
 
 @pytest.mark.parametrize("base", [False, True])
 def test_offers_stay_within_the_limits(base):
-    track = sine(base)
+    observation = sine(base)
     limits = Limits(1.2 * LEVEL, 1.5 * FREQUENCY)
-    offered = candidates_for(track, 800, limits, np.random.default_rng(0))
+    offered = candidates_for(observation, 800, limits, np.random.default_rng(0))
     assert max(e.level for e in offered) == pytest.approx(1.2 * LEVEL)
     assert max(e.band[1] for e in offered) == pytest.approx(1.5 * FREQUENCY)
     assert {e.waveform for e in offered} == {"harmonic", "two tones", "slow sweep", "random-phase multisine"}
@@ -62,8 +62,8 @@ def test_offers_stay_within_the_limits(base):
 
 
 def test_an_offer_has_the_level_that_it_states_and_is_no_repeat():
-    track = sine()
-    for e in candidates_for(track, 2000, usual_limits(track, FREQUENCY), np.random.default_rng(0)):
+    observation = sine()
+    for e in candidates_for(observation, 2000, usual_limits(observation, FREQUENCY), np.random.default_rng(0)):
         assert math.sqrt(2) * np.std(e.inputs[:, 0]) == pytest.approx(e.level, rel=0.1)
         if e.waveform == "harmonic":
             assert abs(e.level / LEVEL - 1) > 0.05 or abs(e.band[0] / FREQUENCY - 1) > 0.05
@@ -85,9 +85,9 @@ def test_a_truth_counts_only_where_it_can_show_itself():
 
 def test_a_louder_drive_is_taken_to_be_noisier(springs):
     *_, (truth, _) = springs
-    track = truth.problem.tracks[0]
+    observation = truth.problem.observations[0]
     model = Model.of(truth)
-    offered = candidates_for(track, 400, usual_limits(track, FREQUENCY), np.random.default_rng(0))
+    offered = candidates_for(observation, 400, usual_limits(observation, FREQUENCY), np.random.default_rng(0))
     loud = max(offered, key=lambda e: e.level)
     i = truth.problem.keys.index("log_random_force")
     assert model.at(loud)[i] - truth.theta[i] == pytest.approx(2 * math.log(2), rel=0.01)
@@ -97,10 +97,12 @@ def test_a_louder_drive_is_taken_to_be_noisier(springs):
 def test_a_model_believes_what_it_has_made(springs):
     """A recording made by either model speaks for it: with a gain of 50 to be expected, no chance."""
     *_, fits = springs
-    track = fits[0].problem.tracks[0]
+    observation = fits[0].problem.observations[0]
     models = [Model.of(fit) for fit in fits]
-    offered = candidates_for(track, track.samples, usual_limits(track, FREQUENCY), np.random.default_rng(0))
-    loud = next(e for e in offered if e.level > 1.9 * track.travel and e.waveform == "harmonic")
+    offered = candidates_for(
+        observation, observation.samples, usual_limits(observation, FREQUENCY), np.random.default_rng(0)
+    )
+    loud = next(e for e in offered if e.level > 1.9 * observation.travel and e.waveform == "harmonic")
     for truth, other in (models, models[::-1]):
         z = simulated(truth, loud, np.random.default_rng(1))
         asked = Asked(1.0, 4)
@@ -111,8 +113,8 @@ def test_simulated_noise_has_the_memory_that_was_found(springs):
     """The slow part of the noise fades as it was estimated: 20000 samples know its correlation to 0.01."""
     *_, (truth, _) = springs
     slow = tuple(Free(key, "1", value, -30.0, 30.0) for key, value in ((SLOW, 0.0), (FADE, math.log(0.02))))
-    track = replace(sine(), z=np.zeros(20000), inputs=np.zeros((20000, 1)))
-    problem = replace(truth.problem, tracks=(track,), free=(*truth.problem.free, *slow))
+    observation = replace(sine(), readings=np.zeros((20000, 1)), inputs=np.zeros((20000, 1)))
+    problem = replace(truth.problem, observations=(observation,), free=(*truth.problem.free, *slow))
     noise = _slow(problem, problem.start, np.random.default_rng(0))
     assert noise.std() == pytest.approx(1.0, abs=0.05)
     assert np.corrcoef(noise[1:], noise[:-1])[0, 1] == pytest.approx(math.exp(-1 / RATE / 0.02), abs=0.02)
@@ -121,8 +123,8 @@ def test_simulated_noise_has_the_memory_that_was_found(springs):
 
 def test_a_machine_that_runs_away_is_not_proposed(springs):
     *_, (truth, _) = springs
-    track = truth.problem.tracks[0]
-    offered = candidates_for(track, 400, usual_limits(track, FREQUENCY), np.random.default_rng(0))
+    observation = truth.problem.observations[0]
+    offered = candidates_for(observation, 400, usual_limits(observation, FREQUENCY), np.random.default_rng(0))
     mad = replace(offered[0], inputs=1e12 * offered[0].inputs)
     assert simulated(Model.of(truth), mad, np.random.default_rng(0)) is None
 
@@ -203,8 +205,8 @@ def diagnosed(springs):
 
 def test_a_rival_is_named_with_the_experiment_that_decides(diagnosed):
     assert list(rivals.rivals_of(diagnosed)) == ["linear_stiffness"]
-    track = diagnosed.selection.chosen.problem.tracks[0]
-    offered = candidates_for(track, 100, usual_limits(track, FREQUENCY), np.random.default_rng(0))
+    observation = diagnosed.selection.chosen.problem.observations[0]
+    offered = candidates_for(observation, 100, usual_limits(observation, FREQUENCY), np.random.default_rng(0))
     proposals = {"linear_stiffness": Proposal(max(offered, key=lambda e: e.level), (40.0, 50.0), (4.0, 6.0), (0, 1))}
     rows = [{"mechanism": "linear_stiffness", "at": "ground"}, {"mechanism": "sensor_delay", "at": ""}]
     first, second = rivals.confused_with(diagnosed, rows, proposals)
@@ -216,8 +218,8 @@ def test_a_rival_is_named_with_the_experiment_that_decides(diagnosed):
 
 
 def test_without_an_experiment_that_decides_it_says_so(diagnosed):
-    track = diagnosed.selection.chosen.problem.tracks[0]
-    offered = candidates_for(track, 100, usual_limits(track, FREQUENCY), np.random.default_rng(0))
+    observation = diagnosed.selection.chosen.problem.observations[0]
+    offered = candidates_for(observation, 100, usual_limits(observation, FREQUENCY), np.random.default_rng(0))
     proposals = {"linear_stiffness": Proposal(offered[0], (1.0, 0.5), (0.0, 0.0), (0, 1))}
     says = rivals.confused_with(diagnosed, [], proposals)[0]["says"]
     assert "No excitation within the limits" in says

@@ -8,9 +8,9 @@ import pytest
 
 from lostmotion.errors import ContractError, DataError
 from lostmotion.flow import FEWEST, Harmonic, flow_of, stepped
+from lostmotion.likelihood.system import System
 from lostmotion.rates import UNITS, exponent_in
 from lostmotion.results import Estimate
-from lostmotion.system import System
 from lostmotion_plugins.models.basic import LinearOscillator
 from lostmotion_plugins.models.joint import RobotJoint
 from lostmotion_plugins.quantifiers.flows import KaplanYorke, LyapunovMax, LyapunovSpectrum

@@ -10,7 +10,7 @@ import pytest
 from lostmotion.case import Case, Prior
 from lostmotion.case.levels import Level, Measured
 from lostmotion.errors import CaseError, DataError
-from lostmotion.inference.free import Free
+from lostmotion.likelihood.space import Free
 from lostmotion.registry import default
 from lostmotion.study.atlas import CHAOTIC, PERIODIC, Atlas
 from lostmotion.study.inversion import WEAK, Inversion, grouped, likelihood_of, predicted

@@ -13,10 +13,11 @@ from lostmotion import registry
 from lostmotion.cli import main
 from lostmotion.contracts import Series
 from lostmotion.errors import ContractError, PluginWarning
-from lostmotion.inference.tracks import Track
+from lostmotion.likelihood.motion import derivatives
+from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.system import System
 from lostmotion.registry import Registry
 from lostmotion.results import Embedding
-from lostmotion.system import System
 from lostmotion.workflow import analyse, diagnose
 from lostmotion.workflow.motion import Beat
 from lostmotion.workflow.prepare import Prepared
@@ -151,17 +152,16 @@ def late(t, x, v, u, p, s):
 
 def test_the_term_that_raises_along_the_recording_is_found():
     guest, at_fault = guests.Drag(), guests.spoiled(guests.Drag, "guest_late", force=staticmethod(late))()
-    track = Track("run", np.sin(np.arange(200) * 0.1), np.zeros(200), 0.01, "position")
-    assert raising([guest, at_fault], [track]) == {"guest_late"}
-    assert raising([guest, at_fault], [track.part(0, 40)]) == set()
+    observation = Observation.of("run", np.sin(np.arange(200) * 0.1), np.zeros(200), 0.01, "position")
+    assert raising([guest, at_fault], [observation]) == {"guest_late"}
+    assert raising([guest, at_fault], [observation.part(0, 40)]) == set()
 
 
 def test_what_a_term_raises_while_it_runs_becomes_a_sentence():
     system = System(guests.Cart(), (guests.spoiled(guests.Drag, "guest_late", force=staticmethod(late))(),))
-    derivative = system.kernel(system.everything, compiled=False).derivative
-    base, own = system.pack(system.vector({"m": 1.0, "guest_late.size": 1.0}), 0.01)
+    full, time = system.vector({"m": 1.0, "guest_late.size": 1.0}), np.ones(1)
     with pytest.raises(ContractError, match=r"a model or term raised ValueError \(too late\)"):
-        derivative(1.0, np.ones(2), np.ones(1), base, own, *system.wiring(system.everything), 0.0, np.zeros(2))
+        derivatives(system, system.everything, system.pack(full[None], 0.01), np.ones((1, 2)), np.ones((1, 1)), time)
 
 
 @dataclass(frozen=True)
@@ -179,7 +179,7 @@ def test_a_diagnosis_begins_anew_without_the_term_that_broke_down(known, monkeyp
     prepared = Prepared(Nothing(), (), (), guests.Cart(), (ours, guests.Drag(), more()))
     tried = []
 
-    def fails_at_first(case, tracks, system, *, rng, jobs, say):
+    def fails_at_first(case, observations, system, *, rng, jobs, say):
         tried.append((system.keys, float(rng.random())))
         if len(tried) == 1:
             raise ContractError("the force is not a finite number along the recorded motion", plugin)

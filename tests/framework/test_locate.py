@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
-from lostmotion.inference.latent import Missing
 from lostmotion.inference.locate import covariates, further, summary
 from lostmotion.inference.shares import Covariate, phase_randomised, shares_of, significant
-from lostmotion.inference.tracks import Track
+from lostmotion.likelihood.latent import Missing
+from lostmotion.likelihood.observation import Observation
 from lostmotion.registry import default
 
 SAMPLES, PERIOD, DT = 3000, 100, 1e-3
@@ -29,10 +29,12 @@ def smoothed_noise(rng, memory=0.9):
 def asked(x, v):
     """Return what a diagnosis asks of a force along a motion in a gap of 5 mm."""
     model = default().make("model", "lin_backlash")
-    track = Track("seen", x, np.cos(2.0 * np.pi * np.arange(SAMPLES) / PERIOD)[:, None], DT, "position")
+    observation = Observation.of("seen", x, np.cos(2.0 * np.pi * np.arange(SAMPLES) / PERIOD)[:, None], DT, "position")
     missing = Missing(np.zeros(SAMPLES), np.zeros(SAMPLES), np.stack([x, v], axis=1), 0.0, 0.0, 0.0)
-    table = covariates(model, track, missing)
-    return table, {k: Covariate((c,)) for k, c in table.items()} | further(model, track, missing, {"ground": 0.005})
+    table = covariates(model, observation, missing)
+    return table, {k: Covariate((c,)) for k, c in table.items()} | further(
+        model, observation, missing, {"ground": 0.005}
+    )
 
 
 def located(force, rng):

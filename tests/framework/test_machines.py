@@ -4,9 +4,8 @@ import numpy as np
 import pytest
 
 from lostmotion.errors import CaseError
-from lostmotion.forcing import Drive
+from lostmotion.likelihood.system import Clock, System
 from lostmotion.registry import default
-from lostmotion.system import System
 from lostmotion.workflow import machines
 from lostmotion.workflow.drives import signal_of
 from lostmotion.workflow.machines import Bench, recorded
@@ -39,7 +38,7 @@ def test_leapfrog_goes_with_the_model(name):
     inputs = [known[name] for name in system.model.inputs]
     begin = [float(f(np.zeros(1))[0]) for f in (drive.value, drive.slope)] if model == "robot_joint" else [0.0, 0.0]
     y0 = np.array([begin[0] + 0.5 * values["x0"], begin[1] + 0.3 * values["x0"] * (values["k0"] / values["m"]) ** 0.5])
-    other = system.simulate(full, system.everything, y0, Drive.smooth(inputs, 1.0 / rate, 400, samples)).states[:, 0]
+    other = system.moved(full, y0, inputs, Clock(1.0 / rate, 400, samples)).states[:, 0]
     assert np.abs(moved - other).max() < close * other.std()
 
 

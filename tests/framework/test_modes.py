@@ -13,17 +13,17 @@ from scipy.linalg import expm
 
 from lostmotion.case import Case, Prior, Sensor
 from lostmotion.inference.modes import Tried, distinct, one_hill
-from lostmotion.inference.problem import Free
 from lostmotion.inference.setup import WITHIN, modes, polished, problem_of, search
-from lostmotion.inference.tracks import Track
+from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.problem import Free
+from lostmotion.likelihood.system import System
 from lostmotion.registry import default
-from lostmotion.system import System
 
 DT, TRUE, FOLDED = 0.05, 7.0, 13.0
 """A ring of 7 Hz that is sampled at 20 Hz looks like one of 13 Hz: all but the faint push that is recorded with it."""
 
 
-def ring(*, push: float, seed: int, samples: int) -> Track:
+def ring(*, push: float, seed: int, samples: int) -> Observation:
     """Return a decaying oscillation, solved by the matrix exponential, with 10 % noise and a faint held push."""
     rng = np.random.default_rng(seed)
     omega = 2.0 * math.pi * TRUE
@@ -34,13 +34,13 @@ def ring(*, push: float, seed: int, samples: int) -> Track:
         seen[i] = y[0]
         y = (step @ np.append(y, u[i]))[:2]
     seen += 0.1 * seen.std() * rng.standard_normal(samples)
-    return Track("ring", seen, u[:, None], DT, "position", held=True)
+    return Observation.of("ring", seen, u[:, None], DT, "position", held=True)
 
 
-def problem_for(*tracks: Track):
+def problem_for(*observations: Observation):
     priors = {"c": Prior(0.1, 10.0, "log"), "k": Prior(500.0, 1e4, "log")}
     case = Case("ring", Path(), (), "linear_oscillator", {"m": 1.0}, priors, {}, (), "")
-    return problem_of(System(default().make("model", "linear_oscillator"), ()), case, tracks)
+    return problem_of(System(default().make("model", "linear_oscillator"), ()), case, observations)
 
 
 def hertz(fit) -> float:
@@ -84,6 +84,9 @@ class Hills:
         x = np.asarray(points)[:, 0]
         smooth = np.logaddexp.reduce([-0.5 * (x - c) ** 2 for c in self.centres], axis=0)
         return smooth + self.ripple * np.cos(2.0 * math.pi * x)
+
+    def log_posteriors(self, points):
+        return self.log_likelihoods(points)
 
     def fit(self, at: float, sd: float = 1.0):
         """Return what `distinct` asks of a fit that stopped at a place."""
@@ -140,7 +143,7 @@ def test_a_rough_hill_is_one_mode() -> None:
     assert all(f[0].values["c"] == pytest.approx(8.0, rel=0.05) for f in found)
 
 
-def clatter() -> Track:
+def clatter() -> Observation:
     """Return a chaotic recording of a mass in a gap, integrated by velocity Verlet in twenty steps a sample."""
     rng = np.random.default_rng(0)
     dt, fine, samples = math.pi / 4000.0, 20, 2400
@@ -154,7 +157,7 @@ def clatter() -> Track:
             v += h * (0.5 * (u[j] + u[j + 1]) - 8.0 * v - pull)
             x += 0.5 * h * v
     seen += 0.01 * seen.std() * rng.standard_normal(samples)
-    return Track("clatter", seen, u[:-1:fine][:, None], dt, "position")
+    return Observation.of("clatter", seen, u[:-1:fine][:, None], dt, "position")
 
 
 def test_the_walk_to_a_mode_stays_within_its_bounds() -> None:
@@ -167,9 +170,11 @@ def test_the_walk_to_a_mode_stays_within_its_bounds() -> None:
 
 def test_hills_are_compared_with_the_noise_of_each_recording() -> None:
     """Both modes of a faint and of a loud ring, with levels of their own in one problem for both of them."""
-    tracks = tuple(replace(ring(push=0.02, seed=s, samples=60), name=n) for s, n in ((0, "faint"), (1, "loud")))
-    loud = replace(tracks[1], z=30.0 * tracks[1].z, inputs=30.0 * tracks[1].inputs)
-    both = modes(problem_for(tracks[0], loud), np.random.default_rng(0), sensor=Sensor(offset=Prior(mean=0.0, sd=0.01)))
+    observations = tuple(replace(ring(push=0.02, seed=s, samples=60), name=n) for s, n in ((0, "faint"), (1, "loud")))
+    loud = replace(observations[1], readings=30.0 * observations[1].readings, inputs=30.0 * observations[1].inputs)
+    both = modes(
+        problem_for(observations[0], loud), np.random.default_rng(0), sensor=Sensor(offset=Prior(mean=0.0, sd=0.01))
+    )
     assert sorted(hertz(f) for f in both) == pytest.approx([TRUE, FOLDED], rel=0.01)
     assert both[0].problem is both[1].problem
     assert {"offset[loud]", "log_noise[faint]", "log_random_force[loud]"} < set(both[0].problem.keys)

@@ -12,15 +12,16 @@ from scipy.linalg import expm
 
 from lostmotion.case import Case, Prior, Sensor
 from lostmotion.contracts import Param
-from lostmotion.inference.free import Free, Route, keys_of, parted
-from lostmotion.inference.noise import LEAST, own_levels
-from lostmotion.inference.predict import free_runs, observed
-from lostmotion.inference.problem import NOISE, OFFSET, RANDOM, Problem, Scales
 from lostmotion.inference.setup import beginnings, free_of, problem_of, search, separated
-from lostmotion.inference.tracks import Track
+from lostmotion.likelihood.lanes import Lanes
+from lostmotion.likelihood.levels import LEAST, own_levels
+from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.predict import free_runs, observed
+from lostmotion.likelihood.problem import NOISE, OFFSET, RANDOM, Problem, Scales
+from lostmotion.likelihood.space import Free, Route, keys_of, parted
+from lostmotion.likelihood.system import Slot, System
 from lostmotion.quantities import DAMPING
 from lostmotion.registry import default
-from lostmotion.system import Slot, System
 
 M, C, K, DT = 2.0, 3.0, 800.0, 0.01
 """A linear oscillator whose drive is held between the samples, so that the matrix exponential solves it exactly."""
@@ -31,7 +32,7 @@ SLIP = 0.02
 """The noise of the measured force, as a share of the drive."""
 
 
-def recorded(name: str, seed: int, *, samples: int = 3000, c: float = C, **how: float) -> Track:
+def recorded(name: str, seed: int, *, samples: int = 3000, c: float = C, **how: float) -> Observation:
     """Return a recording of the oscillator under a broad-band drive of which the measured force is noisy."""
     rng = np.random.default_rng(seed)
     how = {**QUIET, **how}
@@ -44,7 +45,7 @@ def recorded(name: str, seed: int, *, samples: int = 3000, c: float = C, **how: 
         y = (step @ np.append(y, u))[:2]
     seen += how["zero"] + how["noise"] * rng.standard_normal(samples)
     felt = push + SLIP * how["drive"] * rng.standard_normal(samples)
-    return Track(name, seen, felt[:, None], DT, "position", held=True)
+    return Observation.of(name, seen, felt[:, None], DT, "position", held=True)
 
 
 def case_of(estimate: dict[str, Prior]) -> Case:
@@ -52,9 +53,9 @@ def case_of(estimate: dict[str, Prior]) -> Case:
     return Case("study", Path(), (), "linear_oscillator", known, estimate, {}, (), "")
 
 
-def problem_for(*tracks: Track, **estimate: Prior) -> Problem:
+def problem_for(*observations: Observation, **estimate: Prior) -> Problem:
     system = System(default().make("model", "linear_oscillator"), ())
-    return problem_of(system, case_of(estimate or PRIORS), tracks)
+    return problem_of(system, case_of(estimate or PRIORS), observations)
 
 
 TWO = (recorded("low", 1, **QUIET), recorded("run 2.5 [high]", 2, **LOUD))
@@ -79,12 +80,12 @@ def test_each_recording_is_filtered_with_its_own_values(apart) -> None:
     """The joint likelihood is, bit by bit, that of two problems which know of one recording only. No chance."""
     problem, values = apart.problem, dict(zip(apart.problem.keys, apart.theta, strict=True))
     joint = problem.innovations(apart.theta)
-    for i, track in enumerate(problem.tracks):
-        own = [f for f in problem.free if f.recording in (None, track.name)]
-        single = replace(problem, tracks=(track,), free=tuple(replace(f, key=f.parameter) for f in own))
+    for i, observation in enumerate(problem.observations):
+        own = [f for f in problem.free if f.recording in (None, observation.name)]
+        single = replace(problem, observations=(observation,), free=tuple(replace(f, key=f.parameter) for f in own))
         theta = np.array([values[f.key] for f in own])
         seen = single.innovations(theta)
-        part = slice(0, track.samples) if i == 0 else slice(-track.samples, None)
+        part = slice(0, observation.samples) if i == 0 else slice(-observation.samples, None)
         assert np.array_equal(joint.errors[part], seen.errors)
         assert np.array_equal(joint.variances[part], seen.variances)
         assert problem.noise(apart.theta, i) == single.noise(theta)
@@ -93,16 +94,18 @@ def test_each_recording_is_filtered_with_its_own_values(apart) -> None:
 
 def test_differences_filter_only_what_has_moved(apart, monkeypatch) -> None:
     problem, theta = replace(apart.problem, jobs=1), apart.theta
-    points = [theta + 1e-3 * (np.arange(len(theta)) == i) for i in range(len(theta))]
-    slow = problem.many([theta, *points])
+    points = np.vstack([theta, theta + 1e-3 * np.eye(len(theta))])
     runs = []
-    monkeypatch.setattr(Problem, "_filter", lambda p, i, at, run=Problem._filter: (runs.append(i), run(p, i, at))[1])
-    fast = problem.around(theta, points)
-    assert all(np.array_equal(a.errors, b.errors) for a, b in zip(fast, slow, strict=True))
-    assert all(np.array_equal(a.variances, b.variances) for a, b in zip(fast, slow, strict=True))
+    plain = Lanes.filter
+    monkeypatch.setattr(Lanes, "filter", lambda e, d, o, at: (runs.append(len(at)), plain(e, d, o, at))[1])
+    together = problem.many(points)
     shared = sum(f.recording is None for f in problem.free)
     assert shared == 2
-    assert len(runs) == 2 + 2 * shared + (len(theta) - shared)
+    assert sum(runs) == 2 + 2 * shared + (len(theta) - shared)
+    for i, point in enumerate(points):
+        alone = problem.innovations(point)
+        assert np.array_equal(together[i].errors, alone.errors)
+        assert np.array_equal(together[i].variances, alone.variances)
 
 
 def test_levels_of_each_recording_are_found(apart) -> None:
@@ -132,12 +135,14 @@ def test_usual_random_force_is_in_proportion_to_each_drive(apart) -> None:
 
 
 def test_a_shift_of_the_response_is_a_shift_of_its_zero() -> None:
-    track = TWO[0]
-    problem = separated(search(problem_for(track), np.random.default_rng(0)), Sensor(offset=Prior(-1.0, 1.0))).problem
+    observation = TWO[0]
+    problem = separated(
+        search(problem_for(observation), np.random.default_rng(0)), Sensor(offset=Prior(-1.0, 1.0))
+    ).problem
     assert problem.keys == ("c", "k", OFFSET, RANDOM, NOISE)
     theta = problem.start
     moved = theta + 0.125 * (np.array(problem.keys) == OFFSET)
-    other = problem.on((replace(track, z=track.z + 0.125),))
+    other = problem.on((replace(observation, readings=observation.readings + 0.125),))
     assert other.innovations(moved).log_likelihood == pytest.approx(problem.innovations(theta).log_likelihood, abs=1e-3)
     assert other.innovations(theta).log_likelihood < problem.innovations(theta).log_likelihood - 100.0
 
@@ -159,9 +164,12 @@ def test_a_base_motion_sets_what_is_usual_by_its_own_amplitude() -> None:
     """Twice the motion of the base, and half the sampling interval: ln(4/2) more, whatever the parameters."""
     rng = np.random.default_rng(0)
     base = np.stack([rng.standard_normal(400), np.zeros(400)], axis=1)
-    tracks = (Track("a", base[:, 0], base, DT, "position"), Track("b", base[:, 0], 2.0 * base, DT / 2.0, "position"))
+    observations = (
+        Observation.of("a", base[:, 0], base, DT, "position"),
+        Observation.of("b", base[:, 0], 2.0 * base, DT / 2.0, "position"),
+    )
     system = System(default().make("model", "robot_joint"), ())
-    problem = Problem(system, tracks, Scales(1.0, 1.0, 1.0, usual=-3.0), system.vector({}), ())
+    problem = Problem(system, observations, Scales(1.0, 1.0, 1.0, usual=-3.0), system.vector({}), ())
     low, high = (f for f in own_levels(problem, -2.0) if f.parameter == RANDOM)
     assert (low.mean, low.start) == pytest.approx((-3.0, -2.0))
     assert (high.mean, high.start) == pytest.approx((-3.0 + math.log(2.0), -2.0 + math.log(2.0)))
@@ -169,8 +177,8 @@ def test_a_base_motion_sets_what_is_usual_by_its_own_amplitude() -> None:
 
 def test_a_prior_with_each_gives_every_recording_its_own_value() -> None:
     """Two dampings, 3 and 6 N s/m, each found within four standard deviations (one seeded pair; chance below 1e-3)."""
-    tracks = (recorded("a", 3), recorded("b", 4, c=2.0 * C))
-    problem = problem_for(*tracks, c=replace(PRIORS["c"], each=True), k=PRIORS["k"])
+    observations = (recorded("a", 3), recorded("b", 4, c=2.0 * C))
+    problem = problem_for(*observations, c=replace(PRIORS["c"], each=True), k=PRIORS["k"])
     assert problem.keys == ("c[a]", "c[b]", "k", RANDOM, NOISE)
     fit = search(problem, np.random.default_rng(0))
     for i, (key, truth) in enumerate({"c[a]": C, "c[b]": 2.0 * C}.items()):
@@ -180,7 +188,7 @@ def test_a_prior_with_each_gives_every_recording_its_own_value() -> None:
     other = problem.on((recorded("c", 5, samples=200),))
     middle = math.sqrt(fit.values["c[a]"] * fit.values["c[b]"])
     assert other.full(fit.theta)[problem.system.index["c"]] == pytest.approx(middle)
-    assert problem_for(tracks[0], c=replace(PRIORS["c"], each=True)).keys == ("c", RANDOM, NOISE)
+    assert problem_for(observations[0], c=replace(PRIORS["c"], each=True)).keys == ("c", RANDOM, NOISE)
 
 
 def test_a_route_that_is_nowhere_is_refused() -> None:
@@ -201,9 +209,9 @@ def test_predictions_use_what_the_recording_has_for_itself(apart) -> None:
 
 
 def test_the_beginnings_of_all_recordings_are_searched() -> None:
-    assert [t.samples for t in beginnings(problem_for(TWO[0])).tracks] == [3000]
+    assert [t.samples for t in beginnings(problem_for(TWO[0])).observations] == [3000]
     many = [recorded(str(i), i, samples=n) for i, n in enumerate((3000, 500, 3000, 3000))]
-    assert [t.samples for t in beginnings(problem_for(*many)).tracks] == [1500, 500, 1500, 1500]
+    assert [t.samples for t in beginnings(problem_for(*many)).observations] == [1500, 500, 1500, 1500]
 
 
 def test_log_likelihoods_are_those_of_single_points() -> None:

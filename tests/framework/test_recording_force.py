@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from lostmotion.errors import CaseError, DataError
-from lostmotion.inference.tracks import Track, seat, track_of
+from lostmotion.likelihood.observation import Observation, observation_of, static_equilibrium
 from lostmotion.recording import Channel, RecordingSpec, load_recording
 from lostmotion_plugins.models.basic import RigidDrive
 from lostmotion_plugins.models.slider import BacklashSlider
@@ -51,38 +51,38 @@ def test_samples_of_a_measured_force_may_be_lost_and_those_of_a_drive_may_not(tm
 @pytest.mark.parametrize(("quantity", "unit"), [("force", "N"), ("torque", "N m")])
 def test_force_and_torque_are_the_channel_force(tmp_path: Path, quantity: str, unit: str) -> None:
     spec = replace(SPEC, response=Channel("F", quantity, unit))
-    assert track_of(load_recording(spec, write(tmp_path)), MODEL).channel == "force"
+    assert observation_of(load_recording(spec, write(tmp_path)), MODEL).channel == "force"
 
 
 def test_a_model_that_shows_no_force_is_refused(tmp_path: Path) -> None:
     spec = replace(SPEC, excitation=Channel("x", "force", "N"))
     with pytest.raises(CaseError, match="rigid_drive shows position, velocity, acceleration, but the response of a is"):
-        track_of(load_recording(spec, write(tmp_path)), RigidDrive())
+        observation_of(load_recording(spec, write(tmp_path)), RigidDrive())
 
 
-def at_rest(force: float) -> Track:
+def at_rest(force: float) -> Observation:
     """A base that moves by 0.1 m and begins at 0.02 m; the force alternates by 0.001 N, which is taken for noise."""
     ripple = force + 1e-3 * (-1.0) ** np.arange(50)
     base = np.stack([0.02 + np.linspace(0.0, 0.1, 50), np.zeros(50)], axis=1)
-    return Track("a", ripple, base, 0.01, "force")
+    return Observation.of("a", ripple, base, 0.01, "force")
 
 
 @pytest.mark.parametrize("force", [5.0, -5.0])
 def test_in_contact_the_start_is_where_the_model_shows_the_force(force: float) -> None:
     """Contact: position = base - sign (force / k0 + x0), to within ten times the noise over k0."""
-    track = at_rest(force)
-    where, spread = seat(track, MODEL, VALUES)
+    observation = at_rest(force)
+    where, spread = static_equilibrium(observation, MODEL, VALUES)
     assert where == pytest.approx(0.02 - np.sign(force) * (abs(force) / 1000.0 + 0.01), abs=2e-6)
-    assert spread == pytest.approx(10.0 * track.noise / 1000.0, rel=1e-6)
+    assert spread == pytest.approx(10.0 * observation.noise / 1000.0, rel=1e-6)
 
 
 def test_inside_the_gap_all_of_it_is_possible() -> None:
-    track = replace(at_rest(0.0), z=np.append(0.0, at_rest(0.0).z[1:]))
-    where, spread = seat(track, MODEL, VALUES)
+    observation = replace(at_rest(0.0), readings=np.append(0.0, at_rest(0.0).response[1:])[:, None])
+    where, spread = static_equilibrium(observation, MODEL, VALUES)
     assert where == pytest.approx(0.02, abs=1e-6)
-    assert spread == pytest.approx(0.01 + 10.0 * track.noise / 1000.0, rel=1e-6)
+    assert spread == pytest.approx(0.01 + 10.0 * observation.noise / 1000.0, rel=1e-6)
 
 
 def test_a_force_that_the_model_cannot_show_leaves_the_start_open() -> None:
-    where, spread = seat(at_rest(1e9), MODEL, VALUES)
+    where, spread = static_equilibrium(at_rest(1e9), MODEL, VALUES)
     assert (where, spread) == (0.02, pytest.approx(0.1))

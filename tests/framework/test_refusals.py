@@ -14,13 +14,13 @@ from lostmotion.case import Case, Prior
 from lostmotion.contracts import Param, Term
 from lostmotion.errors import CaseError, ContractError, DataError
 from lostmotion.inference.candidates import Trial, _hint
-from lostmotion.inference.latent import Missing
 from lostmotion.inference.setup import known_of
-from lostmotion.inference.tracks import Track
+from lostmotion.likelihood.latent import Missing
+from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.system import System
 from lostmotion.quantities import FORCE
 from lostmotion.registry import default
 from lostmotion.stages.diagnose import candidates_of, locate
-from lostmotion.system import System
 from lostmotion.workflow.prepare import prepare
 
 KNOWN = {"m": 1.0, "c": 8.0, "k": 1e4}
@@ -115,8 +115,8 @@ class Lost:
 
 def test_a_term_without_a_finite_force_is_refused():
     """Where a filter ran away with a sound term, the term promises nothing, and is not blamed."""
-    track = Track("seen", np.sin(np.arange(40.0)), np.zeros((40, 1)), 0.1, "position")
-    fit = SimpleNamespace(problem=SimpleNamespace(system=oscillator(Rootless, Plain), tracks=(track,)))
+    observation = Observation.of("seen", np.sin(np.arange(40.0)), np.zeros((40, 1)), 0.1, "position")
+    fit = SimpleNamespace(problem=SimpleNamespace(system=oscillator(Rootless, Plain), observations=(observation,)))
     with pytest.raises(ContractError, match="force of rootless is not a finite number"):
         _hint(fit, Trial("rootless", (None,), {}), Lost())
     assert _hint(fit, Trial("plain", (None,), {}), Lost()).gain == 0.0
@@ -125,10 +125,10 @@ def test_a_term_without_a_finite_force_is_refused():
 @pytest.mark.parametrize("size", [1e200, np.nan])
 def test_a_filter_that_ran_away_is_no_diagnosis(size):
     system = oscillator()
-    track = Track("seen", np.zeros(4), np.zeros((4, 1)), 0.1, "position")
+    observation = Observation.of("seen", np.zeros(4), np.zeros((4, 1)), 0.1, "position")
     missing = Missing(np.full(4, size), np.zeros(4), np.zeros((4, 2)), 0.0, 0.0, 0.0)
     with pytest.raises(DataError, match=r"^seen: the model cannot follow this recording"):
-        locate(system.model, track, missing)
+        locate(system.model, observation, missing)
 
 
 @pytest.mark.parametrize("hold", ["step", "smooth"])
@@ -137,4 +137,4 @@ def test_an_excitation_that_is_held_is_taken_as_held(tmp_path, hold):
     rows = np.random.default_rng(0).normal(size=(200, 2))
     np.savetxt(tmp_path / "seen.csv", rows, delimiter=",", header="force,x", comments="")
     (tmp_path / "case.toml").write_text(CASE.format(hold=hold))
-    assert prepare(tmp_path / "case.toml", default()).tracks[0].held is (hold == "step")
+    assert prepare(tmp_path / "case.toml", default()).observations[0].held is (hold == "step")

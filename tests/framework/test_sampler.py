@@ -7,7 +7,7 @@ import pytest
 from scipy.stats import norm
 from toys import Toy, free_of, task_at
 
-from lostmotion.inference.problem import Free
+from lostmotion.likelihood.problem import Free
 from lostmotion.stages._cloud import Cloud
 from lostmotion.stages._population import effective, tempered
 from lostmotion.stages._scores import Scores

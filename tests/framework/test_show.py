@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from lostmotion.inference.tracks import Track
+from lostmotion.likelihood.observation import Observation
 from lostmotion.report import show
 from lostmotion.report.evidence import Evidence
 from lostmotion.signals.distances import distances, energy_distance, same_chance
@@ -14,9 +14,9 @@ PERIOD = 40.0
 
 
 def recorded(samples, driven=True):
-    """A track of which only the drive counts: 40 samples a period, or none."""
+    """A observation of which only the drive counts: 40 samples a period, or none."""
     u = np.cos(2 * np.pi * np.arange(samples) / PERIOD) if driven else np.zeros(samples)
-    return Track("sections", np.zeros(samples), u[:, None], 0.01, "position")
+    return Observation.of("sections", np.zeros(samples), u[:, None], 0.01, "position")
 
 
 def wandering(seed, samples=8000, middle=0.0):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from lostmotion.inference.problem import Free
+from lostmotion.likelihood.problem import Free
 from lostmotion.stages._task import within
 
 FREE = (Free("c", "1", 0.0, -1.0, 1.0), Free("log_noise", "1", 0.0, -10.0, 2.0))

@@ -8,8 +8,7 @@ from typing import ClassVar
 import pytest
 
 from lostmotion import testing
-from lostmotion.beside import DriveTerm, SensorTerm
-from lostmotion.contracts import Denoiser, Interface, Model, Param, Term
+from lostmotion.contracts import Denoiser, DriveTerm, Interface, Model, Param, SensorTerm, Term
 from lostmotion.errors import ContractError
 from lostmotion.quantities import DAMPING, INERTIA, NUMBER, TIME
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from lostmotion.inference.problem import Free
+from lostmotion.likelihood.problem import Free
 from lostmotion.stages.identify import Cloud, Shown, Task
 
 

@@ -101,8 +101,8 @@ def test_recording_and_case_of_the_readme_belong_together(tmp_path):
     path = tmp_path / "case.toml"
     path.write_text(blocks("toml")[0], encoding="utf-8")
     assert load_case(path).model == "lin_backlash"
-    (track,) = prepare(path, Registry.discover()).tracks
-    assert track.samples == 3200
+    (observation,) = prepare(path, Registry.discover()).observations
+    assert observation.samples == 3200
     (steps,) = (block for block in blocks("python") if "surrogate_test" in block)
     done = subprocess.run([sys.executable, "-c", steps], cwd=tmp_path, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr

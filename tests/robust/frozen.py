@@ -16,9 +16,9 @@ import numpy as np
 import lostmotion
 from lostmotion.case import Case, Prior
 from lostmotion.inference.setup import problem_of
-from lostmotion.inference.tracks import Track
+from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.system import System
 from lostmotion.registry import default
-from lostmotion.system import System
 
 MACHINE = {"m": 1.0, "c": 8.0, "k0": 4e4, "x0": 0.005}
 DRIVE = "harmonic:amplitude=100,omega=40"
@@ -48,8 +48,8 @@ def likelihoods(force: np.ndarray, position: np.ndarray, jobs: int) -> list[floa
     known = {"m": 1.0, "k0": 4e4, "k1": 0.0}
     estimate = {"c": Prior(0.8, 80.0, "log"), "x0": Prior(1e-3, 2e-2, "log")}
     case = Case("study", Path(), (), "lin_backlash", known, estimate, {}, (), "")
-    track = Track("seen", position, force[:, None], 1 / 640, "position")
-    problem = problem_of(system, case, (track,), jobs=jobs)
+    observation = Observation.of("seen", position, force[:, None], 1 / 640, "position")
+    problem = problem_of(system, case, (observation,), jobs=jobs)
     start = problem.start
     return [float(x) for x in problem.log_likelihoods(np.stack([start, start + 0.01, start - 0.01]))]
 

@@ -14,15 +14,17 @@ from test_units import CASE
 
 from lostmotion.cli import main
 from lostmotion.flow import flow_of, stepped
-from lostmotion.forcing import Drive
 from lostmotion.inference.fit import sensitivity
-from lostmotion.inference.free import Free
-from lostmotion.inference.noise import LEAST
-from lostmotion.inference.predict import WORST, FreeRuns, free_runs
-from lostmotion.inference.problem import USUAL, Innovations
-from lostmotion.inference.tracks import Track
+from lostmotion.likelihood.drive import Drive
+from lostmotion.likelihood.engine import Dynamics, Points
+from lostmotion.likelihood.lanes import Lanes
+from lostmotion.likelihood.levels import LEAST
+from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.predict import WORST, FreeRuns, free_runs
+from lostmotion.likelihood.problem import USUAL, Innovations
+from lostmotion.likelihood.space import Free, ParameterSpace
+from lostmotion.likelihood.system import System
 from lostmotion.study.cells import CODES
-from lostmotion.system import System
 from lostmotion_plugins.models.exact import ExactBacklash
 from lostmotion_plugins.models.lin import LinBacklash
 
@@ -142,19 +144,18 @@ class Filter:
     r: float
     pace: float = 0.0
 
-    def run(self, z, u, y, cov):
-        """Return innovations, variances, covariances behind the samples, and state and covariance before the last."""
-        n, samples = len(y), len(z)
-        base, own = self.system.pack(self.full, self.dt)
-        on, at = self.system.wiring(self.system.everything)
-        errors, variances = np.zeros(samples), np.ones(samples)
-        kept = [np.zeros((samples, *shape)) for shape in ((n,), (n, n), (n,), (n, n), (n, n))]
-        done = self.system.kernel(self.system.everything, latent=self.pace > 0.0).track(
-            z, u, 0.0, self.dt, 1, base, own, on, at, self.pace, self.q, self.r, 0.0, 0.0, y, cov, 0, 0, errors,
-            variances, True, *kept,
+    def run(self, z, drive, y, cov):
+        """Return variances, covariances behind the samples, and state and covariance of the machine before the last."""
+        dynamics = Dynamics(self.system, self.system.everything, 1, "latent" if self.pace else "white")
+        observation = Observation.of("long", z, drive.inputs, self.dt, "position")
+        one, number = np.ones((1, 1)), np.zeros(1, dtype=np.int64)
+        points = Points(
+            self.full[None], np.array([self.q]), np.array([self.pace]), self.r * one, 0.0 * one, 0.0 * one, one, 0.0 *
+            one, y[None], cov[None], (drive,), number, number,
         )  # fmt: skip
-        assert done == samples
-        return errors, variances, kept[1], kept[2][-1], kept[3][-1]
+        kept, seen = Lanes().kept(dynamics, observation, points)
+        assert seen.finite.all()
+        return seen.variances[0, :, 0], kept[1], kept[2][-1, :2], kept[3][-1, :2, :2]
 
 
 @pytest.mark.parametrize(
@@ -171,13 +172,13 @@ def test_covariances_stay_positive_over_ten_million_steps(c, share, pace, noise)
     system = System.of(LinBacklash())
     full = system.vector({**MACHINE, "c": c})
     rng, y0 = np.random.default_rng(1), START
-    y, cov = np.array([*START, 0.0][: 2 + (pace > 0)]), np.diag([1e-8, 1e-2, 1.0][: 2 + (pace > 0)])
-    kalman = Filter(system, full, dt, (share * 100.0) ** 2 * dt * (pace**2 if pace else 1.0), noise**2, pace)
+    y, cov = START, np.diag([1e-8, 1e-2])
+    kalman = Filter(system, full, dt, (share * 100.0) ** 2 * dt, noise**2, pace)
+    drive = Drive.held(100.0 * np.cos(40.0 * dt * np.arange(piece))[:, None], dt)
     for _ in range(steps // piece):
-        force = np.repeat(100.0 * np.cos(40.0 * dt * np.arange(piece)), 3)[:, None]
-        states = system.simulate(full, (), y0, Drive(force, dt, 1, piece)).states
+        states = system.simulate(full, (), y0, drive).states
         z = states[:, 0] + noise * rng.standard_normal(piece)
-        _, variances, covs, y, cov = kalman.run(z, force, y, cov)
+        variances, covs, y, cov = kalman.run(z, drive, y, cov)
         y0 = states[-1]
         assert np.isfinite(variances).all()
         assert variances.min() >= noise**2
@@ -193,15 +194,15 @@ class Cliff:
 
     free: tuple[Free, ...] = (Free("mean", "1", 0.0, -5.0, 5.0),)
 
-    def clip(self, theta):
-        return np.clip(theta, -5.0, 5.0)
+    @property
+    def space(self):
+        return ParameterSpace(self.free)
 
-    def around(self, theta, points):
+    def many(self, points):
         seen = np.linspace(-1.0, 1.0, 9)
-        return [
-            Innovations(np.where(p[0] > 1.0, np.nan, seen - p[0]), np.ones(9), bool(p[0] <= 1.0))
-            for p in (theta, *points)
-        ]
+        return Innovations(
+            np.where(points > 1.0, np.nan, seen - points), np.ones((len(points), 9)), points[:, 0] <= 1.0
+        )
 
 
 def test_derivatives_at_the_edge_of_a_runaway_are_taken_from_the_safe_side():
@@ -213,20 +214,20 @@ def test_derivatives_at_the_edge_of_a_runaway_are_taken_from_the_safe_side():
 
 def test_a_free_run_that_leaves_all_bounds_errs_by_the_most(monkeypatch):
     """It is not left out of the mean, which would flatter the model."""
-    from lostmotion.inference import predict
+    from lostmotion.likelihood import predict
 
     class Still:
-        tracks = (Track("still", np.array([1.0, 2.0, 3.0, 5.0]), np.zeros((4, 1)), 1.0, "position"),)
+        observations = (Observation.of("still", np.array([1.0, 2.0, 3.0, 5.0]), np.zeros((4, 1)), 1.0, "position"),)
 
     def observed(problem, theta, states, where=(0, 0)):
         return np.array([0.0, 1e200, np.nan])
 
-    monkeypatch.setattr(predict, "free_run", lambda *args: np.zeros((3, 2)))
+    monkeypatch.setattr(predict, "_runs", lambda *args: np.zeros((1, 3, 2)))
     monkeypatch.setattr(predict, "observed", observed)
     runs = free_runs(Still(), np.zeros(1), np.zeros((4, 2)), np.array([0]), 3)
     assert isinstance(runs, FreeRuns)
-    spread = float(np.std(Still.tracks[0].z))
-    assert runs.growth(spread) == pytest.approx([abs(Still.tracks[0].z[0]) / spread, WORST, WORST])
+    spread = float(np.std(Still.observations[0].response))
+    assert runs.growth(spread) == pytest.approx([abs(Still.observations[0].response[0]) / spread, WORST, WORST])
 
 
 @pytest.mark.slow

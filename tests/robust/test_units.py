@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from lostmotion.forcing import Drive
-from lostmotion.inference.tracks import settled
+from lostmotion.likelihood.drive import Drive
+from lostmotion.likelihood.observation import rounded
+from lostmotion.likelihood.system import System
 from lostmotion.registry import Registry
-from lostmotion.system import System
 from lostmotion.workflow.diagnose import run_diagnosis
 from lostmotion.workflow.prepare import prepare
 from lostmotion_plugins.models.lin import LinBacklash
@@ -38,10 +38,10 @@ def recorded():
     """Time, force (N) and position (m) of a machine that rubs."""
     rng, dt, samples = np.random.default_rng(4), 2e-3, 2000
     time = np.arange(samples) * dt
-    drive = Drive.smooth([lambda t: 100.0 * np.cos(40.0 * t)], dt, 16, samples)
+    drive = Drive.smooth([lambda t: 100.0 * np.cos(40.0 * t)], dt, samples)
     system = System.of(LinBacklash() + CoulombFriction())
     full = system.vector({"m": 1.0, "c": 8.0, "k0": 4e4, "x0": 5e-3, "coulomb_friction.force": 3.0})
-    x = system.simulate(full, system.everything, np.zeros(2), drive).states[:, 0]
+    x = system.simulate(full, system.everything, np.zeros(2), drive, 16).states[:, 0]
     return time, 100.0 * np.cos(40.0 * time), x + 0.01 * x.std() * rng.standard_normal(samples)
 
 
@@ -58,21 +58,21 @@ def written(folder, recorded, force, length):
 @pytest.mark.parametrize(("force", "length"), [("kN", "um"), ("lbf", "inch")])
 def test_a_change_of_units_changes_no_bit_of_what_is_fitted(tmp_path, recorded, force, length):
     registry = Registry.discover()
-    (plain,) = prepare(written(tmp_path / "si", recorded, "N", "m"), registry).tracks
-    (other,) = prepare(written(tmp_path / "other", recorded, force, length), registry).tracks
-    assert np.array_equal(plain.z, other.z)
+    (plain,) = prepare(written(tmp_path / "si", recorded, "N", "m"), registry).observations
+    (other,) = prepare(written(tmp_path / "other", recorded, force, length), registry).observations
+    assert np.array_equal(plain.response, other.response)
     assert np.array_equal(plain.inputs, other.inputs)
     assert (plain.dt, plain.tone) == (other.dt, other.tone)
 
 
 def test_ten_digits_are_kept_and_a_lattice_stays_one():
     values = np.random.default_rng(0).normal(size=1000)
-    assert np.max(np.abs(settled(values) - values)) < 1.2e-10 * np.max(np.abs(values))
+    assert np.max(np.abs(rounded(values) - values)) < 1.2e-10 * np.max(np.abs(values))
     lattice = 5e-8 * np.arange(-4000, 4000)
-    steps = np.diff(settled(lattice)) / 5e-8
+    steps = np.diff(rounded(lattice)) / 5e-8
     assert np.max(np.abs(steps - 1.0)) < 1e-3
-    assert not settled(np.zeros(3)).any()
-    assert np.isnan(settled(np.array([np.nan, 1.0]))[0])
+    assert not rounded(np.zeros(3)).any()
+    assert np.isnan(rounded(np.array([np.nan, 1.0]))[0])
 
 
 @pytest.mark.slow

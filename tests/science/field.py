@@ -6,7 +6,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from lostmotion.flow import stepped
-from lostmotion.system import System
+from lostmotion.likelihood.system import System
 
 
 def flow_of(model, values, *, drive, start, steps=0):

@@ -14,8 +14,8 @@ from field import elsewhere
 from truths import system_of
 
 from lostmotion.case import Case, Prior
-from lostmotion.forcing import Tone
-from lostmotion.inference.tracks import Track
+from lostmotion.likelihood.drive import Tone
+from lostmotion.likelihood.observation import Observation
 from lostmotion.stages.diagnose import diagnose
 from lostmotion.workflow.findings import draws_of, intervals
 
@@ -30,17 +30,17 @@ def beyond(x, gap):
     return math.copysign(max(abs(x) - gap, 0.0), x)
 
 
-def track_of(rates, push, *, start, omega, periods=25, per_period=100, skip=0, noise=0.01, seed=1):
-    """Return the recording of the position y[0] under `push(t)`, `skip` periods after the start, as a track."""
+def observation_of(rates, push, *, start, omega, periods=25, per_period=100, skip=0, noise=0.01, seed=1):
+    """Return the recording of the position y[0] under `push(t)`, `skip` periods after the start, as a observation."""
     dt = 2.0 * math.pi / omega / per_period
     t = np.arange((skip + periods) * per_period) * dt
     seen = elsewhere(rates, t, start, rtol=1e-9, atol=1e-11, max_step=dt)[skip * per_period :, 0]
     rng = np.random.default_rng(seed)
     force = np.array([push(now) for now in t[skip * per_period :]])
-    bare = Track(
+    bare = Observation.of(
         "recording", seen + noise * seen.std() * rng.standard_normal(len(seen)), force[:, None], dt, "position"
     )
-    return Track(bare.name, bare.z, bare.inputs, dt, "position", tone=Tone(omega, bare.travel))
+    return Observation.of(bare.name, bare.response, bare.inputs, dt, "position", tone=Tone(omega, bare.travel))
 
 
 def case_of(model, values, unknown):
@@ -50,7 +50,7 @@ def case_of(model, values, unknown):
     return Case("study", Path(), (), model, known, priors, {}, (), "")
 
 
-def diagnosed(model, values, unknown, track):
+def diagnosed(model, values, unknown, observation):
     """Return the diagnosis of a recording, and the 95 % intervals of what was estimated."""
-    found = diagnose(case_of(model, values, unknown), [track], system_of(model), rng=np.random.default_rng(0))
+    found = diagnose(case_of(model, values, unknown), [observation], system_of(model), rng=np.random.default_rng(0))
     return found, intervals(found.after, draws_of(found.after, np.random.default_rng(1)))

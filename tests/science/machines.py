@@ -17,12 +17,12 @@ from scipy.signal import decimate
 
 from lostmotion.inference.fit import Fit, maximise, robust_covariance
 from lostmotion.inference.modes import distinct
-from lostmotion.inference.predict import filtered, free_run, observed
-from lostmotion.inference.problem import NOISE, RANDOM, Problem
 from lostmotion.inference.setup import problem_of, separated, stepped
+from lostmotion.likelihood.predict import filtered, free_run, observed
+from lostmotion.likelihood.problem import NOISE, RANDOM, Problem
+from lostmotion.likelihood.system import System
 from lostmotion.registry import default
 from lostmotion.stages.identify import Identification, Plan, identify
-from lostmotion.system import System
 from lostmotion.workflow.prepare import prepare
 from lostmotion.workflow.trajectory import Sampled, chosen_terms, sampled, task_for
 
@@ -121,7 +121,7 @@ def damper(folder: Path, data: Path, names: tuple[str, ...], plan: Plan | None =
     prepared = prepare(case, registry)
     terms = chosen_terms(prepared, (), registry)
     rng, system = np.random.default_rng(0), System(prepared.model, terms)
-    problem = replace(problem_of(system, prepared.case, prepared.tracks), active=frozenset(system.keys))
+    problem = replace(problem_of(system, prepared.case, prepared.observations), active=frozenset(system.keys))
     fits = [separated(fit, prepared.case.sensor) for fit in hills(problem, rng)]
     return found(Sampled(identify(task_for(prepared, fits, terms), rng=rng, plan=plan), tuple(fits)))
 
@@ -160,10 +160,10 @@ def found(sample: Sampled) -> Found:
     """Return a posterior with the free run of its best fit, its error (rms) a share of the scatter of the response."""
     fit = sample.fits[0]
     problem, theta = fit.problem, fit.theta
-    track = problem.tracks[0]
-    states = free_run(problem, theta, filtered(problem, theta).states[0], 0, track.samples)
-    error = observed(problem, theta, states) - track.z
-    return Found(sample.result, fit, float(np.sqrt(np.nanmean(error**2)) / np.nanstd(track.z)))
+    observation = problem.observations[0]
+    states = free_run(problem, theta, filtered(problem, theta).states[0], 0, observation.samples)
+    error = observed(problem, theta, states) - observation.response
+    return Found(sample.result, fit, float(np.sqrt(np.nanmean(error**2)) / np.nanstd(observation.response)))
 
 
 def travel(seen: Found, name: str = "") -> np.ndarray:

@@ -9,14 +9,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from lostmotion.forcing import Tone
 from lostmotion.inference.fit import maximise
-from lostmotion.inference.free import Free
-from lostmotion.inference.problem import Problem, Scales
 from lostmotion.inference.selection import Selector
 from lostmotion.inference.setup import noise_frees
-from lostmotion.inference.tracks import Track
-from lostmotion.system import System
+from lostmotion.likelihood.drive import Tone
+from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.problem import Problem, Scales
+from lostmotion.likelihood.space import Free
+from lostmotion.likelihood.system import System
 from lostmotion_plugins.models.basic import LinearOscillator
 from lostmotion_plugins.terms.drive import ExcitationDelay, ExcitationGain, ExcitationHarmonic
 from lostmotion_plugins.terms.elastic import CubicStiffness, OffsetForce
@@ -45,16 +45,16 @@ def course_of(response, seed):
     rng = np.random.default_rng(seed)
     t = np.arange(SAMPLES) * DT
     force = sum(a * np.cos(w * t) for a, w in TONES) + 1e-3 * AMPLITUDE * rng.standard_normal(SAMPLES)
-    track = Track(
+    observation = Observation.of(
         "run", response + 0.01 * response.std() * rng.standard_normal(SAMPLES), force[:, None], DT, "position"
     )
-    track = replace(track, tone=Tone(2.0 * math.pi / (track.period * DT), AMPLITUDE))
+    observation = replace(observation, tone=Tone(2.0 * math.pi / (observation.period * DT), AMPLITUDE))
     faults = (ExcitationDelay(), ExcitationGain(), ExcitationHarmonic())
     system = System(LinearOscillator(), (*faults, CoulombFriction(), CubicStiffness(), OffsetForce()))
     scales = Scales(AMPLITUDE, 1.2, 1.0 / OMEGA, usual=math.log((1e-3 * AMPLITUDE) ** 2 * DT), span=SAMPLES * DT)
     free = Free("c", "N s/m", math.log(C), math.log(0.05), math.log(4.0), log=True)
     known = system.vector({"m": M, "c": C, "k": K})
-    problem = Problem(system, (track,), scales, known, (free, *noise_frees((track,), scales)), nsub=2)
+    problem = Problem(system, (observation,), scales, known, (free, *noise_frees((observation,), scales)), nsub=2)
     fits = [maximise(problem, np.array([math.log(C), level, problem.start[-1]])) for level in (scales.usual, 0.0)]
     nominal = max(fits, key=lambda f: f.local.log_posterior)
     return Selector(nominal, system.keys, lambda _: None).run()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from truths import FORCE, FRICTION, case_of, system_of, track_of
+from truths import FORCE, FRICTION, case_of, observation_of, system_of
 
 from lostmotion.stages.compare import exponent_of, horizon_for, pieces_of, predict
 from lostmotion.stages.diagnose import diagnose
@@ -13,8 +13,8 @@ from lostmotion.workflow.findings import draws_of, intervals
 
 def diagnosed(force, unknown, **kind):
     """Return the recording and the diagnosis of it."""
-    track, _ = track_of(force, **kind)
-    return track, diagnose(case_of(unknown), [track], system_of(), rng=np.random.default_rng(0))
+    observation, _ = observation_of(force, **kind)
+    return observation, diagnose(case_of(unknown), [observation], system_of(), rng=np.random.default_rng(0))
 
 
 def interval(diagnosis, key):
@@ -61,9 +61,9 @@ def test_held_out_data_are_predicted_better(rubbing):
 
     Median over starts on one fixed recording.
     """
-    track, d = rubbing
-    pieces = pieces_of([track], d.held)
-    exponent = exponent_of(d.after, [track])
+    observation, d = rubbing
+    pieces = pieces_of([observation], d.held)
+    exponent = exponent_of(d.after, [observation])
     horizon = horizon_for(d.after, pieces, exponent)
     before, after = (predict(fit, pieces, horizon, exponent) for fit in (d.before, d.after))
     assert after.valid_time > 2.0 * before.valid_time

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from machines import CARRIAGE, EMPS, EMPS_FILES, PUBLISHED
 
+from lostmotion.likelihood.system import System
 from lostmotion.registry import default
 from lostmotion.stages.diagnose import diagnose
-from lostmotion.system import System
 from lostmotion.workflow.diagnose import judged
 from lostmotion.workflow.findings import intervals
 from lostmotion.workflow.prepare import prepare
@@ -28,7 +28,7 @@ def outcome(shared, tmp_path_factory):
     files = [(data / f"{name}.mat").resolve() for name in EMPS_FILES]
     case.write_text("".join(EMPS.format(file=file) for file in files) + CARRIAGE)
     prepared, rng = prepare(case, default()), np.random.default_rng(0)
-    found = diagnose(prepared.case, prepared.tracks, System(prepared.model, prepared.terms), rng=rng)
+    found = diagnose(prepared.case, prepared.observations, System(prepared.model, prepared.terms), rng=rng)
     return judged(found, prepared, rng)
 
 

@@ -9,8 +9,8 @@ from scipy.integrate import solve_ivp
 
 from lostmotion.errors import ContractError
 from lostmotion.flow import Harmonic, Stepped, flow_of, stepped
+from lostmotion.likelihood.system import System
 from lostmotion.rates import exponent_in
-from lostmotion.system import System
 from lostmotion_plugins.models import _kernels
 from lostmotion_plugins.models.exact import ExactBacklash, exact_joint, exact_of
 from lostmotion_plugins.models.joint import RobotJoint

@@ -10,7 +10,7 @@ import math
 
 import numpy as np
 import pytest
-from field_recordings import beyond, diagnosed, sign, track_of
+from field_recordings import beyond, diagnosed, observation_of, sign
 
 pytestmark = pytest.mark.slow
 
@@ -26,7 +26,7 @@ def wells(friction):
     def rates(t, y):
         return [y[1], 0.4 * math.cos(t) - 0.15 * y[1] + y[0] - y[0] ** 3 - friction * sign(y[1], 0.5)]
 
-    return track_of(rates, lambda t: 0.4 * math.cos(t), start=[0.5, 0.1], omega=1.0, periods=35, skip=10)
+    return observation_of(rates, lambda t: 0.4 * math.cos(t), start=[0.5, 0.1], omega=1.0, periods=35, skip=10)
 
 
 def teeth(depth):
@@ -36,7 +36,7 @@ def teeth(depth):
         push = 0.1 + 0.4 * math.cos(t) - 0.08 * y[1]
         return [y[1], push - (1.0 + depth * math.cos(t + 0.5)) * beyond(y[0], 1.0)]
 
-    return track_of(rates, lambda t: 0.4 * math.cos(t), start=[1.2, 0.0], omega=1.0, skip=10)
+    return observation_of(rates, lambda t: 0.4 * math.cos(t), start=[1.2, 0.0], omega=1.0, skip=10)
 
 
 def stop(friction):
@@ -46,7 +46,7 @@ def stop(friction):
         push = max(60.0 * (y[0] - 0.05) * (1.0 + 0.1 * y[1]), 0.0) if y[0] > 0.05 else 0.0
         return [y[1], math.cos(2.75 * t) - 0.1 * y[1] - y[0] - push - friction * sign(y[1], 0.5)]
 
-    return track_of(rates, lambda t: math.cos(2.75 * t), start=[0.2, 0.0], omega=2.75, skip=10)
+    return observation_of(rates, lambda t: math.cos(2.75 * t), start=[0.2, 0.0], omega=2.75, skip=10)
 
 
 def chain(friction):
@@ -57,7 +57,7 @@ def chain(friction):
         first = 4.0 * math.cos(14.0 * t) - 1.5 * y[1] - 300.0 * y[0] - joint
         return [y[1], first, y[3], (joint - 0.8 * y[3] - 50.0 * y[2] - friction * sign(y[3], 0.3)) / 0.6]
 
-    return track_of(rates, lambda t: 4.0 * math.cos(14.0 * t), start=[0.0] * 4, omega=14.0)
+    return observation_of(rates, lambda t: 4.0 * math.cos(14.0 * t), start=[0.0] * 4, omega=14.0)
 
 
 SETS = {
@@ -75,8 +75,8 @@ SETS = {
 @pytest.mark.parametrize("model", SETS)
 def test_what_is_hidden_is_named_and_measured(model):
     record, values, unknown, hidden = SETS[model]
-    track = record(math.hypot(*hidden.values()))
-    found, known = diagnosed(model, values, unknown, track)
+    observation = record(math.hypot(*hidden.values()))
+    found, known = diagnosed(model, values, unknown, observation)
     assert found.found == (next(iter(hidden)).rpartition(".")[0],)
     assert not found.unexplained
     for key, truth in {**hidden, **{k: values[k] for k in unknown}}.items():

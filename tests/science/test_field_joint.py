@@ -9,8 +9,8 @@ import pytest
 from field import elsewhere
 
 from lostmotion.flow import Harmonic, stepped
-from lostmotion.forcing import Drive
-from lostmotion.system import System
+from lostmotion.likelihood.drive import Drive
+from lostmotion.likelihood.system import System
 from lostmotion_plugins.models.clearance_chain import ClearanceChain
 from lostmotion_plugins.terms.elastic import CubicStiffness
 from lostmotion_plugins.terms.friction import CoulombFriction
@@ -24,7 +24,7 @@ def test_friction_in_the_joint_keeps_the_momentum_and_ends_the_relative_motion()
     step asks for that moves both bodies, so that it does not swing."""
     system = System.of(ClearanceChain() + CoulombFriction(at="joint"))
     full = system.vector({**BODIES, "coulomb_friction@joint.force": 1.0})
-    drive = Drive.smooth([np.zeros_like], 1e-3, 4, 4000)
+    drive = Drive.smooth([np.zeros_like], 0.25e-3, 16000)
     states = system.simulate(full, system.everything, START, drive).states
     np.testing.assert_allclose(states[:, 1] + 0.3 * states[:, 3], 2.0 - 0.15, rtol=1e-12)
     np.testing.assert_allclose(states[-1, [1, 3]], 1.85 / 1.3, rtol=1e-3)

@@ -11,9 +11,9 @@ from scipy.signal import lfilter
 
 from lostmotion.contracts import Interface, Model, Orbit, Param
 from lostmotion.flow import Stepped, flow_of, stepped
+from lostmotion.likelihood.system import System
 from lostmotion.quantities import NUMBER
 from lostmotion.rates import exponent_in
-from lostmotion.system import System
 from lostmotion_plugins.models.basic import LinearOscillator
 from lostmotion_plugins.models.joint import RobotJoint
 from lostmotion_plugins.models.lin import LinBacklash, ground

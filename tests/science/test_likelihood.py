@@ -9,15 +9,15 @@ import numpy as np
 import pytest
 from scipy.linalg import expm
 from scipy.stats import chi2
-from truths import FORCE, FRICTION, TRUE, problem_for, system_of, track_of
+from truths import FORCE, FRICTION, TRUE, observation_of, problem_for, system_of
 
 from lostmotion.inference.candidates import fit_with, frees_of, screen, slopes_of, term_of
 from lostmotion.inference.fit import maximise
-from lostmotion.inference.latent import missing_force
-from lostmotion.inference.problem import NOISE, RANDOM, Free, Problem, Scales
-from lostmotion.inference.tracks import Track
+from lostmotion.likelihood.latent import missing_force
+from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.problem import NOISE, RANDOM, Free, Problem, Scales
 
-LINEAR = {"m": 2.0, "c": 3.0, "k": 800.0}
+LINEAR = {"m": 2.0, "c": 3.0, "k": 1100.0}
 SAMPLES, DT = 400, 0.01
 FORCE_SD, NOISE_SD = 0.3, 1e-3
 
@@ -28,10 +28,10 @@ def linear_problem(nsub):
     push = rng.standard_normal(SAMPLES)
     z = np.cumsum(np.cumsum(push)) * 1e-6 + NOISE_SD * rng.standard_normal(SAMPLES)
     z[[50, 51, 200]] = np.nan
-    track = Track("linear", z, push[:, None], DT, "position", held=True)
+    observation = Observation.of("linear", z, push[:, None], DT, "position", held=True)
     system = replace(system_of("linear_oscillator"), terms=())
     free = tuple(Free(key, "1", 0.0, -math.inf, math.inf) for key in (RANDOM, NOISE))
-    return Problem(system, (track,), Scales(1.0, 1e-2, 0.05), system.vector(LINEAR), free, nsub=nsub)
+    return Problem(system, (observation,), Scales(1.0, 1e-2, 0.05), system.vector(LINEAR), free, nsub=nsub)
 
 
 THETA = np.array([math.log(FORCE_SD**2 * DT), math.log(NOISE_SD)])
@@ -39,18 +39,24 @@ THETA = np.array([math.log(FORCE_SD**2 * DT), math.log(NOISE_SD)])
 
 def kalman(problem, mean_by, cov_by, noise):
     """Return innovations and variances of a textbook filter (Kalman 1960); one step is `mean_by`, `cov_by`, `noise`."""
-    track, (y, cov) = problem.tracks[0], problem.initial(0, 2)
-    errors, variances = np.zeros(SAMPLES), np.ones(SAMPLES)
-    for k, z in enumerate(track.z):
+    observation, (y, cov) = problem.observations[0], begun_of(problem)
+    errors, variances = np.zeros(SAMPLES), np.full(SAMPLES, 1.0 / (2.0 * np.pi))
+    for k, z in enumerate(observation.response):
         if np.isfinite(z):
             errors[k], variances[k] = z - y[0], cov[0, 0] + NOISE_SD**2
             gain = cov[:, 0] / variances[k]
             y = y + gain * errors[k]
             cov = cov - np.outer(gain, gain) * variances[k]
         for _ in range(problem.nsub):
-            y = (mean_by @ np.append(y, track.inputs[k, 0]))[:2]
+            y = (mean_by @ np.append(y, observation.inputs[k, 0]))[:2]
             cov = cov_by @ cov @ cov_by.T + noise
     return errors, variances
+
+
+def begun_of(problem):
+    """Return mean and covariance of the state at the first sample."""
+    points = problem.points(THETA[None])
+    return points.mean[0], points.covariance[0]
 
 
 def dynamics(h):
@@ -104,8 +110,8 @@ def test_likelihood_tends_to_the_exact_one():
 @pytest.fixture(scope="module")
 def rubbing():
     """A recording with 3 N of hidden friction, its problem, and coordinates near the truth."""
-    track, states = track_of(3.0, seed=1)
-    return *problem_for(track, ("c", "x0")), states
+    observation, states = observation_of(3.0, seed=1)
+    return *problem_for(observation, ("c", "x0")), states
 
 
 def test_term_that_is_null_changes_no_bit(rubbing):
@@ -137,7 +143,7 @@ def test_score_test_promises_what_a_fit_keeps(seed):
     Rao, Proc. Cambridge Phil. Soc. 44 (1948) 50-57. The two differ by terms of third order in the effect: within 25 %
     or one unit. Both come from the same data, so chance has no part but in how small the effect turns out.
     """
-    problem, theta = problem_for(track_of(0.05, seed=seed)[0], ("c", "x0"))
+    problem, theta = problem_for(observation_of(0.05, seed=seed)[0], ("c", "x0"))
     bare = maximise(problem, theta)
     hint = screen(bare, slopes_of(bare), FRICTION)
     refitted = fit_with(bare, hint)
@@ -161,7 +167,7 @@ def test_error_bars_are_as_wide_as_the_scatter():
 
 def standardised(seed):
     """Return how many standard deviations c, x0 and the friction force lie from the truth in one fit."""
-    problem, theta = problem_for(track_of(1.0, seed=40 + seed, periods=10)[0], ("c", "x0"))
+    problem, theta = problem_for(observation_of(1.0, seed=40 + seed, periods=10)[0], ("c", "x0"))
     _, slots = term_of(problem, FRICTION)
     wider = problem.extended(frees_of(slots, problem.scales, {FORCE: 1.0}), {FRICTION})
     wider = replace(wider, nsub=8)

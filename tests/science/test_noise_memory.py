@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 
 from lostmotion.inference.fit import maximise
-from lostmotion.inference.free import FADE, NOISE, RANDOM, SLOW, Free
 from lostmotion.inference.memory import believed, remembering
-from lostmotion.inference.problem import Problem, Scales
 from lostmotion.inference.setup import noise_frees
-from lostmotion.inference.tracks import Track
-from lostmotion.system import System
+from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.problem import Problem, Scales
+from lostmotion.likelihood.space import FADE, NOISE, RANDOM, SLOW, Free
+from lostmotion.likelihood.system import System
 from lostmotion_plugins.models.basic import LinearOscillator
 
 M, C, K, DT, OMEGA = 1.0, 0.4, 25.0, 0.02, 3.0
@@ -33,15 +33,15 @@ def recorded(samples, memory, seed):
         slow[k] = fade * slow[k - 1] + math.sqrt(1.0 - fade * fade) * rng.standard_normal()
     noise = SPREAD * (math.sqrt(0.5) * rng.standard_normal(samples) + math.sqrt(0.5) * slow)
     recorded_force = force + 0.02 * rng.standard_normal(samples)
-    return Track("run", z + noise, recorded_force[:, None], DT, "position")
+    return Observation.of("run", z + noise, recorded_force[:, None], DT, "position")
 
 
-def problem_of(track):
+def problem_of(observation):
     system = System(LinearOscillator())
-    scales = Scales(20.0, 1.2, 1.0 / OMEGA, usual=math.log((1e-3 * 20.0) ** 2 * DT), span=track.samples * DT)
+    scales = Scales(20.0, 1.2, 1.0 / OMEGA, usual=math.log((1e-3 * 20.0) ** 2 * DT), span=observation.samples * DT)
     known = system.vector({"m": M, "c": C, "k": K})
     free = Free("c", "N s/m", math.log(C), math.log(0.05), math.log(4.0), log=True)
-    return Problem(system, (track,), scales, known, (free, *noise_frees((track,), scales)), nsub=2)
+    return Problem(system, (observation,), scales, known, (free, *noise_frees((observation,), scales)), nsub=2)
 
 
 FINE = 40
@@ -49,15 +49,16 @@ FINE = 40
 
 def slow_twin(problem, theta):
     """Return the innovations of a Kalman filter whose state holds the slow noise as well, in fine steps."""
-    track, p = problem.tracks[0], dict(zip(problem.keys, theta, strict=True))
+    observation, p = problem.observations[0], dict(zip(problem.keys, theta, strict=True))
     slow, fade = math.exp(2.0 * p[SLOW]), math.exp(-DT / math.exp(p[FADE]))
     mean, cov = np.zeros(3), np.zeros((3, 3))
-    mean[:2], cov[:2, :2] = problem.initial(0, 2, theta)
+    begun = problem.points(theta[None])
+    mean[:2], cov[:2, :2] = begun.mean[0], begun.covariance[0]
     cov[2, 2] = slow
-    h, push = np.array([1.0, 0.0, 1.0]), pushes(problem.drives[0].u[:, 0], problem.nsub)
-    errors, variances = np.zeros(track.samples), np.zeros(track.samples)
-    for k in range(track.samples):
-        errors[k], variances[k] = track.z[k] - h @ mean, h @ cov @ h + math.exp(2.0 * p[NOISE])
+    h, push = np.array([1.0, 0.0, 1.0]), pushes(observation.drive.cubics[:, :, 0], problem.nsub)
+    errors, variances = np.zeros(observation.samples), np.zeros(observation.samples)
+    for k in range(observation.samples):
+        errors[k], variances[k] = observation.response[k] - h @ mean, h @ cov @ h + math.exp(2.0 * p[NOISE])
         gain = cov @ h / variances[k]
         mean, cov = mean + gain * errors[k], cov - np.outer(gain, gain) * variances[k]
         mean, cov = across(mean, cov, push[k], p)
@@ -67,11 +68,10 @@ def slow_twin(problem, theta):
     return errors, variances
 
 
-def pushes(u, nsub):
-    """Return the force (samples, nsub * FINE) in the middle of each fine step, by a parabola through each step."""
-    share = (np.arange(FINE) + 0.5) / FINE
-    weights = np.stack([(1 - share) * (1 - 2 * share), 4 * share * (1 - share), share * (2 * share - 1)])
-    return (u.reshape(-1, 3) @ weights).reshape(-1, nsub * FINE)
+def pushes(cubics, nsub):
+    """Return the force (samples, nsub * FINE) in the middle of each fine step, by the cubic of each sample."""
+    share = (np.arange(nsub * FINE) + 0.5) / (nsub * FINE)
+    return cubics @ share ** np.arange(4)[:, None]
 
 
 def across(mean, cov, push, p):
@@ -91,8 +91,8 @@ def across(mean, cov, push, p):
 
 def test_filter_is_that_of_the_larger_state():
     """A slow noise as a third state of an exact filter gives the same innovations; no chance."""
-    track = recorded(300, 0.1, seed=0)
-    plain = problem_of(track)
+    observation = recorded(300, 0.1, seed=0)
+    plain = problem_of(observation)
     frees = (Free(SLOW, "1", math.log(0.014), -9.0, 0.0), Free(FADE, "1", math.log(0.1), -9.0, 0.0))
     problem = replace(plain, free=(*plain.free, *frees))
     theta = np.array([math.log(C), plain.scales.usual, math.log(0.014), math.log(0.014), math.log(0.1)])

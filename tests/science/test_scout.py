@@ -12,10 +12,10 @@ from truths import case_of
 
 from lostmotion.contracts import Param, Term
 from lostmotion.inference.scout import scouted
+from lostmotion.likelihood.system import System
 from lostmotion.quantities import FORCE, LENGTH
 from lostmotion.registry import default
 from lostmotion.stages.diagnose import candidates_of, diagnose
-from lostmotion.system import System
 
 PITCH = 0.002
 """Thirteen periods over the travel, a fifth of the half gap."""
@@ -62,7 +62,7 @@ def test_where_nothing_is_missing_nothing_is_scouted():
 def test_a_short_pitch_is_named_with_its_size():
     """1 N with thirteen periods over the travel, hidden by an integrator of its own; it was learned as a curve."""
     fit = with_cogging(fitted(RIPPLE), "coulomb_friction", "cubic_stiffness", "linear_stiffness", "quadratic_damping")
-    found = diagnose(case_of(("c", "x0")), fit.problem.tracks, fit.problem.system, rng=np.random.default_rng(0))
+    found = diagnose(case_of(("c", "x0")), fit.problem.observations, fit.problem.system, rng=np.random.default_rng(0))
     assert found.named == ("cogging",)
     assert found.learned is None
     values = found.after.values

@@ -11,11 +11,11 @@ from scipy.linalg import expm
 from truths import TRUE, case_of, system_of
 
 from lostmotion.inference.fit import maximise
-from lostmotion.inference.problem import RANDOM
 from lostmotion.inference.setup import problem_of, stepped
-from lostmotion.inference.tracks import Track
+from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.problem import RANDOM
+from lostmotion.likelihood.system import System
 from lostmotion.stages.identify import Plan, identify, task_of
-from lostmotion.system import System
 
 PERIODIC = {"2.6": 200.0 / 2.6, "4.1": 200.0 / 4.1}
 PARTS = FINE // EVERY
@@ -64,12 +64,14 @@ def posed(amplitude, excitation, *, periods=100, seed=1):
     machine = Machine(amplitude=amplitude)
     seen = recording(machine, periods=periods, seed=seed)
     noise = excitation * amplitude * np.random.default_rng([seed, 1]).standard_normal(len(seen.force))
-    track = Track("recording", seen.position, (seen.force + noise)[:, None], float(seen.time[1]), "position")
-    problem = problem_of(System(system_of().model, ()), case_of(("c", "x0")), (track,))
+    observation = Observation.of(
+        "recording", seen.position, (seen.force + noise)[:, None], float(seen.time[1]), "position"
+    )
+    problem = problem_of(System(system_of().model, ()), case_of(("c", "x0")), (observation,))
     true = {key: math.log(TRUE[key]) for key in ("c", "x0")}
     problem = replace(problem, free=tuple(replace(f, start=true.get(f.key, f.start)) for f in problem.free))
     fit = maximise(stepped(problem, maximise(problem).theta, accuracy=FINEST))
-    return machine, seen, 0.01 * seen.states[:, 0].std(), (excitation * amplitude) ** 2 * track.dt, fit
+    return machine, seen, 0.01 * seen.states[:, 0].std(), (excitation * amplitude) ** 2 * observation.dt, fit
 
 
 def relative(fit):

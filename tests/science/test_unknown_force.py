@@ -10,15 +10,15 @@ import numpy as np
 import pytest
 from truths import case_of
 
-from lostmotion.forcing import Tone
 from lostmotion.inference.curves import band_of
 from lostmotion.inference.proposal import Axis, proposed
 from lostmotion.inference.setup import problem_of, search
-from lostmotion.inference.tracks import Track
 from lostmotion.inference.unexplained import unknown_of
+from lostmotion.likelihood.drive import Tone
+from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.system import System
 from lostmotion.quantities import FORCE, LENGTH
 from lostmotion.registry import default
-from lostmotion.system import System
 
 CLEAN, RIPPLE, ROUGH = range(3)
 PERIOD, OMEGA, SAMPLES, SETTLING, FINE = 200, 40.0, 4000, 4000, 50
@@ -55,8 +55,8 @@ def fitted(kind, *, seed=0):
     dt = 2.0 * math.pi / OMEGA / PERIOD
     force = 100.0 * np.cos(OMEGA * dt * np.arange(SAMPLES)) + 0.1 * rng.standard_normal(SAMPLES)
     z = seen[:, 0] + 0.01 * np.std(seen[:, 0]) * rng.standard_normal(SAMPLES)
-    track = Track("seen", z, force[:, None], dt, "position", tone=Tone(OMEGA, 100.0))
-    problem = problem_of(System(default().make("model", "lin_backlash")), case_of(("c", "x0")), (track,))
+    observation = Observation.of("seen", z, force[:, None], dt, "position", tone=Tone(OMEGA, 100.0))
+    problem = problem_of(System(default().make("model", "lin_backlash")), case_of(("c", "x0")), (observation,))
     return search(problem, rng, points=24, finalists=2)
 
 

@@ -9,20 +9,20 @@ from independent import Machine, recording
 
 from lostmotion.case import Case, Prior
 from lostmotion.inference.setup import noise_frees, problem_of
-from lostmotion.inference.tracks import Track
+from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.system import System
 from lostmotion.registry import default
 from lostmotion.stages.diagnose import candidates_of
-from lostmotion.system import System
 
 TRUE = {"m": 1.0, "c": 8.0, "k1": 0.0, "k0": 4e4, "x0": 0.005}
 FRICTION, FORCE = "coulomb_friction", "coulomb_friction.force"
 PRIORS = {"c": (0.8, 80.0), "x0": (5e-4, 5e-2), "k0": (4e3, 4e5)}
 
 
-def track_of(force, *, seed, periods=29, noise=0.01):
+def observation_of(force, *, seed, periods=29, noise=0.01):
     """Return a recording of Case 1 with dry friction of `force` N hidden in it, and the true states (samples, 2)."""
     seen = recording(Machine(coulomb=force), periods=periods, noise=noise, seed=seed)
-    return Track("recording", seen.position, seen.force[:, None], float(seen.time[1]), "position"), seen.states
+    return Observation.of("recording", seen.position, seen.force[:, None], float(seen.time[1]), "position"), seen.states
 
 
 def case_of(unknown):
@@ -39,10 +39,10 @@ def system_of(name="lin_backlash"):
     return System(model, candidates_of(model, [registry.load("term", n) for n in registry.names("term")]))
 
 
-def problem_for(track, unknown, *, noise=0.01):
+def problem_for(observation, unknown, *, noise=0.01):
     """Return the problem of a recording with its unknown parameters and noise levels started near the truth."""
-    problem = problem_of(system_of(), case_of(unknown), (track,))
-    levels = noise_frees((track,), problem.scales)
+    problem = problem_of(system_of(), case_of(unknown), (observation,))
+    levels = noise_frees((observation,), problem.scales)
     start = {k: np.log(TRUE[k]) for k in unknown}
-    start |= {levels[0].key: levels[0].mean, levels[1].key: np.log(noise * np.std(track.z))}
+    start |= {levels[0].key: levels[0].mean, levels[1].key: np.log(noise * np.std(observation.response))}
     return problem, np.array([start[k] for k in problem.keys])

@@ -11,10 +11,10 @@ import numpy as np
 from lostmotion.contracts import Array, Param, Term, Values, place_of
 from lostmotion.errors import ContractError
 from lostmotion.inference.fit import Fit, Sensitivity, maximise, restarted, sensitivity, solved, warmed
-from lostmotion.inference.problem import NOISE, RANDOM, Free, Problem, Scales
-from lostmotion.inference.tracks import Track
+from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.problem import NOISE, RANDOM, Free, Problem, Scales
+from lostmotion.likelihood.system import Slot
 from lostmotion.quantities import FORCE
-from lostmotion.system import Slot
 
 CREEP, FINEST = 0.02, 32
 SHORT, CLEAR = 1500, 8.0
@@ -102,7 +102,7 @@ def _afar(fit: Fit, slot: Slot, key: str, distinct: float) -> Hint:
     For each the other parameters are refitted roughly, on the beginning of the recording. It is done for the nominal
     model alone: what is so far off is missed by it at once.
     """
-    short = fit.problem.on(tuple(t.part(0, min(t.samples, SHORT)) for t in fit.problem.tracks))
+    short = fit.problem.on(tuple(t.part(0, min(t.samples, SHORT)) for t in fit.problem.observations))
     size = size_of(slot.param, fit.problem.scales)
     best, gain, bottom = 0.0, 0.0, maximise(restarted(replace(fit, problem=short)), fit.theta, rounds=2)
     for factor in slot.param.far:
@@ -150,7 +150,7 @@ def steps_for_sticking(problem: Problem, theta: Array, *, creep: float = CREEP) 
         if "mobility" in term.needs:
             inertia = system.inertia(full, place_of(system.model, term))
             force = sum(abs(full[system.index[s.key]]) for s in slots if s.param.dimension == FORCE)
-            width = force * max(t.dt for t in problem.tracks) / inertia
+            width = force * max(t.dt for t in problem.observations) / inertia
             most = max(most, width / (creep * problem.scales.velocity))
     return min(math.ceil(most), FINEST)
 
@@ -179,15 +179,12 @@ def _score(fit: Fit, slopes: Sensitivity, trial: Trial) -> Hint:
 def _joint(slopes: Sensitivity, wider: Problem, widths: Array) -> Sensitivity:
     """Return the sensitivities of base parameters and amplitudes together, at amplitude zero."""
     zero = np.concatenate([slopes.theta, np.zeros(len(widths))])
-    points = [zero]
-    for i, width in enumerate(widths):
-        points.append(zero.copy())
-        points[-1][len(slopes.theta) + i] = width
-    here, *above = wider.many(points)
-    de = [(a.errors - here.errors) / w for a, w in zip(above, widths, strict=True)]
-    dv = [(a.variances - here.variances) / w for a, w in zip(above, widths, strict=True)]
     steps = np.concatenate([slopes.steps, widths])
-    return Sensitivity(zero, here, np.vstack([slopes.errors, *de]), np.vstack([slopes.variances, *dv]), steps)
+    above = zero + np.diag(steps)[len(slopes.theta) :]
+    seen = wider.many(np.vstack([zero[None], above]))
+    de = (seen.errors[1:] - seen.errors[0]) / widths[:, None]
+    dv = (seen.variances[1:] - seen.variances[0]) / widths[:, None]
+    return Sensitivity(zero, seen[0], np.vstack([slopes.errors, de]), np.vstack([slopes.variances, dv]), steps)
 
 
 def _hint(fit: Fit, trial: Trial, joint: Sensitivity) -> Hint:
@@ -219,15 +216,15 @@ def _hint(fit: Fit, trial: Trial, joint: Sensitivity) -> Hint:
 def _require_finite(problem: Problem, key: str) -> None:
     """Raise a `ContractError` if force or rates of a term, all its numbers one, are not finite along a recording."""
     term, _ = term_of(problem, key)
-    if term.acts == "motion" and not all(_finite(term, track) for track in problem.tracks):
+    if term.acts == "motion" and not all(_finite(term, observation) for observation in problem.observations):
         raise ContractError(
             f"the force of {key} is not a finite number along the recorded motion: mend the term, or leave it out", key
         )
 
 
-def _finite(term: Term, track: Track) -> bool:
+def _finite(term: Term, observation: Observation) -> bool:
     change = np.zeros(len(term.states))
-    for told in called_with(term, track, LOOKS):
+    for told in called_with(term, observation, LOOKS):
         if math.isfinite(told[1]) and math.isfinite(told[2]):
             term.rate(*told, change)
             if not (math.isfinite(term.force(*told)) and np.all(np.isfinite(change))):
@@ -235,12 +232,14 @@ def _finite(term: Term, track: Track) -> bool:
     return True
 
 
-def called_with(term: Term, track: Track, looks: int) -> Iterator[tuple[float, float, float, Array, Values, Values]]:
+def called_with(
+    term: Term, observation: Observation, looks: int
+) -> Iterator[tuple[float, float, float, Array, Values, Values]]:
     """Yield what the force of a term is told at about `looks` points of a recording, all its numbers one at rest."""
     p, s, u = (1.0,) * (len(term.params) + len(term.needs)), (0.0,) * len(term.states), np.zeros(2)
-    speed = np.gradient(track.z, track.dt)
-    for k in range(0, track.samples, max(1, track.samples // looks)):
-        yield k * track.dt, float(track.z[k]), float(speed[k]), u, p, s
+    speed = np.gradient(observation.response, observation.dt)
+    for k in range(0, observation.samples, max(1, observation.samples // looks)):
+        yield k * observation.dt, float(observation.response[k]), float(speed[k]), u, p, s
 
 
 def fit_with(fit: Fit, hint: Hint, *, hopeless: float = -math.inf) -> Fit:
@@ -265,7 +264,7 @@ def calmed(fit: Fit) -> Fit:
     problem, theta = fit.problem, fit.theta.copy()
     for i, free in enumerate(problem.free):
         if free.parameter == NOISE:
-            theta[i] = math.log(CALM * problem.tracks[0].amplitude)
+            theta[i] = math.log(CALM * problem.observations[0].amplitude)
         elif free.parameter == RANDOM:
             theta[i] = problem.scales.usual
     return maximise(problem, theta)

@@ -16,10 +16,9 @@ import numpy as np
 from lostmotion.contracts import Array, Interface, place_of
 from lostmotion.inference.candidates import term_of
 from lostmotion.inference.fit import Fit, Sensitivity, maximise, restarted, robust_covariance, solved
-from lostmotion.inference.latent import kept_by
 from lostmotion.inference.learned import Learned, curves_for, spread
-from lostmotion.inference.problem import Free, Problem
-from lostmotion.system import System, key_of
+from lostmotion.likelihood.problem import Free, Problem
+from lostmotion.likelihood.system import System, key_of
 
 SIZES = (0.002, 0.006, 0.02, 0.06, 0.2)
 """Standard deviations of a curve that are tried, in units of the drive."""
@@ -56,7 +55,7 @@ def transplanted(fit: Fit, keep: Iterable[str]) -> Fit:
     problem, chosen = fit.problem, set(keep)
     old = problem.system
     kept = [term for key, term in zip(old.keys, old.terms, strict=True) if key in chosen]
-    driven = all(track.tone.omega > 0.0 for track in problem.tracks)
+    driven = all(observation.tone.omega > 0.0 for observation in problem.observations)
     curves = curves_for(old.model, driven=driven)
     system = System(old.model, (*kept, *curves))
     known = system.vector(
@@ -73,19 +72,18 @@ def _range(fit: Fit, curve: Learned) -> tuple[float, float]:
     """Return the least and the greatest value of what a curve runs over, in all recordings, with a narrow margin."""
     problem = fit.problem
     if curve.over in ("time", "phase"):
-        return 0.0, max(float(track.time[-1]) for track in problem.tracks)
+        return 0.0, max(float(observation.time[-1]) for observation in problem.observations)
     place = place_of(problem.system.model, curve)
     column = int(curve.over == "velocity")
-    ends = [_ends(problem, fit.theta, i, place, column) for i in range(len(problem.tracks))]
+    ends = [_ends(problem, fit.theta, i, place, column) for i in range(len(problem.observations))]
     low, high = min(e[0] for e in ends), max(e[1] for e in ends)
     return low - EDGE * (high - low), high + EDGE * (high - low)
 
 
 def _ends(problem: Problem, theta: Array, index: int, place: Interface, column: int) -> tuple[float, float]:
-    track = problem.tracks[index]
-    single = replace(problem.on((track,)), jobs=1)
-    (states, *_), _, _ = kept_by(single, theta)
-    moved = track.motion_at(place, states)[column]
+    observation = problem.observations[index]
+    single = replace(problem.on((observation,)), jobs=1)
+    moved = observation.motion_at(place, single.smooth(theta).filtered)[column]
     low, high = np.quantile(moved[len(moved) // 50 :], [1e-3, 1.0 - 1e-3])
     return float(low), float(high)
 
@@ -132,13 +130,12 @@ def _projected(fit: Fit, slopes: Sensitivity, key: str) -> tuple[Array, Array]:
     width = NUDGE * size_of(term, problem)
     wider = with_curve(problem, key, np.full(term.count, math.inf), np.zeros(term.count))
     zero = np.concatenate([slopes.theta, np.zeros(term.count)])
-    points = [zero, *(zero + width * row for row in np.eye(len(zero))[len(slopes.theta) :])]
-    here, *above = wider.many(points)
-    above = [a if a.finite else here for a in above]
-    de = np.array([(a.errors - here.errors) / width for a in above])
-    dv = np.array([(a.variances - here.variances) / width for a in above])
+    seen = wider.many(np.vstack([zero[None], zero + width * np.eye(len(zero))[len(slopes.theta) :]]))
+    above = np.where(seen.finite[1:], np.arange(1, len(seen)), 0)
+    de = (seen.errors[above] - seen.errors[0]) / width
+    dv = (seen.variances[above] - seen.variances[0]) / width
     joint = Sensitivity(
-        zero, here, np.vstack([slopes.errors, de]), np.vstack([slopes.variances, dv]), np.full(len(zero), width)
+        zero, seen[0], np.vstack([slopes.errors, de]), np.vstack([slopes.variances, dv]), np.full(len(zero), width)
     )
     gradient, information, k = joint.gradient(), joint.information(), len(slopes.theta)
     pull = np.array([f.pull for f in problem.free])

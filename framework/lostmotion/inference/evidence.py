@@ -9,7 +9,6 @@ import numpy as np
 from scipy.special import logsumexp
 from scipy.stats import multivariate_t
 
-from lostmotion.contracts import Array
 from lostmotion.inference.fit import MANY, Fit
 
 HEAVY = 5.0
@@ -46,21 +45,10 @@ def checked(fit: Fit, rng: np.random.Generator, draws: int = 150) -> Check:
     raw = np.atleast_2d(density.rvs(size=draws, random_state=rng)).reshape(draws, len(sd))
     points = theta + raw * sd
     heights = density.logpdf(raw) - float(np.sum(np.log(sd)))
-    weights = _log_posteriors(fit, points) - heights
+    weights = fit.problem.log_posteriors(points) - heights
     if not np.isfinite(weights).any():
         return Check(fit.log_evidence, -math.inf, math.inf, 0.0)
     total = float(logsumexp(weights))
     crowd = float(np.sum(np.exp(weights - total) ** 2))
     error = math.sqrt(max(crowd - 1.0 / draws, 0.0))
     return Check(fit.log_evidence, total - math.log(draws), error, 1.0 / crowd)
-
-
-def _log_posteriors(fit: Fit, points: Array) -> Array:
-    """Return the log posterior (draws,) at points (draws, n); minus infinity outside of the prior."""
-    problem = fit.problem
-    priors = np.array([problem.log_prior(point) for point in points])
-    inside = np.isfinite(priors)
-    found = np.full(len(points), -np.inf)
-    if inside.any():
-        found[inside] = priors[inside] + problem.log_likelihoods(points[inside])
-    return found

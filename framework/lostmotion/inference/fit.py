@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from lostmotion.contracts import Array
-from lostmotion.inference.problem import RANDOM, Innovations, Problem
+from lostmotion.likelihood.problem import RANDOM, Innovations, Problem
 
 BLOCKS = 40
 STRIDE = 0.3
@@ -122,35 +122,44 @@ class Sensitivity:
         return np.asarray((self.errors / v) @ self.errors.T + 0.5 * (self.variances / v**2) @ self.variances.T)
 
 
-def sensitivity(problem: Problem, theta: Array, steps: Array) -> Sensitivity:
-    """Return innovations and their derivatives at `theta`, by differences that stay within the bounds.
+def stencil(problem: Problem, theta: Array, steps: Array) -> tuple[Array, Array]:
+    """Return coordinates above and below `theta`, (n,) each: equal where one side is enough, or a bound forbids it.
 
-    They are central, but for coordinates in which errors are straight: there one side is enough.
+    Differences are central, but for coordinates in which errors are straight.
     """
-    low, high = problem.clip(theta - 1e300), problem.clip(theta + 1e300)
-    up, down = np.minimum(theta + steps, high), np.maximum(theta - steps, low)
+    space = problem.space
     straight = np.array([f.straight for f in problem.free], dtype=bool)
-    down[straight] = theta[straight]
-    central = [i for i, f in enumerate(problem.free) if not f.straight]
-    points = [_moved(theta, i, up[i]) for i in range(len(theta))] + [_moved(theta, i, down[i]) for i in central]
-    here, *around = problem.around(theta, points)
-    below = dict(zip(central, around[len(theta) :], strict=True))
-    sides = [((up[i], around[i]), (down[i], below.get(i, here))) for i in range(len(theta))]
-    # Where the filter does not get through on one side, the other has to do.
-    pairs = [[side if side[1].finite else (theta[i], here) for side in both] for i, both in enumerate(sides)]
-    de = np.array([_difference(a.errors, b.errors, x - y) for (x, a), (y, b) in pairs])
-    dv = np.array([_difference(a.variances, b.variances, x - y) for (x, a), (y, b) in pairs])
-    return Sensitivity(theta, here, de, dv, steps)
+    return np.minimum(theta + steps, space.high), np.where(straight, theta, np.maximum(theta - steps, space.low))
 
 
-def _moved(theta: Array, index: int, value: float) -> Array:
-    point = theta.copy()
-    point[index] = value
-    return point
+def around(theta: Array, up: Array, down: Array) -> Array:
+    """Return the points (count, n) of a stencil: the middle, those above, those below that differ from the middle."""
+    above = theta + np.diag(up - theta)
+    below = theta + np.diag(down - theta)
+    return np.vstack([theta[None], above, below[down != theta]])
 
 
-def _difference(above: Array, below: Array, width: float) -> Array:
-    return (above - below) / width if width > 0 else np.zeros_like(above)
+def sensitivity(problem: Problem, theta: Array, steps: Array) -> Sensitivity:
+    """Return innovations and their derivatives at `theta`, by differences that stay within the bounds."""
+    up, down = stencil(problem, theta, steps)
+    return differenced(theta, (up, down), problem.many(around(theta, up, down)), steps)
+
+
+def differenced(theta: Array, ends: tuple[Array, Array], seen: Innovations, steps: Array) -> Sensitivity:
+    """Return the derivatives from the innovations `seen` at the points of a stencil.
+
+    Where the filter does not get through on one side, the other has to do.
+    """
+    (up, down), count = ends, len(theta)
+    below = np.zeros(count, dtype=np.intp)
+    below[down != theta] = np.arange(1 + count, len(seen))
+    above = np.arange(1, 1 + count)
+    above, below = (np.where(seen.finite[rows], rows, 0) for rows in (above, below))
+    widths = np.where(above > 0, up, theta) - np.where(below > 0, down, theta)
+    safe = np.where(widths > 0, widths, 1.0)[:, None]
+    de = (seen.errors[above] - seen.errors[below]) / safe
+    dv = (seen.variances[above] - seen.variances[below]) / safe
+    return Sensitivity(theta, seen[0], de, dv, steps)
 
 
 def expand(problem: Problem, theta: Array, steps: Array) -> Local:
@@ -253,7 +262,7 @@ def _coast(problem: Problem, slopes: Sensitivity, local: Local) -> Array:
 
 def _step(problem: Problem, local: Local, damping: float) -> tuple[Array, float]:
     """Return the damped step and the gain it promises; coordinates that press against a bound stay there."""
-    low, high = problem.clip(local.theta - 1e300), problem.clip(local.theta + 1e300)
+    low, high = problem.space.low, problem.space.high
     pressed = ((local.theta <= low) & (local.gradient < 0)) | ((local.theta >= high) & (local.gradient > 0))
     loose = np.flatnonzero(~pressed)
     step = np.zeros_like(local.theta)

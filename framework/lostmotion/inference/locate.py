@@ -9,9 +9,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from lostmotion.contracts import Array, Model
-from lostmotion.inference.latent import Missing
 from lostmotion.inference.shares import Covariate, Share, significant
-from lostmotion.inference.tracks import Track
+from lostmotion.likelihood.latent import Missing
+from lostmotion.likelihood.observation import Observation
 
 BINS = 25
 WORTH_SAYING = 0.05
@@ -29,7 +29,7 @@ class Curve:
     high: Array
 
 
-def covariates(model: Model, track: Track, missing: Missing) -> dict[str, Array]:
+def covariates(model: Model, observation: Observation, missing: Missing) -> dict[str, Array]:
     """Return position, velocity, phase (cycles, when there is a drive period) and time (s) of each sample.
 
     Where the model has further places than the ground, the relative motion there too: "position at base".
@@ -37,12 +37,12 @@ def covariates(model: Model, track: Track, missing: Missing) -> dict[str, Array]
     table = {"position": missing.position, "velocity": missing.velocity}
     for place in model.interfaces:
         if place.name != "ground" and len(model.interfaces) > 1:
-            moved = track.motion_at(place, missing.states)
+            moved = observation.motion_at(place, missing.states)
             table[f"position at {place.name}"], table[f"velocity at {place.name}"] = moved
-    period = track.period
+    period = observation.period
     if period:
-        table["phase"] = ((track.begin + np.arange(track.samples)) / period) % 1.0
-    table["time"] = track.time
+        table["phase"] = ((observation.begin + np.arange(observation.samples)) / period) % 1.0
+    table["time"] = observation.time
     return table
 
 
@@ -81,7 +81,7 @@ def parity(found: Curve) -> str:
 
 
 def further(
-    model: Model, track: Track, missing: Missing, plays: Mapping[str, float] | None = None
+    model: Model, observation: Observation, missing: Missing, plays: Mapping[str, float] | None = None
 ) -> dict[str, Covariate]:
     """Return what else a force may depend on: sign of velocity, contact, history, at each place of the model.
 
@@ -91,14 +91,16 @@ def further(
     found = {}
     for place in model.interfaces:
         x, v = (
-            (missing.position, missing.velocity) if place.name == "ground" else track.motion_at(place, missing.states)
+            (missing.position, missing.velocity)
+            if place.name == "ground"
+            else observation.motion_at(place, missing.states)
         )
         tail = "" if place.name == "ground" or len(model.interfaces) == 1 else f" at {place.name}"
         found[f"sign of velocity{tail}"] = Covariate((np.sign(v),), classes=True)
         play = (plays or {}).get(place.name, 0.0)
         if play > 0.0:
             found[f"contact{tail}"] = Covariate((np.asarray(np.abs(x) > play, dtype=float),), classes=True)
-        found[f"history{tail}"] = Covariate((x, v, _earlier(x, v, track.dt)))
+        found[f"history{tail}"] = Covariate((x, v, _earlier(x, v, observation.dt)))
     return found
 
 

@@ -14,9 +14,9 @@ import numpy as np
 
 from lostmotion.inference.candidates import Shapes
 from lostmotion.inference.fit import Fit, maximise
-from lostmotion.inference.free import FADE, NOISE, RANDOM, SLOW, Free
-from lostmotion.inference.problem import Problem
 from lostmotion.inference.selection import Progress, Selection, Selector, significant_random_force
+from lostmotion.likelihood.problem import Problem
+from lostmotion.likelihood.space import FADE, NOISE, RANDOM, SLOW, Free
 
 SHORTEST, LONGEST = 0.7, 0.5
 """The memory lasts at least so many samples, and at most this share of the natural time of the motion: what is slower
@@ -72,7 +72,7 @@ def believed(plain: Fit, hung: Fit | None) -> bool:
 
 
 def _frees(problem: Problem, fit: Fit) -> tuple[Free, Free]:
-    dt = problem.tracks[0].dt
+    dt = problem.observations[0].dt
     low, high = math.log(SHORTEST * dt), math.log(max(LONGEST * problem.scales.time, LEAST * dt))
     noise = float(np.mean([c for f, c in zip(problem.free, fit.theta, strict=True) if f.parameter == NOISE]))
     middle = min(math.log(3.0 * dt), high)
@@ -90,5 +90,5 @@ def _start(wider: Problem, fit: Fit, samples: float) -> np.ndarray:
         if f.parameter == NOISE:
             theta[i] -= 0.35
         if f.parameter == FADE:
-            theta[i] = math.log(samples * wider.tracks[0].dt)
+            theta[i] = math.log(samples * wider.observations[0].dt)
     return wider.clip(theta)

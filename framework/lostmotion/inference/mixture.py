@@ -14,7 +14,7 @@ import numpy as np
 
 from lostmotion.contracts import Array
 from lostmotion.inference.fit import Fit, Local, maximise, robust_covariance
-from lostmotion.inference.problem import RANDOM
+from lostmotion.likelihood.problem import RANDOM
 
 STRIDE = 0.8
 MOST = 7

@@ -10,7 +10,6 @@ import numpy as np
 
 from lostmotion.contracts import Array
 from lostmotion.inference.fit import Fit
-from lostmotion.inference.problem import Problem
 
 NEAR = 3.0
 """Maxima that are closer than this many standard deviations in each coordinate are one."""
@@ -31,14 +30,8 @@ def one_hill(a: Fit, b: Fit) -> bool:
         return True
     problem = max(a.problem, b.problem, key=lambda p: p.nsub)
     along = np.linspace(0.0, 1.0, LOOKS)[:, None]
-    heights = heights_of(problem, problem.clip(a.theta + along * (b.theta - a.theta)))
+    heights = problem.log_posteriors(problem.clip(a.theta + along * (b.theta - a.theta)))
     return bool(np.min(heights[1:-1]) > min(heights[0], heights[-1]) - DIP)
-
-
-def heights_of(problem: Problem, points: Array) -> Array:
-    """Return the log posterior (count,) at several points (count, n)."""
-    priors = np.array([problem.log_prior(p) for p in points])
-    return np.asarray(problem.log_likelihoods(points) + priors, dtype=float)
 
 
 def _sd(fit: Fit) -> Array:

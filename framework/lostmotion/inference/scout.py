@@ -15,10 +15,10 @@ import numpy as np
 from lostmotion.contracts import Array, place_of
 from lostmotion.inference.candidates import screen, size_of, slopes_of, sorted_slots, term_of, tried_of
 from lostmotion.inference.fit import Fit
-from lostmotion.inference.latent import leaning
-from lostmotion.inference.problem import Problem
 from lostmotion.inference.setup import stepped
-from lostmotion.system import Slot
+from lostmotion.likelihood.latent import expected_force
+from lostmotion.likelihood.problem import Problem
+from lostmotion.likelihood.system import Slot
 
 REACH, COUNT = 3.9, 240
 """Shapes are looked at up to this logarithm from the typical value, as far as a prior reaches, and so many: 3 % apart,
@@ -34,16 +34,16 @@ CLEAR = 8.0
 
 def scouted(fit: Fit) -> dict[str, list[dict[str, float]]]:
     """Return for each law without states the far shape to which the recording leans, where there is one."""
-    keys, whole = scoutable(fit.problem), fit.problem.tracks[0]
+    keys, whole = scoutable(fit.problem), fit.problem.observations[0]
     if not keys:
         return {}
     problem = stepped(fit.problem, fit.theta).on((whole.part(0, min(whole.samples, MOST_SAMPLES)),))
-    track = problem.tracks[0]
-    states, lean = leaning(problem, fit.theta)
+    observation = problem.observations[0]
+    states, lean = expected_force(problem, fit.theta)
     slopes, found = None, {}
     for key in keys:
-        x, v = track.motion_at(place_of(problem.system.model, term_of(problem, key)[0]), states)
-        if best := _best(problem, key, np.stack([track.time, x, v]), lean):
+        x, v = observation.motion_at(place_of(problem.system.model, term_of(problem, key)[0]), states)
+        if best := _best(problem, key, np.stack([observation.time, x, v]), lean):
             slopes = slopes or slopes_of(fit)
             hint = screen(fit, slopes, key, [best])
             if hint.gain > CLEAR and best.items() <= hint.start.items():

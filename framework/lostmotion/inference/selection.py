@@ -22,8 +22,8 @@ from lostmotion.inference.candidates import (
     with_term,
 )
 from lostmotion.inference.fit import MANY, Fit, maximise, restarted, warmed
-from lostmotion.inference.problem import RANDOM
 from lostmotion.inference.standing import CERTAIN, standing
+from lostmotion.likelihood.problem import RANDOM
 
 PROMISING = 3.0
 """A term is fitted when its score test promises at least this gain in log-likelihood."""
@@ -208,7 +208,7 @@ class Selector:
         The random force of a nominal fit follows such a recording as well, sample by sample, and score tests on top of
         that see next to nothing.
         """
-        if fit.problem.active or any(track.channel != "force" for track in fit.problem.tracks):
+        if fit.problem.active or any(observation.channel != "force" for observation in fit.problem.observations):
             return
         self.say("calm start")
         calm = calmed(fit)

@@ -12,15 +12,15 @@ from scipy.stats import qmc
 from lostmotion.case import Case, Prior, Sensor
 from lostmotion.contracts import Array
 from lostmotion.errors import CaseError, ContractError
-from lostmotion.forcing import substeps
 from lostmotion.inference.candidates import CREEP, steps_for_sticking
 from lostmotion.inference.fit import Fit, maximise, restarted, warmed
-from lostmotion.inference.free import LEVELS, NOISE, OFFSET, RANDOM, Free, keys_of
 from lostmotion.inference.modes import Tried, distinct
-from lostmotion.inference.noise import LEVELS_TRIED, noise_frees, own_levels, random_level, usual_of
-from lostmotion.inference.problem import Problem, Scales
-from lostmotion.inference.tracks import Track
-from lostmotion.system import Slot, System
+from lostmotion.likelihood.drive import substeps
+from lostmotion.likelihood.levels import LEVELS_TRIED, noise_frees, own_levels, random_level, usual_of
+from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.problem import Problem, Scales
+from lostmotion.likelihood.space import LEVELS, NOISE, OFFSET, RANDOM, Free, keys_of
+from lostmotion.likelihood.system import Slot, System
 
 HELD_OUT = 0.3
 SHARED = Sensor("shared")
@@ -37,43 +37,43 @@ COARSE, FINE = 0.06, 0.015
 """Final estimates take steps a quarter as long as those of the search: a kink makes RK4 first order."""
 
 
-def split(tracks: Sequence[Track]) -> tuple[tuple[Track, ...], tuple[Track, ...]]:
+def split(observations: Sequence[Observation]) -> tuple[tuple[Observation, ...], tuple[Observation, ...]]:
     """Return what is fitted and what is held out: the last 30 % of one recording, or the last 30 % of several."""
-    if len(tracks) == 1:
-        cut = round((1.0 - HELD_OUT) * tracks[0].samples)
-        return (tracks[0].part(0, cut),), (tracks[0].part(cut, tracks[0].samples),)
-    kept = max(1, len(tracks) - max(1, round(HELD_OUT * len(tracks))))
-    return tuple(tracks[:kept]), tuple(tracks[kept:])
+    if len(observations) == 1:
+        cut = round((1.0 - HELD_OUT) * observations[0].samples)
+        return (observations[0].part(0, cut),), (observations[0].part(cut, observations[0].samples),)
+    kept = max(1, len(observations) - max(1, round(HELD_OUT * len(observations))))
+    return tuple(observations[:kept]), tuple(observations[kept:])
 
 
-def scales_of(system: System, tracks: Sequence[Track], known: Array) -> Scales:
+def scales_of(system: System, observations: Sequence[Observation], known: Array) -> Scales:
     """Return the natural sizes of force, length and time of the recorded motion."""
-    return replace(_sizes(system, tracks, known), span=max(t.samples * t.dt for t in tracks))
+    return replace(_sizes(system, observations, known), span=max(t.samples * t.dt for t in observations))
 
 
-def _sizes(system: System, tracks: Sequence[Track], known: Array) -> Scales:
-    rate = float(np.median([_rate(t) for t in tracks]))
-    size = float(np.median([t.amplitude for t in tracks]))
-    if tracks[0].channel == "force":
-        return Scales(size, float(np.median([t.travel for t in tracks])), 1.0 / rate)
-    length = size / rate ** {"position": 0, "velocity": 1, "acceleration": 2}[tracks[0].channel]
+def _sizes(system: System, observations: Sequence[Observation], known: Array) -> Scales:
+    rate = float(np.median([_rate(t) for t in observations]))
+    size = float(np.median([t.amplitude for t in observations]))
+    if observations[0].channel == "force":
+        return Scales(size, float(np.median([t.travel for t in observations])), 1.0 / rate)
+    length = size / rate ** {"position": 0, "velocity": 1, "acceleration": 2}[observations[0].channel]
     if "force" in system.model.inputs:
-        force = math.sqrt(2.0) * float(np.sqrt(np.mean([np.var(t.inputs[:, 0]) for t in tracks])))
-        force = force or float(np.mean([np.abs(t.inputs[:, 0]).max() for t in tracks]))
+        force = math.sqrt(2.0) * float(np.sqrt(np.mean([np.var(t.inputs[:, 0]) for t in observations])))
+        force = force or float(np.mean([np.abs(t.inputs[:, 0]).max() for t in observations]))
     else:
         force = known[system.index[system.model.interfaces[0].inertia]] * length * rate**2
     return Scales(force, length, 1.0 / rate)
 
 
-def _rate(track: Track) -> float:
+def _rate(observation: Observation) -> float:
     """Return the rms angular frequency (rad/s) of the response above its noise floor."""
-    z = np.where(np.isfinite(track.z), track.z, np.nanmean(track.z))
+    z = np.where(np.isfinite(observation.response), observation.response, np.nanmean(observation.response))
     power = np.abs(np.fft.rfft((z - z.mean()) * np.hanning(len(z)))) ** 2
     floor = 3.0 * float(np.median(power[-len(power) // 5 :]))
     power = np.maximum(power - floor, 0.0)
-    omega = 2.0 * math.pi * np.fft.rfftfreq(len(z), track.dt)
+    omega = 2.0 * math.pi * np.fft.rfftfreq(len(z), observation.dt)
     return float(math.sqrt(np.sum(power * omega**2) / max(np.sum(power), 1e-300))) or 2.0 * math.pi / (
-        len(z) * track.dt
+        len(z) * observation.dt
     )
 
 
@@ -139,35 +139,35 @@ def _check_bounds(system: System, name: str, low: float, high: float) -> None:
         raise CaseError(f"{name} ({param.meaning}) is {found}, wanted {wanted}: correct it in the case")
 
 
-def problem_of(system: System, case: Case, tracks: tuple[Track, ...], *, jobs: int = 2) -> Problem:
+def problem_of(system: System, case: Case, observations: tuple[Observation, ...], *, jobs: int = 2) -> Problem:
     """Return the problem of a case on the given recordings, with no term active, noise levels shared."""
     known = known_of(system, case)
-    scales = scales_of(system, tracks, known)
-    names = [track.name for track in tracks]
+    scales = scales_of(system, observations, known)
+    names = [observation.name for observation in observations]
     frees = [f for name, prior in case.estimate.items() for f in frees_for(system.slot(name), prior, names)]
-    problem = Problem(system, tracks, scales, known, tuple(frees), jobs=jobs)
+    problem = Problem(system, observations, scales, known, tuple(frees), jobs=jobs)
     scales = replace(scales, usual=usual_of(problem, rate_of(problem, problem.start)))
-    problem = replace(problem, scales=scales, free=(*frees, *noise_frees(tracks, scales)))
+    problem = replace(problem, scales=scales, free=(*frees, *noise_frees(observations, scales)))
     return stepped(problem, problem.start)
 
 
 def rate_of(problem: Problem, theta: Array) -> float:
     """Return the fastest rate (1/s) of the linearised motion over the region that the recording covers."""
-    system, scales, track = problem.system, problem.scales, problem.tracks[0]
+    system, scales, observation = problem.system, problem.scales, problem.observations[0]
     grid = np.linspace(-1.5, 1.5, 7)
     states = np.zeros((len(grid) * 3, len(system.model.states)))
     states[:, 0] = np.repeat(grid, 3) * scales.length
     states[:, 1] = np.tile([-1.0, 0.03, 1.0], len(grid)) * scales.velocity
-    middle = np.repeat(np.mean(track.inputs, axis=0)[None], len(states), axis=0)
+    middle = np.repeat(np.mean(observation.inputs, axis=0)[None], len(states), axis=0)
     alike = all(f.recording is None or f.parameter in LEVELS for f in problem.free)
-    fulls = [problem.full(theta, i) for i in range(1 if alike else len(problem.tracks))]
+    fulls = [problem.full(theta, i) for i in range(1 if alike else len(problem.observations))]
     return max(1.0 / scales.time, *(system.stiffness(full, problem.active, states, middle) for full in fulls))
 
 
 def stepped(problem: Problem, theta: Array, *, accuracy: float = COARSE) -> Problem:
     """Return the problem with as many steps between samples as the stiffness along the recorded motion asks for."""
     rate = rate_of(problem, theta)
-    steps = substeps(rate, max(t.dt for t in problem.tracks), accuracy=accuracy)
+    steps = substeps(rate, max(t.dt for t in problem.observations), accuracy=accuracy)
     return replace(problem, nsub=max(steps, steps_for_sticking(problem, theta, creep=CREEP * accuracy / COARSE)))
 
 
@@ -184,9 +184,9 @@ def search(problem: Problem, rng: np.random.Generator, *, points: int = 48, fina
 
 def beginnings(problem: Problem) -> Problem:
     """Return the problem on the beginnings of its recordings, about `BEGINNING` samples of one or twice that of all."""
-    several = len(problem.tracks) > 1
-    samples = max(2 * BEGINNING // len(problem.tracks), FEWEST) if several else BEGINNING
-    return problem.on(tuple(t.part(0, min(t.samples, samples)) for t in problem.tracks))
+    several = len(problem.observations) > 1
+    samples = max(2 * BEGINNING // len(problem.observations), FEWEST) if several else BEGINNING
+    return problem.on(tuple(t.part(0, min(t.samples, samples)) for t in problem.observations))
 
 
 def _tried(problem: Problem, beginning: Problem, rng: np.random.Generator, points: int) -> Tried:
@@ -205,7 +205,7 @@ def _tried(problem: Problem, beginning: Problem, rng: np.random.Generator, point
     random = [f.parameter == RANDOM for f in problem.free]
     scores = np.full(points, -np.inf)
     for share in LEVELS_TRIED:
-        starts[:, random] = random_level(problem.tracks, problem.scales, share)
+        starts[:, random] = random_level(problem.observations, problem.scales, share)
         scores = np.maximum(scores, beginning.log_likelihoods(problem.clip(starts)))
     starts[:, random] = problem.start[random]
     return Tried(cube, starts, scores)
@@ -256,7 +256,7 @@ def separated(fit: Fit, sensor: Sensor) -> Fit:
     It begins at the fit with shared levels. Where nothing is to be split, or all is split already, it is that fit.
     """
     problem = restarted(fit)
-    own = sensor.noise == "each" and len(problem.tracks) > 1 and RANDOM in problem.keys
+    own = sensor.noise == "each" and len(problem.observations) > 1 and RANDOM in problem.keys
     zeros = () if any(f.parameter == OFFSET for f in problem.free) else _offsets(problem, sensor.offset)
     if not own and not zeros:
         return fit
@@ -272,10 +272,10 @@ def _offsets(problem: Problem, prior: Prior | None) -> tuple[Free, ...]:
     """Return the zero of the response sensor in each recording; none where it is known."""
     if prior is None:
         return ()
-    rotation, channel = problem.system.model.motion == "rotation", problem.tracks[0].channel
+    rotation, channel = problem.system.model.motion == "rotation", problem.observations[0].channel
     per = {"position": "", "velocity": "/s", "acceleration": "/s^2"}
     unit = ("N m" if rotation else "N") if channel == "force" else ("rad" if rotation else "m") + per[channel]
-    keys = keys_of(OFFSET, [track.name for track in problem.tracks])
+    keys = keys_of(OFFSET, [observation.name for observation in problem.observations])
     return tuple(_free(key, unit, prior, (-math.inf, math.inf)) for key in keys)
 
 

@@ -10,7 +10,7 @@ from scipy.stats import chi2, norm
 from lostmotion.contracts import Array
 from lostmotion.inference.candidates import sorted_slots
 from lostmotion.inference.fit import Fit, robust_covariance
-from lostmotion.inference.problem import Problem
+from lostmotion.likelihood.problem import Problem
 
 CERTAIN = 3.0
 """An amplitude counts when it is this many robust standard deviations from nothing."""

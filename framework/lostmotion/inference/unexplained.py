@@ -13,8 +13,8 @@ from lostmotion.inference.candidates import slopes_of, term_of
 from lostmotion.inference.curves import CHOICES, ROUNDS, fit_curve, shape_of, transplanted
 from lostmotion.inference.fit import Fit, maximise
 from lostmotion.inference.learned import Learned
-from lostmotion.inference.problem import RANDOM, Problem
 from lostmotion.inference.selection import DECISIVE, WORTH, price_of, significant_random_force
+from lostmotion.likelihood.problem import RANDOM, Problem
 
 MOST_CURVES = 2
 KEPT = 0.2
@@ -100,7 +100,7 @@ def unknown_of(nominal: Fit, chosen: Fit, many: int, say: Progress = lambda _: N
     `many` is the number of terms that were tried. Curves are tried on top of the chosen terms and of the nominal model
     alone: where the curves do without the terms, these are dropped, and else the names are kept.
     """
-    whole, samples = chosen.problem.tracks, sum(t.samples for t in chosen.problem.tracks)
+    whole, samples = chosen.problem.observations, sum(t.samples for t in chosen.problem.observations)
     before, after = (_shortened(transplanted(fit, chosen.problem.active)) for fit in (nominal, chosen))
     search = Search(many + len(before.problem.system.terms), say)
     bar = max(search.visit(before), search.visit(after))
@@ -121,7 +121,7 @@ def unknown_of(nominal: Fit, chosen: Fit, many: int, say: Progress = lambda _: N
         return None
     if _takes_over(best, after):
         return None
-    if samples > sum(t.samples for t in best.problem.tracks):
+    if samples > sum(t.samples for t in best.problem.observations):
         say("learned curves on all of the recording")
         best = maximise(best.problem.on(whole), best.theta, rounds=ROUNDS, tolerance=0.3)
     alone = bool(chosen.problem.active) and best.problem.active == frozenset(_curves(best.problem))
@@ -130,11 +130,11 @@ def unknown_of(nominal: Fit, chosen: Fit, many: int, say: Progress = lambda _: N
 
 def _shortened(fit: Fit) -> Fit:
     """Return the fit on the beginnings of its recordings where they are long: curves have dozens of coefficients."""
-    tracks = fit.problem.tracks
-    share = MOST_SAMPLES / sum(t.samples for t in tracks)
+    observations = fit.problem.observations
+    share = MOST_SAMPLES / sum(t.samples for t in observations)
     if share >= 1.0:
         return fit
-    parts = tuple(t.part(0, round(share * t.samples)) for t in tracks)
+    parts = tuple(t.part(0, round(share * t.samples)) for t in observations)
     return maximise(fit.problem.on(parts), fit.theta, rounds=ROUNDS)
 
 

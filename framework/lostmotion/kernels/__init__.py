@@ -1,9 +1,4 @@
-"""Compiled loops: the composed kernel of a model and its terms, the filter through it, and the smoother.
+"""Compiled loops: numbers in lanes, the filter through a model, free motion, the smoother, neighbours.
 
-Nothing here knows of models or plugins: `compose` is handed plain functions and returns compiled ones.
+Nothing here knows of models or plugins: `lostmotion.likelihood` writes their functions into one and hands it over.
 """
-
-from lostmotion.kernels.compose import Blueprint, Compiled, Law, Place, build
-from lostmotion.kernels.smooth import smooth
-
-__all__ = ["Blueprint", "Compiled", "Law", "Place", "build", "smooth"]

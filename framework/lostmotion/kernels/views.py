@@ -38,7 +38,7 @@ def view(typingctx: Any, array: Any, start: Any, size: Any) -> Any:
 
 
 def _packed(builder: Any, value: Any) -> Any:
-    return cgutils.pack_array(builder, [value])  # type: ignore[no-untyped-call]
+    return cgutils.pack_array(builder, [value])
 
 
 def slow_view(array: NDArray[np.float64], start: int, size: int) -> NDArray[np.float64]:

@@ -72,7 +72,7 @@ class _Column:
         self.numbers = self.numbers or bool(np.isfinite(values).any() or np.isinf(values).any())
         self.parts.append(values)
 
-    def settled(self, file: str) -> Array | None:
+    def rounded(self, file: str) -> Array | None:
         """Return the column (n,), or None when none of its cells is a number: a column of words is left out."""
         if self.wrong and not self.meant and not self.numbers:
             return None
@@ -206,7 +206,7 @@ def _careful(table: _Table) -> dict[str, Array]:
         filled = ((table.first + i, row) for i, row in enumerate(rows) if row.strip())
         while block := list(islice(filled, AT_ONCE)):
             _take(table, columns, block)
-    settled = ((c.name, c.settled(table.path.name)) for c in columns if c.name)
+    settled = ((c.name, c.rounded(table.path.name)) for c in columns if c.name)
     return {name: found for name, found in settled if found is not None}
 
 

@@ -11,7 +11,7 @@ import pluggy
 from lostmotion import hookspecs
 from lostmotion.errors import nearest
 
-KINDS = ("model", "term", "embedder", "quantifier", "surrogate", "denoiser")
+KINDS = ("model", "term", "embedder", "quantifier", "surrogate", "denoiser", "engine")
 HOOKS = {f"lostmotion_{kind}s": kind for kind in KINDS}
 FAILURES = (Exception, SystemExit)
 """What code of other people may raise while it is imported or asked; Ctrl-C is not among them."""

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lostmotion.contracts import Array
-from lostmotion.inference.problem import Free
+from lostmotion.likelihood.problem import Free
 from lostmotion.stages._scores import FAR, Scores
 
 TAIL = 10.0

@@ -10,8 +10,8 @@ from typing import NamedTuple
 import numpy as np
 
 from lostmotion.contracts import Array
-from lostmotion.forcing import Tone
-from lostmotion.inference.tracks import Track
+from lostmotion.likelihood.drive import Tone
+from lostmotion.likelihood.observation import Observation
 
 FACTORS = (0.5, 0.7, 1.4, 2.0)
 """Levels and frequencies that are tried, over those of the recording."""
@@ -44,37 +44,41 @@ class Excitation:
     tone: Tone
 
 
-def repeat_of(track: Track, samples: int, natural: float) -> Excitation:
+def repeat_of(observation: Observation, samples: int, natural: float) -> Excitation:
     """Return the beginning of what moved a recording; `natural` (Hz) stands for its frequency where it has none."""
-    frequency = frequency_of(track, natural)
-    return Excitation(REPEAT, track.travel, (frequency, frequency), track.inputs[:samples], track.tone)
+    frequency = frequency_of(observation, natural)
+    return Excitation(
+        REPEAT, observation.travel, (frequency, frequency), observation.inputs[:samples], observation.tone
+    )
 
 
-def frequency_of(track: Track, natural: float) -> float:
+def frequency_of(observation: Observation, natural: float) -> float:
     """Return the frequency (Hz) of the drive of a recording, or that of its motion where there is no single one."""
-    period = track.period
-    return 1.0 / (period * track.dt) if period else natural
+    period = observation.period
+    return 1.0 / (period * observation.dt) if period else natural
 
 
-def usual_limits(track: Track, natural: float) -> Limits:
+def usual_limits(observation: Observation, natural: float) -> Limits:
     """Return twice the level and twice the frequency of a recording."""
-    return Limits(2.0 * track.travel, 2.0 * frequency_of(track, natural))
+    return Limits(2.0 * observation.travel, 2.0 * frequency_of(observation, natural))
 
 
-def candidates_for(track: Track, samples: int, limits: Limits, rng: np.random.Generator) -> list[Excitation]:
-    """Return the excitations to compare, each of so many samples every `track.dt` s."""
+def candidates_for(
+    observation: Observation, samples: int, limits: Limits, rng: np.random.Generator
+) -> list[Excitation]:
+    """Return the excitations to compare, each of so many samples every `observation.dt` s."""
     natural = 0.5 * limits.frequency
-    frequency, level = frequency_of(track, natural), track.travel
-    top = min(limits.frequency, 1.0 / (FEWEST * track.dt))
+    frequency, level = frequency_of(observation, natural), observation.travel
+    top = min(limits.frequency, 1.0 / (FEWEST * observation.dt))
     levels, frequencies = _within(level, limits.level), _within(frequency, top)
-    found = [_made(track, samples, HARMONIC, a, _tones([f])) for a in levels for f in frequencies]
-    if track.period:
+    found = [_made(observation, samples, HARMONIC, a, _tones([f])) for a in levels for f in frequencies]
+    if observation.period:
         found = [c for c in found if not (_near(c.level, level) and _near(c.band[0], frequency))]
     band = (min(0.5 * frequency, 0.5 * top), min(2.0 * frequency, top))
     for a in sorted({min(level, limits.level), max(levels)}):
-        found.append(_made(track, samples, TONES, a, _tones([GOLDEN * band[1], band[1]])))
-        found.append(_made(track, samples, SWEEP, a, band))
-        found.append(_made(track, samples, MULTISINE, a, _multisine(band, rng)))
+        found.append(_made(observation, samples, TONES, a, _tones([GOLDEN * band[1], band[1]])))
+        found.append(_made(observation, samples, SWEEP, a, band))
+        found.append(_made(observation, samples, MULTISINE, a, _multisine(band, rng)))
     return found
 
 
@@ -104,16 +108,18 @@ def _multisine(band: tuple[float, float], rng: np.random.Generator) -> Wave:
     ]
 
 
-def _made(track: Track, samples: int, waveform: str, level: float, shape: Wave | tuple[float, float]) -> Excitation:
+def _made(
+    observation: Observation, samples: int, waveform: str, level: float, shape: Wave | tuple[float, float]
+) -> Excitation:
     """Return an excitation about the mean of the old one; a `shape` that is a pair is the band (Hz) of a sweep."""
-    t: Array = np.arange(samples, dtype=float) * track.dt
+    t: Array = np.arange(samples, dtype=float) * observation.dt
     if isinstance(shape, tuple):
         rows, band = [_swept(t, shape)], shape
     else:
         rows = list(_waves(t, shape))
         band = (min(f for _, f, _ in shape), max(f for _, f, _ in shape))
     value, slope = (level * np.sum([row[k] for row in rows], axis=0) for k in (0, 1))
-    columns = [float(np.mean(track.inputs[:, 0])) + value, slope][: track.inputs.shape[1]]
+    columns = [float(np.mean(observation.inputs[:, 0])) + value, slope][: observation.inputs.shape[1]]
     omega = 2.0 * math.pi * band[0] if waveform == HARMONIC else 0.0
     return Excitation(waveform, level, band, np.stack(columns, axis=1), Tone(omega, level))
 

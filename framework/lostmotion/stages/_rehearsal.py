@@ -10,9 +10,9 @@ from scipy.signal import lfilter
 
 from lostmotion.contracts import Array
 from lostmotion.inference.fit import Fit, sensitivity, solved
-from lostmotion.inference.predict import observed
-from lostmotion.inference.problem import RANDOM, Problem
-from lostmotion.inference.tracks import Track
+from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.predict import free_run, observed
+from lostmotion.likelihood.problem import RANDOM, Problem
 from lostmotion.stages._excitations import Excitation
 
 PIECE = 4
@@ -44,9 +44,11 @@ class Model:
 
     def under(self, excitation: Excitation, z: Array | None = None) -> Problem:
         """Return the problem of a new recording; the noise of the excitation grows with its level."""
-        problem, old = self.fit.problem, self.fit.problem.tracks[0]
+        problem, old = self.fit.problem, self.fit.problem.observations[0]
         seen = np.zeros(len(excitation.inputs)) if z is None else z
-        track = Track("experiment", seen, excitation.inputs, old.dt, old.channel, old.held, tone=excitation.tone)
+        observation = Observation.of(
+            "experiment", seen, excitation.inputs, old.dt, old.channel, held=old.held, tone=excitation.tone
+        )
         shift = self._louder(excitation)
         frees = [
             replace(f, start=f.start + shift, low=f.low + shift, high=f.high + shift, mean=f.mean + shift)
@@ -54,7 +56,7 @@ class Model:
             else f
             for f in problem.free
         ]
-        return replace(problem, tracks=(track,), free=tuple(frees))
+        return replace(problem, observations=(observation,), free=tuple(frees))
 
     def at(self, excitation: Excitation) -> Array:
         """Return the coordinates under an excitation."""
@@ -62,24 +64,21 @@ class Model:
         return np.asarray(self.fit.theta + self._louder(excitation) * random, dtype=float)
 
     def _louder(self, excitation: Excitation) -> float:
-        return 2.0 * math.log(max(excitation.level, 1e-300) / max(self.fit.problem.tracks[0].travel, 1e-300))
+        return 2.0 * math.log(max(excitation.level, 1e-300) / max(self.fit.problem.observations[0].travel, 1e-300))
 
 
 def simulated(model: Model, excitation: Excitation, rng: np.random.Generator) -> Array | None:
     """Return what the sensor would show (samples,) of a model with its noise levels; None if it leaves all bounds."""
     problem, theta = model.under(excitation), model.at(excitation)
-    system, drive = problem.system, problem.drive(0, theta)
-    base, own = system.pack(problem.full(theta), drive.dt / drive.nsub, drive.tone)
-    on, at = system.wiring(problem.active)
-    place = system.model.interfaces[0]
+    system, place, full = problem.system, problem.system.model.interfaces[0], problem.full(theta)
     intensity, variance = problem.noise(theta)
-    kick = math.sqrt(intensity * PIECE * drive.dt) / base[[q.name for q in system.model.params].index(place.inertia)]
-    run, states = system.kernel(problem.active).run, np.zeros((drive.samples, system.states(problem.active)))
-    states[0] = model.fit.problem.initial(0, states.shape[1], model.fit.theta)[0]
+    drive = problem.drive(0, theta)
+    kick = math.sqrt(intensity * PIECE * drive.dt) / full[system.index[place.inertia]]
+    states = np.zeros((drive.samples, problem.dynamics.states))
+    states[0] = model.fit.problem.begun(model.fit.theta)
     for start in range(0, drive.samples - 1, PIECE):
         part = states[start : start + PIECE + 1]
-        u = drive.u[3 * drive.nsub * start : 3 * drive.nsub * (start + len(part))]
-        run(part[0].copy(), u, drive.begin + start * drive.dt, drive.dt, drive.nsub, base, own, on, at, 0.0, part)
+        part[:] = free_run(problem, theta, part[0], start, len(part))
         part[-1, place.row] += kick * rng.standard_normal()
     if not np.all(np.isfinite(states)):
         return None
@@ -90,7 +89,7 @@ def simulated(model: Model, excitation: Excitation, rng: np.random.Generator) ->
 def _slow(problem: Problem, theta: Array, rng: np.random.Generator) -> Array:
     """Return measurement noise with a memory (samples,), of a model that has any."""
     variance, fade = problem.slow(theta)
-    fresh = math.sqrt(variance * (1.0 - fade**2)) * rng.standard_normal(problem.tracks[0].samples)
+    fresh = math.sqrt(variance * (1.0 - fade**2)) * rng.standard_normal(problem.observations[0].samples)
     fresh[0] = math.sqrt(variance) * rng.standard_normal()
     return np.asarray(lfilter([1.0], [1.0, -fade], fresh), dtype=float)
 

@@ -9,7 +9,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from lostmotion.contracts import Array
-from lostmotion.inference.problem import Free
+from lostmotion.likelihood.problem import Free
 from lostmotion.stages._cloud import Cloud
 
 JUMPS, FEWER = 0.95, 0.5

@@ -14,7 +14,7 @@ import numpy as np
 from scipy.stats import qmc
 
 from lostmotion.contracts import Array
-from lostmotion.inference.problem import Free
+from lostmotion.likelihood.problem import Free
 from lostmotion.stages._cloud import Cloud
 from lostmotion.stages._population import Population, new_kernels
 from lostmotion.stages._sampling import Density, Posterior

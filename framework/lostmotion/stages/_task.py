@@ -11,8 +11,8 @@ import numpy as np
 from lostmotion.contracts import Array
 from lostmotion.errors import DataError
 from lostmotion.inference.fit import Fit
-from lostmotion.inference.problem import NOISE, PACE, RANDOM, Free, Problem
-from lostmotion.inference.tracks import Track
+from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.problem import NOISE, PACE, RANDOM, Free, Problem
 from lostmotion.quantities import ANGULAR, SI
 from lostmotion.stages._cloud import Cloud
 from lostmotion.stages._sampling import Posterior
@@ -102,19 +102,19 @@ def mode_weights(log_evidence: Array) -> Array:
 def _shown(free: Free, problem: Problem) -> Shown:
     """Return how a parameter is told; a random force as the rms (N, N m) of one that is held from sample to sample."""
     base, _, place = free.key.partition("[")
-    track = _track(problem, place.removesuffix("]"))
+    observation = _track(problem, place.removesuffix("]"))
     rotation = problem.system.model.motion == "rotation"
-    channel = (ANGULAR if rotation else SI)[track.channel]
+    channel = (ANGULAR if rotation else SI)[observation.channel]
     if base == OFFSET:
         return Shown(free.key, channel, 0.0)
     if base not in NOISES:
         return Shown(free.key, free.unit, 1.0 if free.log else 0.0)
     name = NOISES[base] + free.key[len(base) :]
     if base == RANDOM:
-        return Shown(name, "N m" if rotation else "N", 0.5, track.dt**-0.5)
+        return Shown(name, "N m" if rotation else "N", 0.5, observation.dt**-0.5)
     return Shown(name, "1/s" if base == PACE else channel, 1.0)
 
 
-def _track(problem: Problem, name: str) -> Track:
+def _track(problem: Problem, name: str) -> Observation:
     """Return the recording that a key names, or the first."""
-    return next((t for t in problem.tracks if t.name == name), problem.tracks[0])
+    return next((t for t in problem.observations if t.name == name), problem.observations[0])

@@ -10,7 +10,8 @@ import numpy as np
 from lostmotion.contracts import Array
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.locate import autocorrelation, whiteness
-from lostmotion.inference.predict import (
+from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.predict import (
     Horizon,
     filtered,
     free_run,
@@ -20,8 +21,7 @@ from lostmotion.inference.predict import (
     largest_exponent,
     observed,
 )
-from lostmotion.inference.problem import Problem
-from lostmotion.inference.tracks import Track
+from lostmotion.likelihood.problem import Problem
 
 STARTS = 150
 REACH = 8.0
@@ -33,7 +33,7 @@ SEGMENT = 3.0
 class Piece:
     """A stretch of held-out data: the recording it stands in, and the sample where it begins there."""
 
-    track: Track
+    observation: Observation
     begin: int
 
 
@@ -57,34 +57,34 @@ class Prediction:
     white: float
 
 
-def pieces_of(tracks: Sequence[Track], held: Sequence[Track]) -> tuple[Piece, ...]:
+def pieces_of(observations: Sequence[Observation], held: Sequence[Observation]) -> tuple[Piece, ...]:
     """Return the held-out pieces: the end of the only recording, or whole recordings after a short settling."""
-    if len(tracks) == 1:
-        return (Piece(tracks[0], tracks[0].samples - held[0].samples),)
+    if len(observations) == 1:
+        return (Piece(observations[0], observations[0].samples - held[0].samples),)
     return tuple(Piece(t, max(t.samples // 20, 5)) for t in held)
 
 
-def exponent_of(fit: Fit, tracks: Sequence[Track]) -> float:
+def exponent_of(fit: Fit, observations: Sequence[Observation]) -> float:
     """Return the largest exponent (1/s) of a fit under the recorded drive."""
-    problem = fit.problem.on((tracks[0],))
-    y0, _ = problem.initial(0, problem.system.states(problem.active))
+    problem = fit.problem.on((observations[0],))
+    y0 = problem.begun(fit.theta)
     return largest_exponent(problem, fit.theta, y0)
 
 
-def exponent_blocks(fit: Fit, tracks: Sequence[Track], blocks: int = 10) -> Array:
+def exponent_blocks(fit: Fit, observations: Sequence[Observation], blocks: int = 10) -> Array:
     """Return the exponent (blocks,), in 1/s, over successive parts of the first recording; none if it is too short."""
-    problem = fit.problem.on((tracks[0],))
-    y0, _ = problem.initial(0, problem.system.states(problem.active))
+    problem = fit.problem.on((observations[0],))
+    y0 = problem.begun(fit.theta)
     rates = growth_rates(problem, fit.theta, y0)
     return np.array([part.mean() for part in np.array_split(rates, blocks)]) if len(rates) >= blocks else np.zeros(0)
 
 
 def predict(fit: Fit, pieces: Sequence[Piece], horizon: Horizon, exponent: float) -> Prediction:
     """Return the predictions of one model on the held-out pieces, judged over `horizon`."""
-    scale = float(np.nanstd(np.concatenate([p.track.z[p.begin :] for p in pieces])))
-    problems = [fit.problem.on((piece.track,)) for piece in pieces]
+    scale = float(np.nanstd(np.concatenate([p.observation.response[p.begin :] for p in pieces])))
+    problems = [fit.problem.on((piece.observation,)) for piece in pieces]
     tracked = [filtered(problem, fit.theta) for problem in problems]
-    runs, scores, lengths = [], [], [p.track.samples - p.begin for p in pieces]
+    runs, scores, lengths = [], [], [p.observation.samples - p.begin for p in pieces]
     for piece, problem, seen in zip(pieces, problems, tracked, strict=True):
         held = slice(piece.begin, None)
         scores.append((seen.log_score(held), seen.expected_score(held)))
@@ -112,28 +112,30 @@ def predict(fit: Fit, pieces: Sequence[Piece], horizon: Horizon, exponent: float
 
 def own_motion(fit: Fit, pieces: Sequence[Piece]) -> float:
     """Return the standard deviation of the motion of the machine itself: relative to its base where that moves."""
-    relative = fit.problem.system.model.inputs[0] == "base_position" and pieces[0].track.channel == "position"
-    parts = [p.track.z[p.begin :] - (p.track.inputs[p.begin :, 0] if relative else 0.0) for p in pieces]
+    relative = fit.problem.system.model.inputs[0] == "base_position" and pieces[0].observation.channel == "position"
+    parts = [
+        p.observation.response[p.begin :] - (p.observation.inputs[p.begin :, 0] if relative else 0.0) for p in pieces
+    ]
     return float(np.nanstd(np.concatenate(parts)))
 
 
 def _runs(problem: Problem, fit: Fit, states: Array, piece: Piece, horizon: Horizon):  # type: ignore[no-untyped-def]
     """Return free runs from starts that are spread over a held-out piece."""
-    track = piece.track
-    left = track.samples - piece.begin
-    steps = int(min(max(REACH * horizon.unit_time / track.dt, horizon.steps + 1), left // 2))
-    last = track.samples - steps
+    observation = piece.observation
+    left = observation.samples - piece.begin
+    steps = int(min(max(REACH * horizon.unit_time / observation.dt, horizon.steps + 1), left // 2))
+    last = observation.samples - steps
     starts = np.unique(np.linspace(piece.begin, last, min(STARTS, max(last - piece.begin, 1))).astype(int))
     return free_runs(problem, fit.theta, states, starts, steps)
 
 
 def _forecast(problem: Problem, fit: Fit, states: Array, piece: Piece, horizon: Horizon) -> tuple[Array, Array]:
     """Return a free-running prediction (samples,) over a piece, begun anew every few units of time, and where."""
-    track = piece.track
-    length = max(int(SEGMENT * horizon.unit_time / track.dt), horizon.steps, 2)
-    forecast, restarts = np.full(track.samples, np.nan), np.zeros(track.samples)
-    for start in range(piece.begin, track.samples - 1, length):
-        steps = min(length, track.samples - start)
+    observation = piece.observation
+    length = max(int(SEGMENT * horizon.unit_time / observation.dt), horizon.steps, 2)
+    forecast, restarts = np.full(observation.samples, np.nan), np.zeros(observation.samples)
+    for start in range(piece.begin, observation.samples - 1, length):
+        steps = min(length, observation.samples - start)
         run = free_run(problem, fit.theta, states[start], start, steps)
         forecast[start : start + steps] = observed(problem, fit.theta, run, (start, 0))
         restarts[start] = 1.0
@@ -142,4 +144,4 @@ def _forecast(problem: Problem, fit: Fit, states: Array, piece: Piece, horizon: 
 
 def horizon_for(fit: Fit, pieces: Sequence[Piece], exponent: float) -> Horizon:
     """Return the horizon over which predictions are judged, from the exponent of the better model."""
-    return horizon_of(pieces[0].track, exponent, fit.problem.scales.time)
+    return horizon_of(pieces[0].observation, exponent, fit.problem.scales.time)

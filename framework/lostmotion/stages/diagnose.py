@@ -7,23 +7,23 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from lostmotion.beside import SensorTerm
 from lostmotion.case import Case
-from lostmotion.contracts import Array, Interface, Model, Term, Values, place_of
+from lostmotion.contracts import Array, Interface, Model, SensorTerm, Term, Values, place_of
 from lostmotion.errors import DataError
 from lostmotion.inference.fit import Fit
-from lostmotion.inference.latent import Missing, missing_force
 from lostmotion.inference.learned import Learned
 from lostmotion.inference.locate import Curve, covariates, curve, edges_of, further, summary
 from lostmotion.inference.memory import selected
-from lostmotion.inference.problem import LEVELS, Problem
 from lostmotion.inference.scout import scoutable, scouted
 from lostmotion.inference.selection import Selection, significant_random_force
 from lostmotion.inference.setup import polish, problem_of, search, split, stepped
 from lostmotion.inference.shares import Covariate, Share, shares_of, significant
-from lostmotion.inference.tracks import Track
 from lostmotion.inference.unexplained import Unknown, unknown_of
-from lostmotion.system import System
+from lostmotion.likelihood.latent import Missing, missing_force
+from lostmotion.likelihood.motion import derivatives
+from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.problem import LEVELS, Problem
+from lostmotion.likelihood.system import System
 
 SIGNIFICANT = 8.0
 """A random force beyond the usual noise of the drive counts when it gains this much log-likelihood."""
@@ -74,15 +74,15 @@ class Diagnosis:
     before: Fit
     after: Fit
     selection: Selection
-    shown: Track
+    shown: Observation
     located: Located
     left: Located | None
     law: Array
     laws: dict[str, Array]
     law_curves: dict[str, Curve]
     random_gain: float
-    train: tuple[Track, ...]
-    held: tuple[Track, ...]
+    train: tuple[Observation, ...]
+    held: tuple[Observation, ...]
     marks: Mapping[str, tuple[Values, Values]] = field(default_factory=dict)
     learned: Unknown | None = None
 
@@ -107,7 +107,9 @@ class Diagnosis:
         return bool(self.learned) or (not self.found and self.unexplained and bool(self.located.structure))
 
 
-def candidates_of(model: Model, terms: Sequence[type[Term]], tracks: Sequence[Track] = ()) -> tuple[Term, ...]:
+def candidates_of(
+    model: Model, terms: Sequence[type[Term]], observations: Sequence[Observation] = ()
+) -> tuple[Term, ...]:
     """Return each term at each place of the model where it can act, given what drives the recordings.
 
     Of terms that equal each other the first is enough.
@@ -119,7 +121,7 @@ def candidates_of(model: Model, terms: Sequence[type[Term]], tracks: Sequence[Tr
         if term.acts == "motion" and (not term.anywhere or place.name == "ground" or len(model.interfaces) == 1)
     ]
     tried += [term(at=term.acts) for term in terms if term.acts != "motion"]  # type: ignore[call-arg]
-    driven = all(track.tone.omega > 0.0 for track in tracks)
+    driven = all(observation.tone.omega > 0.0 for observation in observations)
     tried = [term for term in tried if term.fits(model) and (driven or "omega" not in term.needs)]
     names = [term.name for term in tried]
     return tuple(t for i, t in enumerate(tried) if not set(t.equals) & set(names[:i]))
@@ -127,7 +129,7 @@ def candidates_of(model: Model, terms: Sequence[type[Term]], tracks: Sequence[Tr
 
 def diagnose(
     case: Case,
-    tracks: Sequence[Track],
+    observations: Sequence[Observation],
     system: System,
     *,
     rng: np.random.Generator,
@@ -135,7 +137,7 @@ def diagnose(
     say: Callable[[str], None] = lambda _: None,
 ) -> Diagnosis:
     """Return the diagnosis of a case; `system` holds the model and every term that is to be tried."""
-    train, held = split(tracks)
+    train, held = split(observations)
     say("fit of the nominal model")
     nominal = search(problem_of(system, case, train, jobs=jobs), rng)
     selection = selected(nominal, fitted_keys(system), say)
@@ -148,7 +150,7 @@ def diagnose(
     after = polish(selection.chosen) if selection.chosen.problem.active else before
     gain = significant_random_force(after)
     say("missing force")
-    shown = tracks[0] if len(tracks) == 1 else held[0]
+    shown = observations[0] if len(observations) == 1 else held[0]
     chance = rng.spawn(1)[0]
     marks = marks_of(after)
     bare = Diagnosis(before, after, selection, shown, _NOWHERE, None, _NO, {}, {}, gain, train, held, marks)
@@ -166,11 +168,11 @@ def diagnose(
 
 def marks_of(fit: Fit) -> dict[str, tuple[Values, Values]]:
     """Return the sensor terms that the stored values betray and that make up a share of the noise, by key."""
-    tracks, found = fit.problem.tracks, {}
-    noise = max(fit.problem.measurement(fit.theta, i) for i in range(len(tracks)))
+    observations, found = fit.problem.observations, {}
+    noise = max(fit.problem.measurement(fit.theta, i) for i in range(len(observations)))
     for key, term in fit.problem.system.beside.items():
         if isinstance(term, SensorTerm) and term.marked:
-            seen = [term.marks(track.z) for track in tracks]
+            seen = [term.marks(observation.response) for observation in observations]
             if all(p for p, _ in seen) and term.scatter(seen[0][0]) ** 2 > MARKED * noise:
                 found[key] = seen[0]
     return found
@@ -217,7 +219,7 @@ def plays_of(problem: Problem, theta: Array) -> dict[str, float]:
 
 def locate(
     model: Model,
-    track: Track,
+    observation: Observation,
     missing: Missing,
     *,
     plays: Mapping[str, float] | None = None,
@@ -226,38 +228,29 @@ def locate(
     """Return where a missing force lives; `plays` are the half gaps by place, `rng` draws surrogates of the force."""
     if not np.all(np.abs(missing.force) < LARGEST):
         raise DataError(
-            f"{track.name}: the model cannot follow this recording at all: check the units and columns of what went in"
-            " and came out, the known values and the priors"
+            f"{observation.name}: the model cannot follow this recording at all: check the units and columns of what"
+            " went in and came out, the known values and the priors"
         )
-    table = covariates(model, track, missing)
-    asked = {name: Covariate((values,)) for name, values in table.items()} | further(model, track, missing, plays)
+    table = covariates(model, observation, missing)
+    asked = {name: Covariate((values,)) for name, values in table.items()} | further(model, observation, missing, plays)
     found = shares_of(asked, missing.force, rng)
     curves = {name: curve(values, missing.force) for name, values in table.items()}
     return Located(missing, curves, found, summary(table, missing.force, found))
 
 
-def law_of(fit: Fit, track: Track, states: Array, key: str) -> Array:
+def law_of(fit: Fit, observation: Observation, states: Array, key: str) -> Array:
     """Return the force (samples,) of one term of a fit along the smoothed `states` of a recording."""
-    problem = fit.problem.on((track,))
-    system, drive = problem.system, problem.drive(0, fit.theta)
-    full = problem.full(fit.theta)
-    base, own = system.pack(full, drive.dt / drive.nsub, drive.tone)
-    on, at = system.wiring(problem.active)
-    off, other = on.copy(), drive
-    if key in system.beside:
-        other = replace(problem, active=problem.active - {key}).drive(0, fit.theta)
-    else:
-        off[[k for k, _ in system.forces].index(key)] = False
-    derivative = system.kernel(problem.active).derivative
-    place = _felt(system, key)
-    inertia = full[system.index[place.inertia]]
-    force, with_terms, without = np.empty(len(states)), np.zeros(states.shape[1]), np.zeros(states.shape[1])
-    for k, y in enumerate(states):
-        t, i = drive.begin + k * drive.dt, 3 * drive.nsub * k
-        derivative(t, y, drive.u[i], base, own, on, at, 0.0, with_terms)
-        derivative(t, y, other.u[i], base, own, off, at, 0.0, without)
-        force[k] = (with_terms[place.row] - without[place.row]) * inertia
-    return force
+    problem = fit.problem.on((observation,))
+    system, drive, full = problem.system, problem.drive(0, fit.theta), problem.full(fit.theta)
+    packed = system.pack(full[None], drive.dt / problem.nsub, drive.tone)
+    place, beside = _felt(system, key), key in system.beside
+    other = replace(problem, active=problem.active - {key}).drive(0, fit.theta) if beside else drive
+    times = drive.begin + np.arange(len(states)) * drive.dt
+    seen = states[:, : problem.dynamics.states]
+    inside = (system, problem.active, packed, seen)
+    with_term, _ = derivatives(*inside, drive.inputs[: len(states)], times)
+    without, _ = derivatives(*inside, other.inputs[: len(states)], times, muted=None if beside else key)
+    return np.asarray((with_term[:, place.row] - without[:, place.row]) * full[system.index[place.inertia]])
 
 
 def _felt(system: System, key: str) -> Interface:

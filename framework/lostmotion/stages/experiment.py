@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from lostmotion.inference.fit import Fit
-from lostmotion.inference.tracks import Track
+from lostmotion.likelihood.observation import Observation
 from lostmotion.stages._excitations import Excitation, Limits, candidates_for, repeat_of, usual_limits
 from lostmotion.stages._rehearsal import Asked, Model, evidence, simulated
 
@@ -60,11 +60,11 @@ def propose(
     say: Callable[[str], None] = lambda _: None,
 ) -> Proposal | None:
     """Return the excitation within `limits` that separates two fits best; None where no simulation gets through."""
-    track = chosen.problem.tracks[0]
+    observation = chosen.problem.observations[0]
     natural = natural_of(chosen)
-    samples = min(SAMPLES, track.samples)
-    share = track.samples / samples
-    offered = candidates_for(track, samples, limits or usual_limits(track, natural), rng)
+    samples = min(SAMPLES, observation.samples)
+    share = observation.samples / samples
+    offered = candidates_for(observation, samples, limits or usual_limits(observation, natural), rng)
     weighed = _Weighed((Model.of(chosen), Model.of(rival)), share, rng)
     rough = []
     for number, excitation in enumerate(offered, start=1):
@@ -77,7 +77,7 @@ def propose(
     found = _best(fine, counted, 1, min)
     if not found:
         return None
-    (best, ways), repeat = found[0], weighed.mean(repeat_of(track, samples, natural))
+    (best, ways), repeat = found[0], weighed.mean(repeat_of(observation, samples, natural))
     return Proposal(best, ways or (0.0, 0.0), repeat or (0.0, 0.0), counted)
 
 
@@ -86,12 +86,12 @@ def natural_of(fit: Fit) -> float:
     return 1.0 / (2.0 * math.pi * fit.problem.scales.time)
 
 
-def news(chosen: Fit, rival: Fit, track: Track) -> float:
+def news(chosen: Fit, rival: Fit, observation: Observation) -> float:
     """Return the log Bayes factor, chosen over rival, that a new recording adds to that of the old ones."""
     natural = natural_of(chosen)
-    whole = repeat_of(track, track.samples, natural)
+    whole = repeat_of(observation, observation.samples, natural)
     asked = Asked(1.0, 3 * ROUNDS)
-    told = [evidence(Model.of(fit), whole, track.z, asked) for fit in (chosen, rival)]
+    told = [evidence(Model.of(fit), whole, observation.response, asked) for fit in (chosen, rival)]
     return told[0] - told[1]
 
 

@@ -22,7 +22,7 @@ import numpy as np
 
 from lostmotion.case.levels import Level, Measured
 from lostmotion.contracts import Array
-from lostmotion.inference.free import Free
+from lostmotion.likelihood.space import Free
 from lostmotion.study.atlas import CHAOTIC, MISSING, PERIODIC, Atlas, Places
 from lostmotion.study.numbers import Law
 

@@ -11,7 +11,7 @@ import numpy as np
 from lostmotion.contracts import Array, Assembly, Flow, Group
 from lostmotion.errors import CaseError, nearest
 from lostmotion.flow import Harmonic, flow_of
-from lostmotion.system import System
+from lostmotion.likelihood.system import System
 
 DRIVE = {"amplitude": "amplitude of the drive", "omega": "angular frequency of the drive", "phase": "its phase"}
 OMEGA = 0.2

@@ -10,8 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from lostmotion.beside import DriveTerm, SensorTerm
-from lostmotion.contracts import Array, Term
+from lostmotion.contracts import Array, DriveTerm, SensorTerm, Term
 from lostmotion.testing.probes import STEP, Point, compiled, differ, of_term
 from lostmotion.testing.rules import SNAKE, listed, rule
 from lostmotion.testing.shared import repeated

@@ -48,7 +48,7 @@ def _series(outcome: Outcome) -> dict[str, Column]:
     time = ("time",)
     table = {
         "excitation": Column(time, shown.inputs[:, 0], units[drive], "measured input"),
-        "response": Column(time, shown.z, seen, f"recorded {shown.channel}"),
+        "response": Column(time, shown.response, seen, f"recorded {shown.channel}"),
         "heldout": Column(time, heldout, "1", "1 where no fit has seen the data"),
         "record": Column(time, np.zeros(shown.samples), "1", "number of the recording"),
         "position": Column(time, missing.position, units["position"], "smoothed position"),

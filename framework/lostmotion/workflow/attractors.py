@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from lostmotion.contracts import Array
 from lostmotion.inference.fit import Fit
-from lostmotion.inference.predict import filtered, free_run
-from lostmotion.inference.tracks import Track
+from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.predict import filtered, free_run
 from lostmotion.signals.distances import distances, energy_distance, same_chance
 from lostmotion.stages.diagnose import Diagnosis
 
@@ -42,12 +42,12 @@ def motions_of(d: Diagnosis) -> dict[str, Array]:
     return runs
 
 
-def _free(fit: Fit, track: Track) -> Array:
+def _free(fit: Fit, observation: Observation) -> Array:
     """Return the states (samples, n) of a free run over a whole recording, from its first filtered state."""
-    problem = fit.problem.on((track,))
-    first = min(20, track.samples - 1)
+    problem = fit.problem.on((observation,))
+    first = min(20, observation.samples - 1)
     states = filtered(problem, fit.theta).states
-    run = free_run(problem, fit.theta, states[first], first, track.samples - first)
+    run = free_run(problem, fit.theta, states[first], first, observation.samples - first)
     return np.vstack([states[:first], run])
 
 
@@ -59,15 +59,15 @@ def section(states: Array, period: float, phase: float = 0.0) -> Array:
 
 
 def distances_between(
-    motions: Mapping[str, Array], track: Track, rng: np.random.Generator
+    motions: Mapping[str, Array], observation: Observation, rng: np.random.Generator
 ) -> tuple[dict[str, Apart], bool]:
     """Return how far the section of each model lies from the recorded one, and whether it is stroboscopic.
 
     "noise_floor" is the distance between the halves of the recorded one. Where nothing drives the machine evenly, the
     points are looks at the whole orbit.
     """
-    period = track.period
-    spacing = period or max(track.samples / MOST, 1.0)
+    period = observation.period
+    spacing = period or max(observation.samples / MOST, 1.0)
     recorded = motions["recorded"]
     scale = recorded[:, :2].std(axis=0)
     clouds = {name: _looks(states, spacing) / scale for name, states in motions.items()}

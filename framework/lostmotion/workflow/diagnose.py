@@ -11,13 +11,13 @@ import numpy as np
 
 from lostmotion.errors import ContractError
 from lostmotion.inference.fit import Fit
+from lostmotion.likelihood.system import System, key_of
 from lostmotion.provenance import provenance
 from lostmotion.registry import Registry
 from lostmotion.report import write_report
 from lostmotion.stages.compare import exponent_of, horizon_for, pieces_of, predict
 from lostmotion.stages.diagnose import Diagnosis, diagnose
 from lostmotion.storage import folder_for, save_arrays, save_json
-from lostmotion.system import System, key_of
 from lostmotion.workflow.arrays import arrays_of
 from lostmotion.workflow.attractors import motions_of
 from lostmotion.workflow.evidences import evidence_of
@@ -58,7 +58,7 @@ def run_diagnosis(
     outcome = judged(diagnosis, prepared, rng)
     motions = motions_of(diagnosis)
     say("attractors")
-    show = shown(Seen(outcome, motions, prepared.tracks, registry), np.random.default_rng([seed, SHOW]))
+    show = shown(Seen(outcome, motions, prepared.observations, registry), np.random.default_rng([seed, SHOW]))
     stream = np.random.default_rng([seed, NEXT])
     proposals = proposed(diagnosis, prepared.case.experiment if propose else None, rng=stream, say=say)
     say("evidence by sampling")
@@ -89,13 +89,13 @@ def _diagnosed(
     """
     system, rng = System(prepared.model, prepared.terms), np.random.default_rng(seed)
     try:
-        return diagnose(prepared.case, prepared.tracks, system, rng=rng, jobs=jobs, say=say), prepared, rng
+        return diagnose(prepared.case, prepared.observations, system, rng=rng, jobs=jobs, say=say), prepared, rng
     except ContractError as err:
         guests = theirs(registry, prepared.terms)
         culprits = {err.plugin} & set(guests)
         if not err.plugin:
             suspects = [term for term in prepared.terms if key_of(term) in guests]
-            culprits = raising(suspects, prepared.tracks) or set(guests)
+            culprits = raising(suspects, prepared.observations) or set(guests)
         if not culprits:
             raise
         kept = tuple(term for term in prepared.terms if key_of(term) not in culprits)
@@ -106,10 +106,10 @@ def _diagnosed(
 
 def judged(diagnosis: Diagnosis, prepared: Prepared, rng: np.random.Generator) -> Outcome:
     """Return the diagnosis with what both models predict of the held-out data."""
-    pieces = pieces_of(prepared.tracks, diagnosis.held)
+    pieces = pieces_of(prepared.observations, diagnosis.held)
     same = diagnosis.after is diagnosis.before
-    exponents = [exponent_of(diagnosis.before, prepared.tracks)]
-    exponents.append(exponents[0] if same else exponent_of(diagnosis.after, prepared.tracks))
+    exponents = [exponent_of(diagnosis.before, prepared.observations)]
+    exponents.append(exponents[0] if same else exponent_of(diagnosis.after, prepared.observations))
     horizon = horizon_for(diagnosis.after, pieces, exponents[1])
 
     def predicted(fit: Fit, exponent: float):  # type: ignore[no-untyped-def]

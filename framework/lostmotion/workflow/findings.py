@@ -12,7 +12,7 @@ from lostmotion.contracts import Array, Term
 from lostmotion.inference.candidates import term_of
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.mixture import draws
-from lostmotion.inference.predict import Horizon
+from lostmotion.likelihood.predict import Horizon
 from lostmotion.quantities import ANGULAR, SI
 from lostmotion.results import Interval
 from lostmotion.stages.compare import Prediction

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from lostmotion.inference.free import parted
+from lostmotion.likelihood.space import parted
 from lostmotion.stages.identify import NOISES, Identification
 
 SENSOR = (*NOISES.values(), "offset")

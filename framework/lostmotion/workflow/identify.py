@@ -17,7 +17,7 @@ import numpy as np
 from lostmotion.case import Case
 from lostmotion.contracts import Array
 from lostmotion.errors import CaseError
-from lostmotion.inference.free import Free
+from lostmotion.likelihood.space import Free
 from lostmotion.provenance import provenance
 from lostmotion.registry import Registry
 from lostmotion.report.identification import write_identification

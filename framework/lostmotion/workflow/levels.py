@@ -15,7 +15,8 @@ from lostmotion.case import Case, Prior
 from lostmotion.case.levels import Level
 from lostmotion.contracts import Array, Model
 from lostmotion.errors import CaseError, ContractError, DataError, nearest
-from lostmotion.inference.free import Free
+from lostmotion.likelihood.space import Free
+from lostmotion.likelihood.system import System
 from lostmotion.registry import Registry
 from lostmotion.stages.identify import Cloud, Shown, Task
 from lostmotion.study.atlas import DIMENSION, RATIO, Atlas
@@ -23,7 +24,6 @@ from lostmotion.study.inversion import Inversion, grouped
 from lostmotion.study.map import Map
 from lostmotion.study.numbers import Law, Power, law_of
 from lostmotion.study.sweep import Crew
-from lostmotion.system import System
 from lostmotion.workflow.mapping import How, Request, make_map, study_of
 from lostmotion.workflow.reading import read_levels
 from lostmotion.workflow.rehearsal import unit_of

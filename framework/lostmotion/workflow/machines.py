@@ -16,9 +16,9 @@ import numpy as np
 
 from lostmotion.contracts import Array
 from lostmotion.errors import CaseError, DataError
-from lostmotion.forcing import Drive, substeps
 from lostmotion.kernels.independent_lin import rattle
-from lostmotion.system import System
+from lostmotion.likelihood.drive import substeps
+from lostmotion.likelihood.system import Clock, System
 from lostmotion.workflow.drives import Signal, signal_of
 
 FRICTION = "coulomb_friction"
@@ -195,7 +195,7 @@ def _own(system: System, full: Array, run: _Run, start: Array) -> Array:
     inputs = [known[name] for name in model.inputs]
     y0 = np.zeros(len(model.states))
     y0[0] = start[0] * full[system.index["x0"]] if "x0" in system.index else 0.0
-    rough = system.simulate(full, system.everything, y0, Drive.smooth(inputs, dt, FEWEST, run.samples))
+    rough = system.moved(full, y0, inputs, Clock(dt, FEWEST, run.samples))
     picked = np.unique(np.linspace(0, max(rough.finite - 1, 0), 200).astype(int))
     u = np.stack([f(picked * dt) for f in inputs], axis=1)
     rate = system.stiffness(full, system.everything, rough.states[picked, : len(model.states)], u)
@@ -204,7 +204,7 @@ def _own(system: System, full: Array, run: _Run, start: Array) -> Array:
         raise CaseError(
             f"{run.samples} samples with {nsub} steps between them are more than {LARGEST} steps: shorten the duration"
         )
-    states = system.simulate(full, system.everything, y0, Drive.smooth(inputs, dt, nsub, run.samples)).states
+    states = system.moved(full, y0, inputs, Clock(dt, nsub, run.samples)).states
     return states[:, _position(system)]
 
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from lostmotion.inference.fit import Fit
-from lostmotion.inference.problem import LEVELS
+from lostmotion.likelihood.problem import LEVELS
 from lostmotion.stages.diagnose import Diagnosis
 from lostmotion.workflow.findings import Outcome
 
@@ -27,14 +27,15 @@ def fleeting(fit: Fit) -> list[str]:
     """Return a note for each contact that is so stiff that a bounce falls between two samples."""
     problem, notes = fit.problem, []
     for place in problem.system.model.interfaces:
-        for i, track in enumerate(problem.tracks):
+        for i, observation in enumerate(problem.observations):
             full = problem.full(fit.theta, i)
             stiff = full[problem.system.index[place.stiffness]] if place.stiffness and place.play else 0.0
             lasts = np.pi * np.sqrt(problem.system.inertia(full, place) / stiff) if stiff > 0.0 else np.inf
-            if lasts < track.dt:
+            if lasts < observation.dt:
                 notes.append(
-                    f"{track.name}: a bounce at the {place.name} lasts {lasts:.2g} s and samples are {track.dt:.2g} s"
-                    " apart. What happens between them is guessed, so intervals may be too narrow and findings wrong:"
+                    f"{observation.name}: a bounce at the {place.name} lasts {lasts:.2g} s and samples are"
+                    f" {observation.dt:.2g} s apart. What happens between them is guessed, so intervals may be too"
+                    " narrow and findings wrong:"
                     f" sample at {2.0 / lasts:.2g} Hz or more."
                 )
     return notes
@@ -46,7 +47,7 @@ def _slow(d: Diagnosis) -> list[str]:
     slow, fade = problem.slow(theta)
     if not slow:
         return []
-    lasts = -problem.tracks[0].dt / np.log(fade)
+    lasts = -problem.observations[0].dt / np.log(fade)
     share = slow / problem.measurement(theta)
     return [
         f"{share:.0%} of the variance of the measurement noise has a memory of {lasts:.2g} s; the fit allows for it."
@@ -79,7 +80,7 @@ def _on_the_edge(d: Diagnosis) -> list[str]:
 def _far_off(outcome: Outcome) -> list[str]:
     d = outcome.diagnosis
     noise = d.after.problem.measurement(d.after.theta) ** 0.5
-    far = outcome.after.nrmse * float(np.nanstd(d.shown.z)) / noise
+    far = outcome.after.nrmse * float(np.nanstd(d.shown.response)) / noise
     if far < FAR:
         return []
     return [

@@ -15,12 +15,12 @@ import numpy as np
 
 from lostmotion.inference.candidates import joined, term_of
 from lostmotion.inference.fit import Fit, maximise, restarted, warmed
-from lostmotion.inference.predict import Horizon
-from lostmotion.inference.problem import NOISE, RANDOM, Problem
 from lostmotion.inference.selection import significant_random_force
 from lostmotion.inference.setup import polish, problem_of, split, stepped
+from lostmotion.likelihood.predict import Horizon
+from lostmotion.likelihood.problem import NOISE, RANDOM, Problem
+from lostmotion.likelihood.system import System, key_of
 from lostmotion.stages.compare import exponent_of, pieces_of, predict
-from lostmotion.system import System, key_of
 from lostmotion.workflow.prepare import Prepared
 
 ALIKE: tuple[frozenset[str], ...] = (
@@ -59,7 +59,7 @@ class Yardstick:
 
 def yardstick(prepared: Prepared, truth: Row, diagnosis: Row | None) -> Yardstick:
     """Return what the true model of a case reaches, over the horizon of a diagnosis if there is one."""
-    train, held = split(prepared.tracks)
+    train, held = split(prepared.observations)
     system = System(prepared.model, prepared.terms)
     problem = _begun(problem_of(system, prepared.case, train, jobs=1), truth["machine"])
     effects = [{**e, "parameters": spelled(e["parameters"], truth["machine"])} for e in truth["effects"]]
@@ -161,12 +161,12 @@ def _with(problem: Problem, key: str, truth: Mapping[str, float]) -> Problem:
 
 def _held_out(fit: Fit, prepared: Prepared, held: Sequence[Any], said: Row) -> float | None:
     """Return the error of free runs of a fit on held-out data, over the horizon that a diagnosis chose."""
-    pieces = pieces_of(prepared.tracks, held)
-    track = pieces[0].track
+    pieces = pieces_of(prepared.observations, held)
+    observation = pieces[0].observation
     unit_time, number = float(said["horizon_unit_time"]), float(said["after"]["horizon"])
-    steps = int(min(max(round(number * unit_time / track.dt), 2), track.samples // 4))
+    steps = int(min(max(round(number * unit_time / observation.dt), 2), observation.samples // 4))
     horizon = Horizon(steps, number, said["horizon_unit"], unit_time)
-    error = predict(fit, pieces, horizon, exponent_of(fit, prepared.tracks)).nrmse
+    error = predict(fit, pieces, horizon, exponent_of(fit, prepared.observations)).nrmse
     return float(error) if np.isfinite(error) else None
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from lostmotion.case import Case, load_case
 from lostmotion.contracts import Model, Term
 from lostmotion.errors import CaseError
-from lostmotion.inference.tracks import Track, track_of
+from lostmotion.likelihood.observation import Observation, observation_of
 from lostmotion.recording import Recording, load_recording
 from lostmotion.registry import Registry
 from lostmotion.stages.diagnose import candidates_of
@@ -25,7 +25,7 @@ class Prepared:
 
     case: Case
     recordings: tuple[Recording, ...]
-    tracks: tuple[Track, ...]
+    observations: tuple[Observation, ...]
     model: Model
     terms: tuple[Term, ...]
     origins: Mapping[str, str] = field(default_factory=dict)
@@ -63,10 +63,12 @@ def prepared_of(case: Case, registry: Registry) -> Prepared:
         raise CaseError("the case has no [[recordings]]: add one, with file, time or rate, excitation and response")
     model: Model = sound(registry, "model", case.model)
     recordings = tuple(load_recording(spec, case.folder) for spec in case.recordings)
-    tracks = tuple(track_of(r, model, held=r.hold == "step") for r in recordings)
+    observations = tuple(observation_of(r, model, held=r.hold == "step") for r in recordings)
     _alike(recordings)
     known, aside = usable_terms(registry)
-    return Prepared(case, recordings, tracks, model, candidates_of(model, known, tracks), registry.origins(), aside)
+    return Prepared(
+        case, recordings, observations, model, candidates_of(model, known, observations), registry.origins(), aside
+    )
 
 
 def _alike(recordings: Sequence[Recording]) -> None:

@@ -12,9 +12,9 @@ from lostmotion.case import Experiment
 from lostmotion.contracts import Term
 from lostmotion.inference.candidates import term_of
 from lostmotion.inference.selection import Visit, related
+from lostmotion.likelihood.system import key_of
 from lostmotion.stages.diagnose import Diagnosis
 from lostmotion.stages.experiment import Limits, Proposal, natural_of, propose, usual_limits
-from lostmotion.system import key_of
 from lostmotion.workflow.verdict import WORTH_NAMING
 
 RELATED = math.log(20.0)
@@ -67,7 +67,7 @@ def proposed(
     heaviest = list(rivals_of(d).items())[:MOST]
     if allowed is None:
         return {key: None for key, _ in heaviest}
-    usual = usual_limits(chosen.problem.tracks[0], natural_of(chosen))
+    usual = usual_limits(chosen.problem.observations[0], natural_of(chosen))
     limits = Limits(allowed.max_level or usual.level, allowed.max_frequency or usual.frequency)
     return {
         key: propose(chosen, visit.fit, limits=limits, rng=rng, say=lambda step, key=key: say(f"{key}: {step}"))  # type: ignore[misc]
@@ -147,7 +147,7 @@ def _says(d: Diagnosis, term: Term, p: float, proposal: Proposal) -> str:
 
 def _asked(d: Diagnosis, proposal: Proposal) -> str:
     """Return the experiment in the imperative."""
-    e, old = proposal.excitation, d.selection.chosen.problem.tracks[0].travel
+    e, old = proposal.excitation, d.selection.chosen.problem.observations[0].travel
     change = e.level / old if old else 1.0
     verb = "Raise the drive to" if change > 1.05 else "Lower the drive to" if change < 0.95 else "Keep the drive at"
     low, high = (f"{f:.3g}" for f in e.band)

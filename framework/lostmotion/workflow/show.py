@@ -12,8 +12,8 @@ import numpy as np
 from lostmotion.contracts import Array, Series
 from lostmotion.errors import LostMotionError
 from lostmotion.inference.fit import Fit
-from lostmotion.inference.predict import observed
-from lostmotion.inference.tracks import Track
+from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.predict import observed
 from lostmotion.registry import Registry
 from lostmotion.results import Estimate
 from lostmotion.signals import checked
@@ -40,7 +40,7 @@ class Seen:
 
     outcome: Outcome
     motions: Mapping[str, Array]
-    tracks: tuple[Track, ...]
+    observations: tuple[Observation, ...]
     registry: Registry
 
 
@@ -62,7 +62,7 @@ def shown(seen: Seen, rng: np.random.Generator) -> dict[str, Any]:
                 "or_longer": bool(prediction.valid_time >= prediction.lead[-1]),
             },
             "attractor_distance": _distance(apart[name]),
-            "largest_exponent": _exponent(fit, seen.tracks, prediction.exponent),
+            "largest_exponent": _exponent(fit, seen.observations, prediction.exponent),
             "d2": _estimate(dimensions[name]),
             "whiteness": {"p": prediction.white},
         }
@@ -70,7 +70,7 @@ def shown(seen: Seen, rng: np.random.Generator) -> dict[str, Any]:
     noise = math.sqrt(last[1].problem.measurement(last[1].theta))
     table["noise_floor"] = {
         "heldout_log_score": last[0].expected_score,
-        "free_run_error": noise / float(np.nanstd(d.shown.z)),
+        "free_run_error": noise / float(np.nanstd(d.shown.response)),
         "attractor_distance": _distance(apart["noise_floor"]),
         "d2": _estimate(dimensions["recorded"]),
     }
@@ -92,9 +92,9 @@ def _distance(apart: Apart) -> dict[str, Any]:
     return {"value": apart.value, "p": apart.chance, "status": apart.status}
 
 
-def _exponent(fit: Fit, tracks: tuple[Track, ...], value: float) -> dict[str, Any]:
+def _exponent(fit: Fit, observations: tuple[Observation, ...], value: float) -> dict[str, Any]:
     """Return the exponent with an interval from the scatter over blocks of the recording."""
-    blocks = exponent_blocks(fit, tracks)
+    blocks = exponent_blocks(fit, observations)
     if not len(blocks) or not math.isfinite(value):
         return {"value": value, "low": math.nan, "high": math.nan, "status": "too_short"}
     half = STUDENT * float(np.std(blocks, ddof=1)) / math.sqrt(len(blocks))
@@ -109,12 +109,14 @@ def _estimate(estimate: Estimate) -> dict[str, Any]:
 def _dimensions(seen: Seen, rng: np.random.Generator) -> dict[str, Estimate]:
     """Return the correlation dimension of the recording, and of the free run of each model embedded as that is."""
     outcome, d = seen.outcome, seen.outcome.diagnosis
-    track, period = d.shown, d.shown.period
-    seconds = period * track.dt if period else None
-    finite = track.z[np.isfinite(track.z)] if len(track.z) else track.z
+    observation, period = d.shown, d.shown.period
+    seconds = period * observation.dt if period else None
+    finite = (
+        observation.response[np.isfinite(observation.response)] if len(observation.response) else observation.response
+    )
     fits = {"before": d.before, "after": d.after} if d.found else {"before": d.before}
     try:
-        recorded = embed(finite, seen.registry.make("embedder", EMBEDDER), dt=track.dt, period=seconds)
+        recorded = embed(finite, seen.registry.make("embedder", EMBEDDER), dt=observation.dt, period=seconds)
     except LostMotionError as err:
         return dict.fromkeys(("recorded", *fits), Estimate.refused("failed", str(err)))
     noise = math.sqrt(d.after.problem.measurement(d.after.theta)) / max(float(np.std(finite)), 1e-300)
@@ -124,13 +126,15 @@ def _dimensions(seen: Seen, rng: np.random.Generator) -> dict[str, Estimate]:
         if not exponents[name] > 0.0:
             found[name] = Estimate.refused("regular", "Near runs of the model do not part: no dimension is estimated.")
             continue
-        found[name] = _of_model(fit, track, seen.motions[name], (recorded, seen.registry, rng))
+        found[name] = _of_model(fit, observation, seen.motions[name], (recorded, seen.registry, rng))
     return found
 
 
-def _of_model(fit: Fit, track: Track, states: Array, given: tuple[Series, Registry, np.random.Generator]) -> Estimate:
+def _of_model(
+    fit: Fit, observation: Observation, states: Array, given: tuple[Series, Registry, np.random.Generator]
+) -> Estimate:
     recorded, registry, rng = given
-    x = observed(fit.problem.on((track,)), fit.theta, states)
+    x = observed(fit.problem.on((observation,)), fit.theta, states)
     if not np.isfinite(x).all():
         return Estimate.refused("diverged", "The free run leaves all bounds.")
     try:

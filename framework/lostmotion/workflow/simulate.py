@@ -6,22 +6,22 @@ import functools
 import json
 import math
 import operator
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 
-from lostmotion.beside import SensorTerm
-from lostmotion.contracts import Array, Assembly, Model, Term
+from lostmotion.contracts import Array, Assembly, Input, Model, SensorTerm, Term
 from lostmotion.errors import CaseError, nearest
-from lostmotion.forcing import SILENT, Drive
-from lostmotion.inference.tracks import Track, tone_of
+from lostmotion.likelihood.drive import SILENT, Drive, Tone
+from lostmotion.likelihood.motion import derivatives
+from lostmotion.likelihood.observation import Observation, tone_of
+from lostmotion.likelihood.system import Clock, Slot, System, key_of
 from lostmotion.provenance import provenance
 from lostmotion.quantities import ANGULAR, SI
 from lostmotion.registry import Registry
 from lostmotion.storage import save_table
-from lostmotion.system import Slot, System, key_of
 from lostmotion.workflow.drives import Signal, number, pairs, signal_of
 from lostmotion.workflow.vetting import sound
 
@@ -74,23 +74,25 @@ def simulate(plan: Plan) -> Table:
     system = System.of(plan.assembly)
     full, y0 = _parameters(system, plan.values), _initial(plan)
     signals = _inputs(plan)
-    coarse = _drive(signals, plan, 1)
-    if not np.abs(coarse.u).max() < HUGE:
-        raise CaseError(f"the drive reaches {np.abs(coarse.u).max():.3g}: check its unit")
-    nsub = _substeps(system, full, y0, coarse)
-    recorded = _drive(signals, plan, nsub)
-    drive = _acting(system, full, signals, recorded)
-    motion = system.simulate(full, system.everything, y0, drive)
-    inputs = recorded.u[:: 3 * nsub]
+    times = np.arange(samples) / plan.rate
+    inputs = np.stack([signal.value(times) for signal in signals], axis=1)
+    if not np.abs(inputs).max() < HUGE:
+        raise CaseError(f"the drive reaches {np.abs(inputs).max():.3g}: check its unit")
+    nsub = _substeps(system, full, y0, inputs, 1.0 / plan.rate)
+    acting, tone = _acting(system, full, signals, inputs, 1.0 / plan.rate)
+    motion = system.moved(full, y0, acting, Clock(1.0 / plan.rate, nsub, samples), tone)
     columns = dict(zip(plan.assembly.model.inputs, inputs.T, strict=True))
-    channels = _channels(system, full, motion.states, drive)
+    acts = np.stack([column(times) for column in acting], axis=1)
+    packed = system.pack(full[None], 1.0 / (plan.rate * nsub), tone)
+    _, seen = derivatives(system, system.everything, packed, motion.states, acts, times)
+    channels = dict(zip(plan.assembly.model.channels, seen.T, strict=True))
     if motion.finite < samples or not all(np.abs(x).max() < HUGE for x in channels.values()):
         raise CaseError(
             f"the motion left all bounds after {motion.finite / plan.rate:.4g} s of {plan.duration:g} s:"
             " check the signs and sizes of the parameters"
         )
     columns |= _shown(system, full, _noisy(channels, plan), plan)
-    return _table(plan, {"time": np.arange(samples) / plan.rate, **columns}, nsub)
+    return _table(plan, {"time": times, **columns}, nsub)
 
 
 def assembly_of(registry: Registry, model: str, terms: Iterable[str]) -> tuple[Assembly, dict[str, float]]:
@@ -189,23 +191,22 @@ def _inputs(plan: Plan) -> list[Signal]:
     return [known[name] for name in model.inputs]
 
 
-def _drive(signals: list[Signal], plan: Plan, nsub: int) -> Drive:
-    samples = round(plan.duration * plan.rate)
-    return Drive.smooth([s.value for s in signals], 1.0 / plan.rate, nsub, samples)
+def _acting(
+    system: System, full: Array, signals: list[Signal], inputs: Array, dt: float
+) -> tuple[list[Callable[[Array], Array]], Tone]:
+    """Return the inputs that act, as functions of time, where terms stand between them and what is recorded.
 
-
-def _acting(system: System, full: Array, signals: list[Signal], recorded: Drive) -> Drive:
-    """Return the drive that acts, where terms stand between it and what is recorded.
-
-    Its tone is what a diagnosis would read off its samples.
+    The tone is what a diagnosis would read off the recorded samples.
     """
-    u = recorded.u[:: 3 * recorded.nsub]
-    tone = tone_of(Track("drive", np.zeros(len(u)), u, recorded.dt, ""))
-    plain = replace(recorded, tone=tone)
+    tone = tone_of(Observation.of("drive", np.zeros(len(inputs)), inputs, dt, ""))
     if not system.shaping(system.everything):
-        return plain
+        return [signal.value for signal in signals], tone
     acting = system.acting(lambda t, order: signals[order].value(t), full, system.everything, tone)
-    return Drive.acting(acting, len(signals), plain, False)
+    return [functools.partial(_of_order, acting, order) for order in range(len(signals))], tone
+
+
+def _of_order(u: Input, order: int, t: Array) -> Array:
+    return u(t, order)
 
 
 def _shown(system: System, full: Array, channels: Mapping[str, Array], plan: Plan) -> dict[str, Array]:
@@ -219,40 +220,23 @@ def _shown(system: System, full: Array, channels: Mapping[str, Array], plan: Pla
     return shown
 
 
-def _substeps(system: System, full: Array, y0: Array, coarse: Drive) -> int:
+def _substeps(system: System, full: Array, y0: Array, recorded: Array, dt: float) -> int:
     """Return the steps between samples, from the fastest rate met in a coarse run, or refuse what would take too many.
 
     The coarse run may be unstable; it then still reaches the contacts, and they are what is fast.
     """
-    n = len(system.model.states)
-    rough = Drive(np.repeat(coarse.u.reshape(coarse.samples, -1), FEWEST, axis=0).reshape(-1, coarse.u.shape[1]),
-                  coarse.dt, FEWEST, coarse.samples)  # fmt: skip
-    motion = system.simulate(full, system.everything, y0, rough)
+    n, samples = len(system.model.states), len(recorded)
+    motion = system.simulate(full, system.everything, y0, Drive.held(recorded, dt), FEWEST)
     picked = np.unique(np.linspace(0, max(motion.finite - 1, 0), PROBES).astype(int))
-    states, inputs = motion.states[picked, :n], coarse.u[3 * picked]
-    rate = system.stiffness(full, system.everything, states, inputs)
-    asked = rate * coarse.dt / ACCURACY
-    if not asked * coarse.samples <= LARGEST:
-        after = f"left all bounds after {motion.finite * coarse.dt:.4g} s, or " * (motion.finite < coarse.samples)
+    rate = system.stiffness(full, system.everything, motion.states[picked, :n], recorded[picked])
+    asked = rate * dt / ACCURACY
+    if not asked * samples <= LARGEST:
+        after = f"left all bounds after {motion.finite * dt:.4g} s, or " * (motion.finite < samples)
         raise CaseError(
             f"the motion {after}is too stiff: {rate:.3g} rad/s ask for {asked:.3g} steps between samples, and {LARGEST}"
             " in all are taken at most; check signs and sizes of the parameters, or shorten the duration"
         )
     return max(FEWEST, math.ceil(asked))
-
-
-def _channels(system: System, full: Array, states: Array, drive: Drive) -> dict[str, Array]:
-    """Return what the sensors see (samples,) by channel, without noise."""
-    model, n = system.model, states.shape[1]
-    base, own = system.pack(full, drive.dt / drive.nsub)
-    on, at = system.wiring(system.everything)
-    derivative = system.kernel(system.everything).derivative
-    seen, dydt = np.zeros((len(states), len(model.channels))), np.zeros(n)
-    for k, y in enumerate(states):
-        t, u = k * drive.dt, drive.u[3 * drive.nsub * k]
-        derivative(t, y, u, base, own, on, at, 0.0, dydt)
-        model.observe(t, y, dydt, u, base, seen[k])
-    return dict(zip(model.channels, seen.T, strict=True))
 
 
 def _noisy(channels: Mapping[str, Array], plan: Plan) -> dict[str, Array]:

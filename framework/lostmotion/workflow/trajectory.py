@@ -15,10 +15,10 @@ from lostmotion.inference.candidates import fit_with, screen, slopes_of
 from lostmotion.inference.fit import Fit, maximise, restarted
 from lostmotion.inference.selection import significant_random_force
 from lostmotion.inference.setup import SHARED, frees_for, modes, polished, problem_of, separated
+from lostmotion.likelihood.system import System, key_of
 from lostmotion.registry import Registry
 from lostmotion.stages.diagnose import SIGNIFICANT
 from lostmotion.stages.identify import Identification, Plan, Task, identify, task_of
-from lostmotion.system import System, key_of
 from lostmotion.workflow.prepare import Prepared
 from lostmotion.workflow.vetting import sound
 
@@ -72,7 +72,7 @@ def best_fits(prepared: Prepared, terms: tuple[Term, ...], rng: np.random.Genera
     """
     case = prepared.case
     bare = replace(case, estimate={k: v for k, v in case.estimate.items() if "." not in k})
-    problem = problem_of(System(prepared.model, terms), bare, prepared.tracks, jobs=jobs)
+    problem = problem_of(System(prepared.model, terms), bare, prepared.observations, jobs=jobs)
     found = modes(problem, rng, sensor=SHARED if terms else case.sensor)
     return polished([_with_terms(fit, terms, case) for fit in found])
 
@@ -89,7 +89,7 @@ def _with_terms(fit: Fit, terms: tuple[Term, ...], case: Case) -> Fit:
 def _as_the_case_says(fit: Fit, case: Case) -> Fit:
     """Return the fit with the priors and the known values that the case gives to parameters of terms."""
     problem = restarted(fit)
-    names = [track.name for track in problem.tracks]
+    names = [observation.name for observation in problem.observations]
     frees = []
     for free in problem.free:
         if free.key in case.estimate and "." in free.key:

@@ -9,9 +9,9 @@ import numpy as np
 
 from lostmotion.inference.candidates import term_of
 from lostmotion.inference.fit import Fit
+from lostmotion.likelihood.system import key_of
 from lostmotion.stages.compare import Prediction
 from lostmotion.stages.diagnose import Diagnosis
-from lostmotion.system import key_of
 from lostmotion.workflow.findings import Outcome, found_in, intervals
 from lostmotion.workflow.unknowns import unknown_odds, where
 
@@ -94,7 +94,7 @@ def _fit(outcome: Outcome) -> dict[str, Any]:
 
     d = outcome.diagnosis
     noise = math.sqrt(d.after.problem.measurement(d.after.theta))
-    floor = noise / float(np.nanstd(d.shown.z))
+    floor = noise / float(np.nanstd(d.shown.response))
     unit = {"horizon_unit": outcome.horizon.unit, "horizon_unit_time": outcome.horizon.unit_time}
     return {"before": entry(outcome.before), "after": entry(outcome.after), "noise_floor_nrmse": floor, **unit}
 

@@ -18,9 +18,9 @@ import numpy as np
 from lostmotion.contracts import Array, Term
 from lostmotion.errors import ContractError, DataError, LostMotionError, PluginWarning
 from lostmotion.inference.candidates import called_with
-from lostmotion.inference.tracks import Track
+from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.system import key_of
 from lostmotion.registry import Registry
-from lostmotion.system import key_of
 from lostmotion.testing import Finding, check
 
 T = TypeVar("T")
@@ -82,15 +82,15 @@ def theirs(registry: Registry, terms: tuple[Term, ...]) -> tuple[str, ...]:
     return tuple(key_of(term) for term in terms if not registry.entry("term", term.name).ours)
 
 
-def raising(terms: Iterable[Term], tracks: Sequence[Track]) -> set[str]:
+def raising(terms: Iterable[Term], observations: Sequence[Observation]) -> set[str]:
     """Return the keys of those terms whose force raises somewhere along recorded motions."""
-    return {key_of(term) for term in terms if any(_raises(term, track) for track in tracks)}
+    return {key_of(term) for term in terms if any(_raises(term, observation) for observation in observations)}
 
 
-def _raises(term: Term, track: Track) -> bool:
+def _raises(term: Term, observation: Observation) -> bool:
     """Return whether the force of a term, of size one, raises at one of many points of a recording."""
     try:
-        for told in called_with(term, track, LOOKS):
+        for told in called_with(term, observation, LOOKS):
             term.force(*told)
     except Exception:
         return True

@@ -14,10 +14,10 @@ from lostmotion.case import Case, Prior, load_case
 from lostmotion.contracts import Array, Group, Model, Term
 from lostmotion.errors import CaseError
 from lostmotion.inference.setup import known_of
+from lostmotion.likelihood.system import Slot, System, key_of
 from lostmotion.provenance import digest
 from lostmotion.registry import Registry
 from lostmotion.stages.identify import Plan
-from lostmotion.system import Slot, System, key_of
 from lostmotion.workflow.machines import Bench, Seen, moved_by, recorded
 from lostmotion.workflow.simulate import assembly_of
 

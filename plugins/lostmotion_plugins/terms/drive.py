@@ -8,8 +8,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from lostmotion.beside import DriveTerm, Input
-from lostmotion.contracts import Array, Param, Values
+from lostmotion.contracts import Array, DriveTerm, Input, Param, Values
 from lostmotion.quantities import NUMBER, TIME
 from lostmotion_plugins.terms.changing import ParametricStiffness
 

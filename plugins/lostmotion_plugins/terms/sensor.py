@@ -8,8 +8,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from lostmotion.beside import SensorTerm
-from lostmotion.contracts import Array, Param, Values
+from lostmotion.contracts import Array, Param, SensorTerm, Values
 from lostmotion.quantities import LENGTH, NUMBER, TIME
 from lostmotion_plugins.terms.drive import FAR
 

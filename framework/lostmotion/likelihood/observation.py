@@ -1,44 +1,60 @@
-"""A recording made ready for the kernels, and its natural scales."""
+"""One recording on one even clock: what drove the machine, what its sensors showed, and which sensors they are."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from scipy.interpolate import CubicSpline
 from scipy.optimize import brentq, minimize_scalar
 
-from lostmotion.beside import Input
 from lostmotion.contracts import Array, Interface, Model
 from lostmotion.errors import CaseError
-from lostmotion.forcing import SILENT, Drive, Tone
-from lostmotion.inference.splines import smoothing_spline
+from lostmotion.likelihood.drive import SILENT, Drive, Tone
+from lostmotion.likelihood.sensors import Sensor
+from lostmotion.likelihood.splines import smoothing_spline
 from lostmotion.recording import Recording
 
 
 @dataclass(frozen=True)
-class Track:
-    """One recording as the kernels see it: response `z` (samples,), inputs (samples, inputs), sampled every `dt` s.
+class Observation:
+    """One recording as an engine sees it: `inputs` (samples, inputs) and `readings` (samples, sensors), every `dt` s.
 
-    `begin` is where it starts in the recording; `held` says that the input is constant between the samples; `tone` is
-    the drive of the whole recording.
+    A reading that is NaN was not taken. `begin` is where it starts in the recording, in samples; `held` says that the
+    input is constant between the samples; `tone` is the drive of the whole recording.
     """
 
     name: str
-    z: Array
+    readings: Array
     inputs: Array
     dt: float
-    channel: str
+    sensors: tuple[Sensor, ...]
     held: bool = False
     begin: int = 0
     tone: Tone = SILENT
 
+    @classmethod
+    def of(cls, name: str, response: Array, inputs: Array, dt: float, channel: str, **more: Any) -> Observation:
+        """Return the observation of one sensor with the readings `response` (samples,)."""
+        return cls(name, np.asarray(response, dtype=float)[:, None], inputs, dt, (Sensor(channel),), **more)
+
+    @property
+    def response(self) -> Array:
+        """The readings (samples,) of the first sensor: the one in whose unit errors are told."""
+        return self.readings[:, 0]
+
+    @property
+    def channel(self) -> str:
+        """The channel of the first sensor."""
+        return self.sensors[0].channel
+
     @property
     def samples(self) -> int:
         """The number of samples."""
-        return len(self.z)
+        return len(self.readings)
 
     @property
     def time(self) -> Array:
@@ -49,40 +65,44 @@ class Track:
         """Return relative position and velocity (2, samples) at a place of the model, along `states` (samples, n)."""
         return np.array([place.motion(y, u) for y, u in zip(states, self.inputs, strict=True)]).T
 
-    def part(self, start: int, stop: int) -> Track:
-        """Return the samples from `start` up to `stop` as a track of its own."""
-        return replace(self, z=self.z[start:stop], inputs=self.inputs[start:stop], begin=self.begin + start)
+    def part(self, start: int, stop: int) -> Observation:
+        """Return the samples from `start` up to `stop` as an observation of its own."""
+        cut = slice(start, stop)
+        return replace(self, readings=self.readings[cut], inputs=self.inputs[cut], begin=self.begin + start)
 
-    def drive(self, nsub: int) -> Drive:
-        """Return the inputs on the grid of an integrator that takes `nsub` steps between samples."""
+    @cached_property
+    def drive(self) -> Drive:
+        """The inputs between the samples."""
         if self.held:
-            drive = Drive.held(list(self.inputs.T), self.dt, nsub, self.samples)
+            drive = Drive.held(self.inputs, self.dt)
         else:
-            drive = Drive.smooth(list(self._splines), self.dt, nsub, self.samples)
+            powers = self.dt ** np.arange(4)
+            cubics = np.zeros((self.samples, 4, self.inputs.shape[1]))
+            cubics[:-1] = self._spline.c[::-1].transpose(1, 0, 2) * powers[None, :, None]
+            cubics[-1, 0] = self.inputs[-1]
+            drive = Drive(cubics, self.dt)
         return replace(drive, begin=self.begin * self.dt, tone=self.tone)
 
     @cached_property
-    def _splines(self) -> tuple[CubicSpline, ...]:
-        grid = np.arange(self.samples) * self.dt
-        return tuple(CubicSpline(grid, c) for c in self.inputs.T)
+    def _spline(self) -> CubicSpline:
+        return CubicSpline(np.arange(self.samples) * self.dt, self.inputs)
 
-    def recorded(self, nsub: int) -> Input:
-        """Return the recorded input as a function of time (s, from the start of the recording) and of the order.
+    def recorded(self, t: Array, order: int) -> Array:
+        """Return the recorded input of some order at times `t` (s, from the start of the recording), of any shape.
 
-        Beyond its ends it stays what it is there. One that is held between the samples is the mean over a step.
+        Beyond its ends it stays what it is there. One that is held between the samples is the mean over a quarter of a
+        sample.
         """
         start, last = self.begin * self.dt, (self.samples - 1) * self.dt
         if not self.held:
-            return lambda t, order: np.asarray(self._splines[order](np.clip(t - start, 0.0, last)))
+            return np.asarray(self._spline(np.clip(t - start, 0.0, last))[..., order])
+        half = 0.125 * self.dt
         edges = np.arange(self.samples + 1) * self.dt
-        half = 0.5 * self.dt / nsub
-
-        def mean(t: Array, order: int) -> Array:
-            sums = np.concatenate([[0.0], np.cumsum(self.inputs[:, order])]) * self.dt
-            middle = np.clip(t - start, half, edges[-1] - half)
-            return (np.interp(middle + half, edges, sums) - np.interp(middle - half, edges, sums)) / (2.0 * half)
-
-        return mean
+        sums = np.concatenate([[0.0], np.cumsum(self.inputs[:, order])]) * self.dt
+        middle = np.clip(t - start, half, edges[-1] - half)
+        return np.asarray(
+            (np.interp(middle + half, edges, sums) - np.interp(middle - half, edges, sums)) / (2.0 * half)
+        )
 
     @cached_property
     def period(self) -> float | None:
@@ -90,42 +110,51 @@ class Track:
         return period_of(self.inputs[:, 0])
 
     @cached_property
+    def noises(self) -> tuple[float, ...]:
+        """The standard deviation of white noise of each sensor, from fourth differences (an upper guess)."""
+        return tuple(_noise(z) for z in self.readings.T)
+
+    @property
     def noise(self) -> float:
-        """The standard deviation of white noise in `z`, from fourth differences (an upper guess)."""
-        fourth = np.diff(self.z, 4)
-        fourth = fourth[np.isfinite(fourth)]
-        size = float(np.median(np.abs(fourth)) / 0.6745 / math.sqrt(70.0)) if len(fourth) else 0.0
-        return max(size, 1e-7 * self.amplitude)
+        """The standard deviation of white noise of the first sensor (an upper guess)."""
+        return self.noises[0]
 
     @cached_property
     def amplitude(self) -> float:
         """The amplitude of the response: sqrt(2) times its standard deviation."""
-        return math.sqrt(2.0) * float(np.nanstd(self.z))
+        return math.sqrt(2.0) * float(np.nanstd(self.response))
 
     @cached_property
     def travel(self) -> float:
         """The amplitude of the first input, for instance of a base motion: sqrt(2) times its standard deviation."""
         return math.sqrt(2.0) * float(np.std(self.inputs[:, 0]))
 
-    @cached_property
-    def first(self) -> tuple[float, float]:
-        """The response and its time derivative at the first sample, from a parabola through the first ones."""
-        z = self.z[:9]
+    def first(self, sensor: int = 0) -> tuple[float, float]:
+        """Return the reading of a sensor and its time derivative at the first sample, from a parabola."""
+        z = self.readings[:9, sensor]
         kept = np.flatnonzero(np.isfinite(z))
         bend = np.polynomial.Polynomial.fit(kept * self.dt, z[kept], 2)
         return float(bend(0.0)), float(bend.deriv()(0.0))
 
 
-def seat(track: Track, model: Model, p: Array) -> tuple[float, float]:
+def _noise(z: Array) -> float:
+    """Return the standard deviation of white noise in readings (samples,), from fourth differences."""
+    fourth = np.diff(z, 4)
+    fourth = fourth[np.isfinite(fourth)]
+    size = float(np.median(np.abs(fourth)) / 0.6745 / math.sqrt(70.0)) if len(fourth) else 0.0
+    return max(size, 1e-7 * math.sqrt(2.0) * float(np.nanstd(z)))
+
+
+def static_equilibrium(observation: Observation, model: Model, p: Array) -> tuple[float, float]:
     """Return where a body moved by its base stands at the first sample, and how far that is open (m or rad).
 
     It is where the model, with the parameters `p` and moving with its base, shows the force that was measured, give or
     take ten times the noise. Inside a gap that is the whole gap: a recording of force had better begin in contact.
     """
     y, seen = np.zeros(len(model.states)), np.zeros(len(model.channels))
-    u, still = track.inputs[0], np.zeros(len(model.states))
-    y[1], index = u[1], model.channels.index(track.channel)
-    reach = 10.0 * float(np.ptp(track.inputs[:, 0]))
+    u, still = observation.inputs[0], np.zeros(len(model.states))
+    y[1], index = u[1], model.channels.index(observation.channel)
+    reach = 10.0 * float(np.ptp(observation.inputs[:, 0]))
 
     def short(position: float, level: float) -> float:
         y[0] = position
@@ -133,7 +162,10 @@ def seat(track: Track, model: Model, p: Array) -> tuple[float, float]:
         return float(seen[index]) - level
 
     ends = []
-    for level in (track.z[0] - 10.0 * track.noise, track.z[0] + 10.0 * track.noise):
+    for level in (
+        observation.response[0] - 10.0 * observation.noise,
+        observation.response[0] + 10.0 * observation.noise,
+    ):
         low, high = u[0] - reach, u[0] + reach
         if not short(low, level) > 0.0 > short(high, level):
             return float(u[0]), 0.1 * reach
@@ -141,10 +173,10 @@ def seat(track: Track, model: Model, p: Array) -> tuple[float, float]:
     return 0.5 * (ends[0] + ends[1]), 0.5 * (ends[0] - ends[1])
 
 
-def track_of(recording: Recording, model: Model, *, held: bool = False) -> Track:
-    """Return the track of a recording for `model`; the velocity of a measured base motion comes from a spline."""
+def observation_of(recording: Recording, model: Model, *, held: bool = False) -> Observation:
+    """Return the observation of a recording for `model`; the velocity of a measured base motion comes from a spline."""
     excitation = recording.data["excitation"]
-    u = settled(np.asarray(excitation.values, dtype=float))
+    u = rounded(np.asarray(excitation.values, dtype=float))
     offered = "base_position" if excitation.attrs.get("quantity") == "base_position" else "force"
     if offered not in model.inputs:
         raise CaseError(
@@ -156,12 +188,12 @@ def track_of(recording: Recording, model: Model, *, held: bool = False) -> Track
         spline = smoothing_spline(u, recording.dt)
         t = np.arange(len(u)) * recording.dt
         inputs = np.stack([spline(t), spline.derivative()(t)], axis=1)
-    z = settled(np.asarray(recording.data["response"].values, dtype=float))
-    bare = Track(recording.name, z, inputs, recording.dt, _channel(recording, model), held)
+    z = rounded(np.asarray(recording.data["response"].values, dtype=float))
+    bare = Observation.of(recording.name, z, inputs, recording.dt, _channel(recording, model), held=held)
     return replace(bare, tone=tone_of(bare))
 
 
-def settled(values: Array) -> Array:
+def rounded(values: Array) -> Array:
     """Return values (samples,) to ten digits of the largest, so that a change of units changes no bit of them.
 
     A filter through kinks makes a difference in the last digit of a double one in the fourth digit of an answer.
@@ -173,9 +205,11 @@ def settled(values: Array) -> Array:
     return np.asarray(np.round(values / grain) * grain, dtype=float)
 
 
-def tone_of(track: Track) -> Tone:
+def tone_of(observation: Observation) -> Tone:
     """Return the frequency (rad/s, 0 where there is none) and the amplitude of what drives a recording."""
-    return Tone(2.0 * math.pi / (track.period * track.dt) if track.period else 0.0, track.travel)
+    return Tone(
+        2.0 * math.pi / (observation.period * observation.dt) if observation.period else 0.0, observation.travel
+    )
 
 
 def _channel(recording: Recording, model: Model) -> str:

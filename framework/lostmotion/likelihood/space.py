@@ -1,4 +1,4 @@
-"""What is free: a parameter with its prior, and which coordinate stands for what in which recording."""
+"""What is free: parameters with their priors, and which coordinate stands for what in which recording."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from statistics import NormalDist
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,6 +30,11 @@ def parted(key: str) -> tuple[str, str | None]:
     """Return the parameter and the recording of a key such as `c[run 1]`; no recording where all share it."""
     parameter, bracket, recording = key.partition("[")
     return (parameter, recording[:-1]) if bracket else (key, None)
+
+
+def level_of(level: str, sensor: str, many: bool) -> str:
+    """Return the parameter for a noise level of a sensor: `log_noise`, or `log_noise:name` where there are several."""
+    return f"{level}:{sensor}" if many else level
 
 
 def keys_of(parameter: str, recordings: Sequence[str]) -> tuple[str, ...]:
@@ -69,24 +75,36 @@ class Free:
         """The name of the recording that has this parameter for itself; None where all share it."""
         return parted(self.key)[1]
 
-    def value(self, coordinate: float) -> float:
-        """Return the parameter at a coordinate."""
-        return math.exp(coordinate) if self.log else coordinate
+    @property
+    def level(self) -> str:
+        """The parameter without the sensor: `log_noise` of `log_noise:load encoder`."""
+        return self.parameter.partition(":")[0]
+
+    def value(self, coordinate: Any) -> Any:
+        """Return the parameter at a coordinate, or at an array of them."""
+        if not self.log:
+            return coordinate
+        return np.exp(coordinate) if isinstance(coordinate, np.ndarray) else math.exp(coordinate)
 
     def coordinate(self, value: float) -> float:
         """Return the coordinate of a parameter, clipped into the bounds."""
         raw = math.log(max(value, 1e-300)) if self.log else value
         return min(max(raw, self.low), self.high)
 
+    @cached_property
+    def log_top(self) -> float:
+        """The log prior density where it is uniform, or at the mean of its bell, normalised within the bounds."""
+        if math.isinf(self.sd):
+            return -math.log(self.high - self.low)
+        first, last = self._below
+        return -math.log(self.sd * math.sqrt(2.0 * math.pi) * max(abs(last - first), 1e-300))
+
     def log_prior(self, coordinate: float) -> float:
         """Return the normalised log prior density of the coordinate."""
         if not self.low <= coordinate <= self.high:
             return -math.inf
-        if math.isinf(self.sd):
-            return -math.log(self.high - self.low)
-        first, last = self._below
-        z = (coordinate - self.mean) / self.sd
-        return -0.5 * z * z - math.log(self.sd * math.sqrt(2.0 * math.pi) * max(abs(last - first), 1e-300))
+        away = 0.0 if math.isinf(self.sd) else (coordinate - self.mean) / self.sd
+        return self.log_top - 0.5 * away * away
 
     def quantile(self, share: float) -> float:
         """Return the coordinate below which lies the given share (0 to 1) of the prior, its cut included."""
@@ -131,6 +149,71 @@ class Scales:
 
 
 @dataclass(frozen=True)
+class ParameterSpace:
+    """The free parameters in order: coordinates are vectors of one number each, (count,), or many, (points, count)."""
+
+    free: tuple[Free, ...]
+
+    @cached_property
+    def keys(self) -> tuple[str, ...]:
+        """The keys of the free parameters."""
+        return tuple(f.key for f in self.free)
+
+    @cached_property
+    def start(self) -> Array:
+        """The coordinates to start from."""
+        return np.array([f.start for f in self.free])
+
+    @cached_property
+    def low(self) -> Array:
+        """The least coordinates."""
+        return np.array([f.low for f in self.free])
+
+    @cached_property
+    def high(self) -> Array:
+        """The greatest coordinates."""
+        return np.array([f.high for f in self.free])
+
+    @cached_property
+    def widths(self) -> Array:
+        """How wide each prior is: its standard deviation, or the distance between its bounds."""
+        return np.array([min(f.sd, f.high - f.low) for f in self.free])
+
+    def clip(self, theta: Array) -> Array:
+        """Return coordinates moved into their bounds."""
+        return np.clip(theta, self.low, self.high)
+
+    def values(self, theta: Array) -> dict[str, Any]:
+        """Return the parameters by key at coordinates."""
+        return {f.key: f.value(theta[..., i]) for i, f in enumerate(self.free)}
+
+    def log_prior(self, theta: Array) -> Any:
+        """Return the log prior density at one point, or at many (points,)."""
+        found = np.where(np.all((theta >= self.low) & (theta <= self.high), axis=-1), self._height, -math.inf)
+        if len(self._bells):
+            away = (theta[..., self._bells] - self._means) / self._sds
+            found = found - 0.5 * np.sum(away * away, axis=-1)
+        return found if found.ndim else float(found)
+
+    @cached_property
+    def _bells(self) -> NDArray[np.intp]:
+        return np.array([i for i, f in enumerate(self.free) if math.isfinite(f.sd)], dtype=np.intp)
+
+    @cached_property
+    def _means(self) -> Array:
+        return np.array([self.free[i].mean for i in self._bells])
+
+    @cached_property
+    def _sds(self) -> Array:
+        return np.array([self.free[i].sd for i in self._bells])
+
+    @cached_property
+    def _height(self) -> float:
+        """The log density of all priors together, each bell taken at its top."""
+        return math.fsum(f.log_top for f in self.free)
+
+
+@dataclass(frozen=True)
 class Route:
     """Which coordinates stand for each parameter in one recording; several stand for it by their mean.
 
@@ -151,10 +234,15 @@ class Route:
             table[parameter] = (*table.get(parameter, ()), i)
         return cls({**others, **own}, len(keys))
 
-    def at(self, theta: Array, parameter: str) -> float:
-        """Return the coordinate of a parameter; `KeyError` where it is not free."""
+    def at(self, theta: Array, parameter: str) -> Any:
+        """Return the coordinate of a parameter at one point (count,), or at many (points, count).
+
+        `KeyError` where it is not free.
+        """
         columns = self.columns[parameter]
-        return float(theta[columns[0]]) if len(columns) == 1 else float(np.mean(theta[list(columns)]))
+        if len(columns) == 1:
+            return theta[..., columns[0]]
+        return np.mean(theta[..., list(columns)], axis=-1)
 
     @cached_property
     def used(self) -> NDArray[np.bool_]:

@@ -6,19 +6,22 @@ A `System` holds a model and a library of terms, each of which is on or off (`ac
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from lostmotion.beside import DriveTerm, Input, SensorTerm
-from lostmotion.contracts import Array, Assembly, Interface, Model, Param, Term, place_of
+from lostmotion.contracts import Array, Assembly, DriveTerm, Input, Interface, Model, Param, SensorTerm, Term, place_of
 from lostmotion.errors import ContractError, nearest
-from lostmotion.forcing import SILENT, Drive, Tone
-from lostmotion.kernels import Blueprint, Compiled, Law, Place, build
+from lostmotion.likelihood.compose import Blueprint, Functions, Place, functions, law_of
+from lostmotion.likelihood.drive import SILENT, Drive, Tone
+from lostmotion.likelihood.motion import derivatives, run
 
+PIECE = 200_000
+"""Steps of a long motion that are computed at a time."""
 NUMB = -1
 """The index of an observed channel that is no state and has to be linearised."""
 
@@ -36,6 +39,14 @@ class Slot:
     param: Param
     unit: str
     term: int | None
+
+
+class Clock(NamedTuple):
+    """When a motion is looked at: so many `samples` every `dt` s, with `nsub` steps between two."""
+
+    dt: float
+    nsub: int
+    samples: int
 
 
 @dataclass(frozen=True)
@@ -108,19 +119,13 @@ class System:
             len(term.states) for key, term in zip(self.keys, self.terms, strict=True) if key in chosen
         )
 
-    def kernel(self, active: Iterable[str], *, latent: bool = False, compiled: bool = True) -> Compiled:
-        """Return the kernel for as many states as these terms need; it is the same for any terms without states."""
-        wanted = self.states(active) + latent, latent
-        if wanted not in self._plans:
-            self._plans[wanted] = self._plan(*wanted)
-        return build(self._plans[wanted], compiled)
+    def functions(self, compiled: bool = True) -> Functions:
+        """Return what derives and what observes the states, the same whatever terms are active."""
+        return functions(self.blueprint, compiled)
 
     @cached_property
-    def _plans(self) -> dict[tuple[int, bool], Blueprint]:
-        """What was planned already: a filter asks for its kernel at every point."""
-        return {}
-
-    def _plan(self, n: int, latent: bool) -> Blueprint:
+    def blueprint(self) -> Blueprint:
+        """The plan of the kernel of the model with all terms."""
         model = self.model
         index = {q.name: i for i, q in enumerate(model.params)}
         places = tuple(
@@ -128,16 +133,17 @@ class System:
             for i in model.interfaces
         )
         names = [i.name for i in model.interfaces]
-        laws = tuple(
-            Law(names.index(place_of(model, t).name), len(t.params) + len(t.needs), len(t.states), t.force, t.rate)
-            for _, t in self.forces
-        )
-        return Blueprint(n, len(model.channels), model.rhs, model.observe, places, laws, latent)
+        laws = tuple(law_of(t, names.index(place_of(model, t).name)) for _, t in self.forces)
+        sizes = (len(model.states), len(model.inputs), len(model.channels), len(model.params))
+        return Blueprint(*sizes, model.rhs, model.observe, places, laws)
 
-    def inertia(self, full: Array, place: Interface) -> float:
-        """Return the inertia (kg or kg m^2) that a force at a place moves; of two bodies, m1 m2 / (m1 + m2)."""
+    def inertia(self, full: Array, place: Interface) -> Any:
+        """Return the inertia (kg or kg m^2) that a force at a place moves; of two bodies, m1 m2 / (m1 + m2).
+
+        `full` is (parameters,) or (points, parameters).
+        """
         moved = [place.inertia, *(place.against[1:] if place.against else ())]
-        return float(1.0 / np.sum([1.0 / full[self.index[name]] for name in moved]))
+        return 1.0 / np.sum([1.0 / full[..., self.index[name]] for name in moved], axis=0)
 
     def wiring(self, active: Iterable[str]) -> tuple[NDArray[np.bool_], NDArray[np.int64]]:
         """Return the switches of the terms, and where in `y` the states of each begin."""
@@ -153,20 +159,23 @@ class System:
             start += len(term.states) if on[i] else 0
         return on, at
 
-    def pack(self, full: Array, step: float, tone: Tone = SILENT) -> tuple[Array, Array]:
-        """Return the parameters of the model, and those of all forces, each with what it needs behind its own.
+    def pack(self, fulls: Array, step: float, tone: Tone = SILENT) -> Array:
+        """Return what a model and its forces are handed, (points, params): each force has what it needs behind its own.
 
-        `step` is that of the integration (s).
+        `fulls` is (points, parameters); `step` is that of the integration (s). Behind the parameters of the model and
+        of the forces stand the pace of a latent force, zero, and one over each inertia.
         """
-        base = np.ascontiguousarray(full[: len(self.model.params)])
+        base = fulls[:, : len(self.model.params)]
         more = {"step": step, "omega": tone.omega, "amplitude": tone.amplitude, "none": 0.0}
-        sources = [source for key, _ in self.forces for source in self._sources[key]]
-        places = self.model.interfaces
-        own = [
-            full[i] if kind == "own" else more[kind] if kind in more else step / self.inertia(full, places[i])
-            for kind, i in sources
-        ]
-        return base, np.array(own, dtype=float)
+        columns = []
+        for kind, i in (source for key, _ in self.forces for source in self._sources[key]):
+            if kind == "mobility":
+                columns.append(step / self.inertia(fulls, self.model.interfaces[i]))
+            else:
+                columns.append(fulls[:, i] if kind == "own" else np.full(len(fulls), more[kind]))
+        with np.errstate(divide="ignore"):
+            inverse = [1.0 / fulls[:, i] for i in self.blueprint.inertias]
+        return np.column_stack([base, *columns, np.zeros(len(fulls)), *inverse])
 
     def values(self, full: Array, key: str, tone: Tone) -> tuple[float, ...]:
         """Return `p` of a term beside the machine: its own parameters, and behind them what it needs."""
@@ -186,6 +195,11 @@ class System:
     def shaping(self, active: Iterable[str]) -> tuple[str, ...]:
         """Return the keys of those terms that change the input which acts: of the drive, and delays of the sensor."""
         return tuple(k for k, t in self.beside.items() if k in set(active) and not t.marked)
+
+    def idle(self, full: Array, key: str) -> bool:
+        """Return whether a term does nothing: all its parameters with a null are at it."""
+        term = self.terms[self.keys.index(key)]
+        return all(full[self.index[f"{key}.{name}"]] == null for name, null in term.null().items())
 
     def acting(self, u: Input, full: Array, active: Iterable[str], tone: Tone) -> Input:
         """Return the input that acts in place of the recorded `u`, in the time of what the sensor shows."""
@@ -216,6 +230,26 @@ class System:
                 name = contact.get(need, need)
                 yield ("own", self.index[name]) if name else ("none", NUMB)
 
+    def gauging(self, active: Iterable[str]) -> bool:
+        """Return whether any sensor term is active."""
+        return any(isinstance(self.beside[key], SensorTerm) for key in set(active) & set(self.beside))
+
+    def feels(self, name: str) -> bool:
+        """Return whether a channel shows the forces on a body at once, as an accelerometer does."""
+        return name in self._felt
+
+    @cached_property
+    def _felt(self) -> frozenset[str]:
+        """The channels that change with the derivatives of states on which forces act."""
+        model, rng = self.model, np.random.default_rng(0)
+        y, u = rng.random(len(model.states)), rng.random(max(len(model.inputs), 1))
+        p, seen, pushed = rng.random(len(model.params)), np.zeros(len(model.channels)), np.zeros(len(model.channels))
+        still, push = np.zeros(len(y)), np.zeros(len(y))
+        push[[body.row for body in self.blueprint.bodies]] = 1.0
+        model.observe(0.0, y, still, u, p, seen)
+        model.observe(0.0, y, push, u, p, pushed)
+        return frozenset(name for name, a, b in zip(model.channels, seen, pushed, strict=True) if a != b)
+
     def channel(self, name: str) -> tuple[int, int]:
         """Return the index of an observed channel, and that of the state it shows directly (-1 when it is none)."""
         if name not in self.model.channels:
@@ -226,47 +260,57 @@ class System:
         direct = self.model.states.index(name) if name in self.model.states else NUMB
         return self.model.channels.index(name), direct
 
-    def simulate(self, full: Array, active: Iterable[str], y0: Array, drive: Drive) -> Motion:
-        """Return the free motion from the state `y0` (padded with zeros for the states of terms) under `drive`."""
-        chosen = tuple(active)
-        base, own = self.pack(full, drive.dt / drive.nsub, drive.tone)
-        on, at = self.wiring(chosen)
-        start = np.zeros(self.states(chosen))
+    def simulate(self, full: Array, active: Iterable[str], y0: Array, drive: Drive, nsub: int = 1) -> Motion:
+        """Return the free motion by RK4, `nsub` steps to a sample, from the state `y0` under `drive`.
+
+        What `y0` lacks, the states of terms, begins at zero.
+        """
+        chosen = frozenset(active)
+        start = np.zeros((1, self.states(chosen)))
+        start[0, : min(start.shape[1], len(y0))] = y0[: start.shape[1]]
+        packed = self.pack(full[None], drive.dt / nsub, drive.tone)
+        states, reached = run(self, chosen, packed, start, drive, nsub, np.zeros(1, dtype=np.int64), drive.samples)
+        return Motion(states[0], int(reached[0]))
+
+    def moved(
+        self, full: Array, y0: Array, columns: Sequence[Callable[[Array], Array]], clock: Clock, tone: Tone = SILENT
+    ) -> Motion:
+        """Return the free motion with all terms under inputs that are known at any time (s), one function to each.
+
+        Each step has a cubic of its own, so the inputs may be of any frequency that the steps resolve.
+        """
+        dt, count, states, done = clock.dt / clock.nsub, max(PIECE // clock.nsub, 1), [], 0
+        start = np.zeros(self.states(self.everything))
         start[: min(len(start), len(y0))] = y0[: len(start)]
-        states = np.full((drive.samples, len(start)), np.nan)
-        run = self.kernel(chosen).run
-        return Motion(
-            states, int(run(start, drive.u, drive.begin, drive.dt, drive.nsub, base, own, on, at, 0.0, states))
-        )
+        while done < clock.samples:
+            steps = min(count, clock.samples - done) * clock.nsub + 1
+            drive = replace(Drive.smooth(columns, dt, steps, done * clock.dt), tone=tone)
+            piece = self.simulate(full, self.everything, start, drive)
+            states.append(piece.states[: -1 : clock.nsub])
+            start = piece.states[-1]
+            done += count
+        seen = np.concatenate(states)
+        bad = np.flatnonzero(~np.isfinite(seen).all(axis=1))
+        return Motion(seen, int(bad[0]) if len(bad) else len(seen))
 
     def stiffness(self, full: Array, active: Iterable[str], states: Array, inputs: Array) -> float:
         """Return the fastest rate (1/s) of the linearised motion over the given states (points, n) and inputs.
 
         Infinite where it is beyond all numbers.
         """
-        chosen = tuple(active)
-        base, own = self.pack(full, 1.0)
-        on, at = self.wiring(chosen)
-        derivative = self.kernel(chosen).derivative
-        n, fastest = self.states(chosen), 0.0
+        chosen, (points, m) = frozenset(active), states.shape
         spread = np.maximum(1e-6 * (np.ptp(states, axis=0) + 1e-12), 1e-9 * np.abs(states).max(axis=0))
-
-        def slope(y: Array, u: Array) -> Array:
-            dydt = np.zeros(n)
-            derivative(0.0, y, u, base, own, on, at, 0.0, dydt)
-            return dydt
-
-        for y, u in zip(states, inputs, strict=True):
-            full_y = np.zeros(n)
-            full_y[: len(y)] = y
-            m = len(y)
-            jac = np.array(
-                [(slope(full_y + _unit(n, a) * spread[a], u) - slope(full_y, u)) / spread[a] for a in range(m)]
-            )
-            if not np.all(np.isfinite(jac)):
-                return math.inf
-            fastest = max(fastest, float(np.abs(np.linalg.eigvals(jac[:, :m])).max()))
-        return fastest
+        moved = np.zeros((m + 1, points, self.states(chosen)))
+        moved[:, :, :m] = states
+        for a in range(m):
+            moved[a + 1, :, a] += spread[a]
+        tiled = np.tile(inputs, (m + 1, 1))
+        rates, _ = derivatives(self, chosen, self.pack(full[None], 1.0), moved.reshape(-1, moved.shape[2]), tiled)
+        rates = rates.reshape(moved.shape)[:, :, :m]
+        jacobians = np.moveaxis((rates[1:] - rates[0]) / spread[:, None, None], 0, 2)
+        if not np.all(np.isfinite(jacobians)):
+            return math.inf
+        return float(np.abs(np.linalg.eigvals(jacobians)).max(initial=0.0))
 
 
 def _through(term: DriveTerm | SensorTerm, u: Input, p: tuple[float, ...]) -> Input:
@@ -275,12 +319,6 @@ def _through(term: DriveTerm | SensorTerm, u: Input, p: tuple[float, ...]) -> In
         return lambda t, order: term.true(u, t, p, order)
     late = term.delay(p)
     return (lambda t, order: u(t - late, order)) if late else u
-
-
-def _unit(n: int, a: int) -> Array:
-    e = np.zeros(n)
-    e[a] = 1.0
-    return e
 
 
 def _default(slot: Slot) -> float:

@@ -7,9 +7,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from lostmotion.inference.free import NOISE, RANDOM, Free, keys_of
-from lostmotion.inference.problem import USUAL, Problem, Scales
-from lostmotion.inference.tracks import Track
+from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.problem import USUAL, Problem, Scales
+from lostmotion.likelihood.space import NOISE, RANDOM, Free, keys_of
 
 LEVELS_TRIED = (0.3, 0.05, 0.008)
 """Random forces, as shares of the drive, with which starting points are compared: a large one lets the filter follow
@@ -25,38 +25,38 @@ def usual_of(problem: Problem, rate: float) -> float:
 
     The noise of a base motion enters through the stiffness of the joint, of which `rate` (1/s) is the fastest motion.
     """
-    system, track = problem.system, problem.tracks[0]
+    system, observation = problem.system, problem.observations[0]
     size = USUAL * problem.scales.force
     if "force" not in system.model.inputs:
         inertia = problem.known[system.index[system.model.interfaces[0].inertia]]
-        size = USUAL * math.sqrt(2.0) * float(np.std(track.inputs[:, 0])) * inertia * rate**2
-    return math.log(max(size, 1e-300) ** 2 * track.dt)
+        size = USUAL * math.sqrt(2.0) * float(np.std(observation.inputs[:, 0])) * inertia * rate**2
+    return math.log(max(size, 1e-300) ** 2 * observation.dt)
 
 
 def own_drive(problem: Problem, index: int) -> float:
     """Return the log intensity of the drive of one recording over that on which what is usual for all rests."""
-    track, first = problem.tracks[index], problem.tracks[0]
-    own = math.sqrt(2.0) * float(np.std(track.inputs[:, 0])) or float(np.abs(track.inputs[:, 0]).max())
+    observation, first = problem.observations[index], problem.observations[0]
+    own = math.sqrt(2.0) * float(np.std(observation.inputs[:, 0])) or float(np.abs(observation.inputs[:, 0]).max())
     common = problem.scales.force
     if "force" not in problem.system.model.inputs:
         common = math.sqrt(2.0) * float(np.std(first.inputs[:, 0]))
-    return math.log(((own / common) ** 2 or 1.0) * track.dt / first.dt) if common else 0.0
+    return math.log(((own / common) ** 2 or 1.0) * observation.dt / first.dt) if common else 0.0
 
 
-def random_level(tracks: Sequence[Track], scales: Scales, share: float) -> float:
+def random_level(observations: Sequence[Observation], scales: Scales, share: float) -> float:
     """Return the log intensity of a random force that is the given share of the drive, white from sample to sample."""
-    return math.log((share * scales.force) ** 2 * tracks[0].dt)
+    return math.log((share * scales.force) ** 2 * observations[0].dt)
 
 
-def noise_frees(tracks: Sequence[Track], scales: Scales) -> tuple[Free, Free]:
+def noise_frees(observations: Sequence[Observation], scales: Scales) -> tuple[Free, Free]:
     """Return the two noise levels: the intensity of a random force, and the measurement noise, as logarithms.
 
     The random force has a broad normal prior about the usual noise of a measured excitation.
     """
     usual = scales.usual
-    start = max(random_level(tracks, scales, LEVELS_TRIED[0]), usual + 2.0)
+    start = max(random_level(observations, scales, LEVELS_TRIED[0]), usual + 2.0)
     random = Free(RANDOM, "1", start, usual + LEAST, start + 6.0, mean=usual, sd=4.0)
-    return random, _noise(NOISE, float(np.median([t.noise for t in tracks])))
+    return random, _noise(NOISE, float(np.median([t.noise for t in observations])))
 
 
 def own_levels(problem: Problem, random: float) -> tuple[Free, ...]:
@@ -65,15 +65,18 @@ def own_levels(problem: Problem, random: float) -> tuple[Free, ...]:
     The noise of a measured excitation is in proportion to its amplitude, so that what is usual, where to start and
     the bounds are those of the drive of each recording. But for the start they do not depend on the fit.
     """
-    tracks, scales = problem.tracks, problem.scales
-    names = [track.name for track in tracks]
-    most = max(random_level(tracks, scales, LEVELS_TRIED[0]), scales.usual + 2.0) + 6.0
+    observations, scales = problem.observations, problem.scales
+    names = [observation.name for observation in observations]
+    most = max(random_level(observations, scales, LEVELS_TRIED[0]), scales.usual + 2.0) + 6.0
     frees: list[Free] = []
     for i, (forced, noisy) in enumerate(zip(keys_of(RANDOM, names), keys_of(NOISE, names), strict=True)):
         more = own_drive(problem, i)
         usual, high = scales.usual + more, most + more
         start = min(max(random + more, usual + LEAST), high)
-        frees += [Free(forced, "1", start, usual + LEAST, high, mean=usual, sd=4.0), _noise(noisy, tracks[i].noise)]
+        frees += [
+            Free(forced, "1", start, usual + LEAST, high, mean=usual, sd=4.0),
+            _noise(noisy, observations[i].noise),
+        ]
     return tuple(frees)
 
 

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from lostmotion.contracts import Array
-from lostmotion.inference.latent import kept_by
-from lostmotion.inference.problem import Problem
-from lostmotion.inference.tracks import Track
+from lostmotion.likelihood.motion import derivatives
+from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.problem import Problem
 
 ENOUGH = 0.4
 """A prediction is valid until its error exceeds this share of the standard deviation of the response."""
@@ -55,58 +55,52 @@ class FreeRuns:
 
 
 def filtered(problem: Problem, theta: Array) -> Filtered:
-    """Return the first recording of a problem, filtered at the coordinates `theta`."""
-    kept, errors, variances = kept_by(problem, theta)
-    return Filtered(kept[0][:, : problem.system.states(problem.active)], errors, variances)
+    """Return the first recording of a problem, filtered at coordinates; errors are those of its first sensor."""
+    seen = problem.smooth(theta)
+    errors, variances = (a[0, :, 0] for a in (seen.innovations.errors, seen.innovations.variances))
+    return Filtered(seen.filtered[:, : problem.dynamics.states], errors, variances)
 
 
 def free_runs(problem: Problem, theta: Array, states: Array, starts: Array, steps: int, index: int = 0) -> FreeRuns:
     """Return free predictions of `steps` samples from the filtered `states` at the sample numbers `starts`."""
-    track = problem.tracks[index]
+    observation = problem.observations[index]
+    runs = _runs(problem, theta, states[starts], starts, steps, index)
     error = np.full((len(starts), steps), np.nan)
     for row, start in enumerate(starts):
-        run = free_run(problem, theta, states[start], int(start), steps, index)
-        seen = observed(problem, theta, run, (int(start), index))
-        error[row] = seen - track.z[start : start + steps]
+        seen = observed(problem, theta, runs[row], (int(start), index))
+        error[row] = seen - observation.response[start : start + steps]
         error[row, ~np.isfinite(seen)] = math.inf
-    worst = WORST * float(np.nanstd(track.z))
-    return FreeRuns(np.asarray(np.arange(steps) * track.dt, dtype=float), np.clip(error, -worst, worst))
+    worst = WORST * float(np.nanstd(observation.response))
+    return FreeRuns(np.asarray(np.arange(steps) * observation.dt, dtype=float), np.clip(error, -worst, worst))
+
+
+def _runs(problem: Problem, theta: Array, y0: Array, starts: Array, steps: int, index: int) -> Array:
+    """Return the states (runs, steps, n) of free runs from `y0` (runs, n) at the sample numbers `starts`."""
+    one = problem.points(theta[None], index).taken(np.zeros(len(starts), dtype=np.int64))
+    begun = replace(one, first=np.asarray(starts, dtype=np.int64))
+    dynamics = problem.dynamics
+    states: Array = problem.engine.simulate(dynamics, begun, np.ascontiguousarray(y0[:, : dynamics.states]), steps)
+    return states
 
 
 def free_run(problem: Problem, theta: Array, y0: Array, start: int, steps: int, index: int = 0) -> Array:
     """Return the states (steps, n) of a free run that begins at sample `start` of a recording."""
-    system, drive = problem.system, problem.drive(index, theta)
-    base, own = system.pack(problem.full(theta, index), drive.dt / drive.nsub, drive.tone)
-    on, at = system.wiring(problem.active)
-    y0 = y0[: system.states(problem.active)]
-    states = np.full((steps, len(y0)), np.nan)
-    u = drive.u[3 * drive.nsub * start : 3 * drive.nsub * (start + steps)]
-    system.kernel(problem.active).run(
-        y0, u, drive.begin + start * drive.dt, drive.dt, drive.nsub, base, own, on, at, 0.0, states
-    )
-    return states
+    run: Array = _runs(problem, theta, y0[None], np.array([start]), steps, index)[0]
+    return run
 
 
-def observed(problem: Problem, theta: Array, states: Array, where: tuple[int, int] = (0, 0)) -> Array:
-    """Return what the recorded channel would show of the `states` (steps, n), from sample `where[0]` of a recording."""
+def observed(problem: Problem, theta: Array, states: Array, where: tuple[int, int] = (0, 0), sensor: int = 0) -> Array:
+    """Return what a sensor would show of the `states` (steps, n), from sample `where[0]` of a recording."""
     system, (start, index) = problem.system, where
-    track, drive, gain = problem.tracks[index], problem.drive(index, theta), problem.gain(theta, index)
-    channel, direct = system.channel(track.channel)
-    offset = problem.offset(theta, index)
+    observation, gain, offset = problem.observations[index], problem.gain(theta, index), problem.offset(theta, index)
+    channel, direct = system.channel(observation.sensors[sensor].channel)
     if direct >= 0:
         return gain * states[:, direct] + offset
-    base, own = system.pack(problem.full(theta, index), drive.dt / drive.nsub, drive.tone)
-    on, at = system.wiring(problem.active)
-    derivative = system.kernel(problem.active).derivative
-    seen, dydt = np.zeros(len(system.model.channels)), np.zeros(states.shape[1])
-    shown = np.empty(len(states))
-    for k, y in enumerate(states):
-        u = drive.u[3 * drive.nsub * (start + k)]
-        t = drive.begin + (start + k) * drive.dt
-        derivative(t, y, u, base, own, on, at, 0.0, dydt)
-        system.model.observe(t, y, dydt, u, base, seen)
-        shown[k] = gain * seen[channel] + offset
-    return shown
+    drive = problem.drive(index, theta)
+    packed = system.pack(problem.full(theta, index)[None], drive.dt / problem.nsub, drive.tone)
+    times = drive.begin + (start + np.arange(len(states))) * drive.dt
+    _, seen = derivatives(system, problem.active, packed, states, drive.inputs[start : start + len(states)], times)
+    return gain * seen[:, channel] + offset
 
 
 def largest_exponent(problem: Problem, theta: Array, y0: Array, index: int = 0) -> float:
@@ -121,20 +115,20 @@ def growth_rates(problem: Problem, theta: Array, y0: Array, index: int = 0) -> A
     Two runs from `y0` a millionth of the motion apart are brought together again after each piece;
     Benettin, Galgani, Giorgilli, Strelcyn, Meccanica 15 (1980) 9-20. The first tenth is not counted.
     """
-    track = problem.tracks[index]
-    piece = max(int(problem.scales.time * 3.0 / track.dt), 8)
+    observation = problem.observations[index]
+    piece = max(int(problem.scales.time * 3.0 / observation.dt), 8)
     unit = np.ones(len(y0))
     unit[0], unit[1] = problem.scales.length, problem.scales.velocity
     near, far = y0.copy(), y0 + 1e-6 * unit * _direction(len(y0))
     rates = []
-    for start in range(0, track.samples - piece, piece):
+    for start in range(0, observation.samples - piece, piece):
         near = free_run(problem, theta, near, start, piece + 1, index)[-1]
         far = free_run(problem, theta, far, start, piece + 1, index)[-1]
         gap = float(np.linalg.norm((far - near) / unit))
         if not math.isfinite(gap) or gap == 0.0:
             return np.zeros(0)
-        if start > 0.1 * track.samples:
-            rates.append(math.log(gap / 1e-6) / (piece * track.dt))
+        if start > 0.1 * observation.samples:
+            rates.append(math.log(gap / 1e-6) / (piece * observation.dt))
         far = near + (far - near) * (1e-6 / gap)
     return np.array(rates)
 
@@ -155,15 +149,15 @@ class Horizon:
     unit_time: float
 
 
-def horizon_of(track: Track, exponent: float, natural: float) -> Horizon:
+def horizon_of(observation: Observation, exponent: float, natural: float) -> Horizon:
     """Return half a Lyapunov time when the motion is chaotic, else one drive period, else one natural cycle."""
-    period = track.period
-    cycle = period * track.dt if period else 2.0 * math.pi * natural
+    period = observation.period
+    cycle = period * observation.dt if period else 2.0 * math.pi * natural
     if math.isfinite(exponent) and exponent * cycle > 0.1:
-        return Horizon(_steps(0.5 / exponent, track), 0.5, "Lyapunov times", 1.0 / exponent)
+        return Horizon(_steps(0.5 / exponent, observation), 0.5, "Lyapunov times", 1.0 / exponent)
     unit = "drive periods" if period else "natural periods"
-    return Horizon(_steps(cycle, track), 1.0, unit, cycle)
+    return Horizon(_steps(cycle, observation), 1.0, unit, cycle)
 
 
-def _steps(time: float, track: Track) -> int:
-    return int(min(max(round(time / track.dt), 2), track.samples // 4))
+def _steps(time: float, observation: Observation) -> int:
+    return int(min(max(round(time / observation.dt), 2), observation.samples // 4))

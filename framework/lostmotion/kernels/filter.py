@@ -1,0 +1,289 @@
+"""The filter through a model at many parameter points at once, in lock-step; for a model of `N` states.
+
+Statistical linearisation by divided differences over sqrt(3) standard deviations (Norgaard, Poulsen, Ravn,
+Automatica 36 (2000) 1627-1638): the mean takes the curvature of the force into account, so a kink or a jump is seen as
+wide as the state is uncertain. Sensors are taken one after the other, a scalar update each.
+
+`lostmotion.likelihood.kernels` compiles this text, behind that of `crossing.py`, once for each number of states.
+"""
+
+from __future__ import annotations
+
+import math
+
+from lostmotion.kernels.crossing import (
+    ALIVE,
+    END,
+    EXPECTED,
+    MIDDLE,
+    NEAR,
+    NOISE,
+    REACH,
+    SEEN,
+    TINY,
+    UP,
+    WISH,
+    H,
+    N,
+    P,
+    T,
+    Y,
+    crossed,
+    shown,
+)  # fmt: skip
+from lostmotion.kernels.inputs import (
+    DRAWN,
+    SOURCES,
+    driven,
+)  # fmt: skip
+from lostmotion.kernels.vector import (
+    WIDTH,
+    assign,
+    call,
+    finite,
+    jit,
+    load,
+    pointer,
+    select,
+    size,
+    store,
+    value,
+    whole,
+)  # fmt: skip
+
+SILENT = 1.0 / (2.0 * math.pi)
+"""The variance noted where nothing was read: with an error of zero it adds nothing to a log-likelihood."""
+
+
+@jit
+def linearised(derive, observe, space, wires, work, channel, lanes):  # type: ignore[no-untyped-def]
+    """Write what a sensor should show, and its slopes over the states, into `EXPECTED` and `H`; return a failure."""
+    row = wires[4] + channel
+    shown(space, wires, work, Y, lanes)
+    failed = call(derive, space, wires, lanes) | call(observe, space, wires, lanes)
+    for o in range(0, lanes, WIDTH):
+        store(work, SEEN, o, load(space, row, o))
+        store(work, EXPECTED, o, load(space, row, o))
+    for c in range(N):
+        for side in range(2):
+            for o in range(0, lanes, WIDTH):
+                y = load(work, Y + c, o)
+                d = load(work, REACH + c, o) + TINY * (1.0 + size(y))
+                store(space, wires[1] + c, o, y + (1.0 - 2.0 * side) * d)
+            failed |= call(derive, space, wires, lanes) | call(observe, space, wires, lanes)
+            for o in range(0, lanes, WIDTH):
+                store(work, UP + side, o, load(space, row, o))
+        for o in range(0, lanes, WIDTH):
+            y = load(work, Y + c, o)
+            half = 0.5 / (load(work, REACH + c, o) + TINY * (1.0 + size(y)))
+            up, down = load(work, UP, o), load(work, UP + 1, o)
+            store(work, H + c, o, (up - down) * half)
+            share = 2.0 * load(work, P + c * N + c, o) * half * half
+            store(work, EXPECTED, o, load(work, EXPECTED, o) + (up + down - 2.0 * load(work, SEEN, o)) * share)
+            store(space, wires[1] + c, o, y)
+    return failed
+
+
+@jit
+def corrected_slow(work, slow, gauge, many, own, precision, miss, o):  # type: ignore[no-untyped-def]
+    """Correct the slow noise of all sensors by the reading of one; `UP` holds what it has to do with the states."""
+    wide = 1 + N + many
+    for j in range(many):
+        s = 0.0 * gauge
+        for a in range(N):
+            s = s + gauge * load(work, H + a, o) * load(slow, j * wide + 1 + a, o)
+        if own >= 0:
+            s = s + load(slow, j * wide + 1 + N + own, o)
+        store(slow, many * wide + j, o, s)
+    for j in range(many):
+        share = load(slow, many * wide + j, o) * precision
+        store(slow, j * wide, o, load(slow, j * wide, o) + share * miss)
+        for a in range(N):
+            row = j * wide + 1 + a
+            store(slow, row, o, load(slow, row, o) - share * load(work, UP + a, o))
+        for i in range(many):
+            row = j * wide + 1 + N + i
+            store(slow, row, o, load(slow, row, o) - share * load(slow, many * wide + i, o))
+
+
+@jit
+def corrected(work, slow, levels, sensor, z, many, own, errors, variances, k, lanes):  # type: ignore[no-untyped-def]
+    """Correct the states by one reading of a sensor, of which `EXPECTED` and `H` tell what the model thinks.
+
+    `levels` has for each sensor the variances of white and of slow noise, by how much the slow one fades in a sample,
+    its gain and its offset. `slow` holds for each of `many` sensors with slow noise the mean of that, its covariance
+    with the states (N rows) and with the slow noise of each sensor; `own` is the place of this sensor among them, or
+    -1.
+    """
+    first = 5 * sensor
+    wide = 1 + N + many
+    for o in range(0, lanes, WIDTH):
+        gauge = load(levels, first + 3, o)
+        miss = z - (gauge * load(work, EXPECTED, o) + load(levels, first + 4, o))
+        var = load(levels, first, o)
+        for a in range(N):
+            s = load(work, P + a * N, o) * load(work, H, o)
+            for b in range(1, N):
+                s = s + load(work, P + a * N + b, o) * load(work, H + b, o)
+            s = gauge * s
+            if own >= 0:
+                s = s + load(slow, own * wide + 1 + a, o)
+            store(work, UP + a, o, s)
+        for a in range(N):
+            var = var + gauge * load(work, H + a, o) * load(work, UP + a, o)
+        if own >= 0:
+            miss = miss - load(slow, own * wide, o)
+            pulled = load(slow, own * wide + 1 + N + own, o)
+            for a in range(N):
+                pulled = pulled + gauge * load(work, H + a, o) * load(slow, own * wide + 1 + a, o)
+            var = var + pulled
+        precision = 1.0 / var
+        corrected_slow(work, slow, gauge, many, own, precision, miss, o)
+        for a in range(N):
+            store(work, Y + a, o, load(work, Y + a, o) + load(work, UP + a, o) * (precision * miss))
+        for a in range(N):
+            for b in range(a, N):
+                s = load(work, P + a * N + b, o) - load(work, UP + a, o) * load(work, UP + b, o) * precision
+                if a == b:
+                    s = select(s < 0.0, 0.0, s)
+                store(work, P + a * N + b, o, s)
+                store(work, P + b * N + a, o, s)
+        alive = load(work, ALIVE, o) > 0.5
+        alive = alive & finite(load(work, Y, o)) & (var > 0.0) & finite(load(work, P + N + 1, o))
+        store(work, ALIVE, o, select(alive, 1.0, 0.0))
+        store(work, MIDDLE, o, miss)
+        store(work, END, o, var)
+    for lane in range(lanes):
+        errors[lane, k, sensor] = value(work, MIDDLE, lane)
+        variances[lane, k, sensor] = value(work, END, lane)
+
+
+@jit
+def faded(slow, levels, sensor, own, many, lanes):  # type: ignore[no-untyped-def]
+    """Let the slow noise of a sensor fade over one sample, and add what is new of it."""
+    wide = 1 + N + many
+    for o in range(0, lanes, WIDTH):
+        fade = load(levels, 5 * sensor + 2, o)
+        for j in range(1 + N):
+            store(slow, own * wide + j, o, fade * load(slow, own * wide + j, o))
+        for i in range(many):
+            store(slow, own * wide + 1 + N + i, o, fade * load(slow, own * wide + 1 + N + i, o))
+        for i in range(many):
+            store(slow, i * wide + 1 + N + own, o, fade * load(slow, i * wide + 1 + N + own, o))
+        fresh = (1.0 - fade * fade) * load(levels, 5 * sensor + 1, o)
+        row = own * wide + 1 + N + own
+        store(slow, row, o, load(slow, row, o) + fresh)
+
+
+@jit
+def begun(work, slow, start, noise, levels, sensors, sources, many, nsub, lanes):  # type: ignore[no-untyped-def]
+    """Set everything to what it is before the first sample."""
+    wide = 1 + N + many
+    for o in range(0, lanes, WIDTH):
+        for a in range(N + N * N):
+            store(work, Y + a, o, load(start, a, o))
+        for j in range(2 * sources):
+            store(work, NOISE + j, o, load(noise, j, o))
+        for j in range(many * wide + many):
+            store(slow, j, o, 0.0)
+        for s in range(sensors.shape[0]):
+            own = sensors[s, 2]
+            if own >= 0:
+                store(slow, own * wide + 1 + N + own, o, load(levels, 5 * s + 1, o))
+        store(work, ALIVE, o, 1.0)
+        store(work, WISH, o, float(nsub))
+        for a in range(N):
+            store(work, NEAR + a, o, 0.0)
+
+
+@jit
+def redrawn(work, noise, sources, drawn, lanes):  # type: ignore[no-untyped-def]
+    """Draw the forces anew that are held over a sample."""
+    for d in range(drawn):
+        row = int(value(noise, 2 * (sources + d), 0))
+        for o in range(0, lanes, WIDTH):
+            store(work, Y + row, o, 0.0)
+            for a in range(N):
+                store(work, P + a * N + row, o, 0.0)
+                store(work, P + row * N + a, o, 0.0)
+            store(work, P + row * N + row, o, load(noise, 2 * (sources + d) + 1, o))
+
+
+@whole
+def filtered(functions, blocks, wiring, inputs, drives, z, sensors, dt, nsub, errors, variances, reached, kept, lanes):  # type: ignore[no-untyped-def]
+    """Filter `z` (samples, sensors) at `lanes` points; write innovations, return 0 or another number if a law raised.
+
+    `functions` are the addresses of what derives and what observes; `blocks` those of the model, of work, of slow
+    noise, and what each point brings: its time at the first sample (1 row); for each sensor the variances of white
+    and of slow noise, by how much the slow one fades in a sample, gain and offset (5 rows each); for each source of
+    noise the number of the state that it enters and its intensity, then for each force that is drawn anew at each
+    sample its state and variance (2 rows each); states and covariances to begin with (N + N * N rows). `wiring` holds
+    the wires of the model, with the numbers of sources, of drawn forces, of inputs and of drives at `SOURCES` and
+    behind. `inputs` (rows, 4, inputs) holds a cubic for each sample, and `drives` (lanes,) the first row of each
+    point. `sensors` (sensors, 3) holds the channel of each, the state that it shows directly or -1, and its place
+    among those with slow noise or -1. `errors` and `variances` are (lanes, samples, sensors); `reached` (lanes,)
+    counts the samples that were got through. `kept` is what a smoother needs of the first point: states and
+    covariances after and before each sample and the steps between, empty if not wanted.
+    """
+    derive, observe = functions[0], functions[1]
+    space, work, slow, begin = pointer(blocks[0]), pointer(blocks[1]), pointer(blocks[2]), pointer(blocks[3])
+    levels, noise, start = pointer(blocks[4]), pointer(blocks[5]), pointer(blocks[6])
+    wires, u, which = pointer(wiring), pointer(inputs), pointer(drives)
+    samples, keep, failed = z.shape[0], kept[0].shape[0] > 1, 0
+    seen_states, seen_cov, ahead_states, ahead_cov, steps = kept
+    sources, drawn = wires[SOURCES], wires[DRAWN]
+    many = 0 * z.shape[0]
+    for s in range(z.shape[1]):
+        many = max(many, sensors[s, 2] + 1)
+    begun(work, slow, start, noise, levels, sensors, sources, many, nsub, lanes)
+    for k in range(samples):
+        redrawn(work, noise, sources, drawn, lanes)
+        if keep:
+            for a in range(N):
+                ahead_states[k, a] = value(work, Y + a, 0)
+                for b in range(N):
+                    ahead_cov[k, a, b] = value(work, P + a * N + b, 0)
+        for s in range(z.shape[1]):
+            if math.isnan(z[k, s]):
+                for lane in range(lanes):
+                    errors[lane, k, s] = 0.0
+                    variances[lane, k, s] = SILENT
+                continue
+            direct = sensors[s, 1]
+            if direct >= 0:
+                for o in range(0, lanes, WIDTH):
+                    for a in range(N):
+                        store(work, H + a, o, 1.0 if a == direct else 0.0)
+                    store(work, EXPECTED, o, load(work, Y + direct, o))
+            else:
+                driven(space, wires, u, which, begin, k, 0.0, dt, lanes)
+                failed |= linearised(derive, observe, space, wires, work, sensors[s, 0], lanes)
+            corrected(work, slow, levels, s, z[k, s], many, sensors[s, 2], errors, variances, k, lanes)
+        living = False
+        for lane in range(lanes):
+            if value(work, ALIVE, lane) > 0.5:
+                living = True
+                reached[lane] = k + 1
+        if failed or not living:
+            return failed
+        if keep:
+            for a in range(N):
+                seen_states[k, a] = value(work, Y + a, 0)
+                for b in range(N):
+                    seen_cov[k, a, b] = value(work, P + a * N + b, 0)
+                    assign(work, T + a * N + b, 0, 1.0 if a == b else 0.0)
+        if k == samples - 1:
+            break
+        failed |= crossed(derive, space, wires, work, slow, u, which, begin, k, nsub, dt, sources, many, keep, lanes)
+        for s in range(z.shape[1]):
+            own = sensors[s, 2]
+            if own >= 0:
+                faded(slow, levels, s, own, many, lanes)
+        if keep:
+            for a in range(N):
+                for b in range(N):
+                    steps[k, a, b] = value(work, T + a * N + b, 0)
+            for d in range(drawn):
+                for b in range(N):
+                    steps[k, int(value(noise, 2 * (sources + d), 0)), b] = 0.0
+    return failed

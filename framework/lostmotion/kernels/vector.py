@@ -1,0 +1,259 @@
+"""Numbers in lanes: one value for each of `WIDTH` parameter points, in one vector register where the machine has one.
+
+A kernel that is written with these computes `WIDTH` points in lock-step with the same instructions, so that what
+comes out for one point depends neither on its neighbours nor on its place among them. A block of memory is an array
+(rows, `STRIDE`) of doubles: each row holds one quantity of up to `STRIDE` points. `plain.py` has the same names for
+NumPy: run with those, the same source is the slow twin.
+"""
+
+from __future__ import annotations
+
+import operator
+from collections.abc import Callable
+from typing import Any
+
+import numba
+from llvmlite import ir
+from numba import types
+from numba.core import cgutils
+from numba.core.typing.templates import AbstractTemplate, infer_global, signature
+from numba.extending import intrinsic, lower_builtin, models, register_model
+
+WIDTH = 8
+"""Points in one vector of a kernel."""
+STRIDE = 32
+"""Points in one row of a block: the most that a kernel computes at once."""
+BARE: dict[str, Any] = {"error_model": "numpy", "nogil": True, "_nrt": False}
+"""Without numba's run time nothing can be allocated in a kernel, and no references are counted: eight times faster."""
+
+jit = numba.njit(**BARE)
+"""A function of a kernel that is compiled into those that call it."""
+whole = numba.njit(**BARE, cache=True)
+"""A kernel that Python calls; it is kept on disk."""
+
+
+class LanesType(types.Type):
+    """The numba type of `WIDTH` doubles."""
+
+    def __init__(self) -> None:
+        super().__init__(name=f"Lanes{WIDTH}")
+
+
+class MaskType(types.Type):
+    """The numba type of `WIDTH` truth values."""
+
+    def __init__(self) -> None:
+        super().__init__(name=f"Mask{WIDTH}")
+
+
+LANES, MASK = LanesType(), MaskType()
+_DOUBLES = ir.VectorType(ir.DoubleType(), WIDTH)
+_BITS = ir.VectorType(ir.IntType(1), WIDTH)
+_INDEX = ir.IntType(32)
+
+
+def _registered(kind: type[Any], content: ir.Type) -> None:
+    def begin(self: Any, manager: Any, kind: Any) -> None:
+        models.PrimitiveModel.__init__(self, manager, kind, content)
+
+    register_model(kind)(type(f"{kind.__name__}Model", (models.PrimitiveModel,), {"__init__": begin}))
+
+
+_registered(LanesType, _DOUBLES)
+_registered(MaskType, _BITS)
+
+
+def _splat(builder: Any, value: Any) -> Any:
+    """Return a vector with the same double in every lane."""
+    empty = ir.Constant(_DOUBLES, ir.Undefined)
+    one = builder.insert_element(empty, value, ir.Constant(_INDEX, 0))
+    return builder.shuffle_vector(one, empty, ir.Constant(ir.VectorType(_INDEX, WIDTH), [0] * WIDTH))
+
+
+def _lanes(builder: Any, kind: Any, value: Any) -> Any:
+    """Return a value of any number type as a vector."""
+    if isinstance(kind, LanesType | MaskType):
+        return value
+    if isinstance(kind, types.Integer):
+        value = builder.sitofp(value, ir.DoubleType())
+    return _splat(builder, value)
+
+
+def _native(builder: Any, name: str, *values: Any) -> Any:
+    """Return what an intrinsic of LLVM makes of vectors."""
+    label = f"llvm.{name}.v{WIDTH}f64"
+    kind = ir.FunctionType(_DOUBLES, [_DOUBLES] * len(values))
+    return builder.call(cgutils.get_or_insert_function(builder.module, kind, label), values)
+
+
+def _function(make: Callable[..., Any], result: Any, count: int) -> Any:
+    """Return an intrinsic of one or two numbers in lanes; a plain number stands for the same one in every lane."""
+
+    def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        return make(builder, *(_lanes(builder, k, v) for k, v in zip(signature.args, args, strict=True)))
+
+    if count == 1:
+
+        @intrinsic
+        def unary(typingctx: Any, a: Any) -> Any:
+            return result(a), codegen
+
+        return unary
+
+    @intrinsic
+    def binary(typingctx: Any, a: Any, b: Any) -> Any:
+        return result(a, b), codegen
+
+    return binary
+
+
+def _operator(symbol: Any, kind: Any, make: Callable[..., Any], result: Any) -> None:
+    """Let an operator of Python work on numbers in lanes, or on masks."""
+    plain = (types.Float, types.Integer)
+
+    class Between(AbstractTemplate):
+        def generic(self, args: Any, kws: Any) -> Any:
+            known = [a for a in args if isinstance(a, kind)]
+            if known and len(args) == 2 and all(isinstance(a, (kind, *plain)) for a in args):
+                return signature(result, *(types.unliteral(a) for a in args))
+            return None
+
+    def lower(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        return make(builder, *(_lanes(builder, k, v) for k, v in zip(signature.args, args, strict=True)))
+
+    infer_global(symbol)(Between)
+    for pair in ((kind, kind), *((kind, p) for p in plain), *((p, kind) for p in plain)):
+        lower_builtin(symbol, *pair)(lower)
+
+
+for _symbol, _name in (
+    (operator.add, "fadd"),
+    (operator.sub, "fsub"),
+    (operator.mul, "fmul"),
+    (operator.truediv, "fdiv"),
+):
+    _operator(_symbol, LanesType, lambda b, x, y, name=_name: getattr(b, name)(x, y), LANES)
+for _symbol, _name in ((operator.le, "<="), (operator.lt, "<"), (operator.gt, ">"), (operator.eq, "==")):
+    _operator(_symbol, LanesType, lambda b, x, y, name=_name: b.fcmp_ordered(name, x, y), MASK)
+for _symbol, _name in ((operator.and_, "and_"), (operator.or_, "or_")):
+    _operator(_symbol, MaskType, lambda b, x, y, name=_name: getattr(b, name)(x, y), MASK)
+
+root = _function(lambda b, x: _native(b, "sqrt", x), LANES, 1)
+"""The square root of each lane."""
+size = _function(lambda b, x: _native(b, "fabs", x), LANES, 1)
+"""The absolute value of each lane."""
+larger = _function(lambda b, x, y: b.select(b.fcmp_ordered(">", x, y), x, y), LANES, 2)
+"""The larger of two numbers in each lane; the second where one is not a number."""
+finite = _function(
+    lambda b, x: b.fcmp_ordered("<", _native(b, "fabs", x), _splat(b, ir.Constant(ir.DoubleType(), float("inf")))),
+    MASK,
+    1,
+)
+"""Whether each lane holds a finite number."""
+
+
+@intrinsic
+def select(typingctx: Any, mask: Any, yes: Any, no: Any) -> Any:
+    """Return in each lane `yes` where the mask is set, else `no`."""
+
+    def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        both = (_lanes(builder, k, v) for k, v in zip(signature.args[1:], args[1:], strict=True))
+        return builder.select(args[0], *both)
+
+    return LANES(mask, yes, no), codegen
+
+
+@intrinsic
+def some(typingctx: Any, mask: Any) -> Any:
+    """Return whether the mask is set in any lane."""
+
+    def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        bits = builder.bitcast(args[0], ir.IntType(WIDTH))
+        return builder.icmp_unsigned("!=", bits, ir.Constant(ir.IntType(WIDTH), 0))
+
+    return types.boolean(mask), codegen
+
+
+@intrinsic
+def top(typingctx: Any, value: Any) -> Any:
+    """Return the largest of the numbers in all lanes."""
+
+    def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        kind = ir.FunctionType(ir.DoubleType(), [_DOUBLES])
+        reduce = cgutils.get_or_insert_function(builder.module, kind, f"llvm.vector.reduce.fmax.v{WIDTH}f64")
+        return builder.call(reduce, args)
+
+    return types.float64(value), codegen
+
+
+@intrinsic
+def pointer(typingctx: Any, array: Any) -> Any:
+    """Return the memory of a contiguous array: a pointer is handed on in one register, an array in seven."""
+
+    def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        return context.make_array(signature.args[0])(context, builder, args[0]).data
+
+    return types.CPointer(array.dtype)(array), codegen
+
+
+def address(builder: Any, args: Any, item: Any) -> Any:
+    """Return the address of lane `args[2]` of row `args[1]` of the block at `args[0]`."""
+    place = builder.add(builder.mul(args[1], ir.Constant(args[1].type, STRIDE)), args[2])
+    return builder.bitcast(builder.gep(args[0], [place], inbounds=True), item.as_pointer())
+
+
+@intrinsic
+def load(typingctx: Any, block: Any, row: Any, first: Any) -> Any:
+    """Return the lanes from `first` on of a row of a block."""
+
+    def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        return builder.load(address(builder, args, _DOUBLES), align=8)
+
+    return LANES(block, types.intp, types.intp), codegen
+
+
+@intrinsic
+def store(typingctx: Any, block: Any, row: Any, first: Any, value: Any) -> Any:
+    """Write a number in lanes into a row of a block, from lane `first` on."""
+
+    def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        lanes = _lanes(builder, signature.args[3], args[3])
+        builder.store(lanes, address(builder, args, _DOUBLES), align=8)
+        return context.get_dummy_value()
+
+    return types.void(block, types.intp, types.intp, value), codegen
+
+
+@intrinsic
+def value(typingctx: Any, block: Any, row: Any, lane: Any) -> Any:
+    """Return the number in one lane of a row."""
+
+    def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        return builder.load(address(builder, args, ir.DoubleType()))
+
+    return types.float64(block, types.intp, types.intp), codegen
+
+
+@intrinsic
+def assign(typingctx: Any, block: Any, row: Any, lane: Any, number: Any) -> Any:
+    """Write the number in one lane of a row."""
+
+    def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        builder.store(args[3], address(builder, args, ir.DoubleType()))
+        return context.get_dummy_value()
+
+    return types.void(block, types.intp, types.intp, types.float64), codegen
+
+
+@intrinsic
+def call(typingctx: Any, address: Any, block: Any, wires: Any, lanes: Any) -> Any:
+    """Call a compiled function of a model at `address` on a block; return 0, or another number where it raised."""
+
+    def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        byte, number = ir.IntType(8).as_pointer(), ir.IntType(64)
+        told = [byte.as_pointer(), byte.as_pointer(), ir.DoubleType().as_pointer(), number.as_pointer(), number]
+        kind = ir.FunctionType(ir.IntType(32), told)
+        spare = [cgutils.alloca_once(builder, byte) for _ in range(2)]
+        return builder.call(builder.inttoptr(args[0], kind.as_pointer()), [*spare, *args[1:]])
+
+    return types.int32(types.intp, block, wires, types.intp), codegen

@@ -1,0 +1,49 @@
+"""What a law of a model or a term sees of a block of numbers in lanes: the values of one point, as plain arrays.
+
+The blocks of `vector.py` hold a row for each quantity and a lane for each point; a window is a column of one.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from llvmlite import ir
+from numba import types
+from numba.core import cgutils
+from numba.extending import intrinsic
+
+from lostmotion.kernels.vector import STRIDE, address
+
+BLOCK, NUMBERS = types.CPointer(types.float64), types.CPointer(types.int64)
+_WINDOW = types.Array(types.float64, 1, "A")
+
+
+@intrinsic
+def column(typingctx: Any, block: Any, row: Any, lane: Any, count: Any) -> Any:
+    """Return the values of one lane in `count` rows from `row` on, as an array (count,) on the block itself."""
+
+    def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        made = context.make_array(_WINDOW)(context, builder)
+        context.populate_array(
+            made,
+            data=address(builder, args, ir.DoubleType()),
+            shape=cgutils.pack_array(builder, [args[3]]),
+            strides=cgutils.pack_array(builder, [context.get_constant(types.intp, 8 * STRIDE)]),
+            itemsize=context.get_constant(types.intp, 8),
+            meminfo=None,
+        )
+        return made._getvalue()
+
+    return _WINDOW(block, types.intp, types.intp, types.intp), codegen
+
+
+@intrinsic
+def add(typingctx: Any, block: Any, row: Any, lane: Any, more: Any) -> Any:
+    """Add a number to that in one lane of a row."""
+
+    def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        place = address(builder, args[:3], ir.DoubleType())
+        builder.store(builder.fadd(builder.load(place), args[3]), place)
+        return context.get_dummy_value()
+
+    return types.void(block, types.intp, types.intp, types.float64), codegen

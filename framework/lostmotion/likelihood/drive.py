@@ -1,0 +1,90 @@
+"""What drives a system: measured inputs between their samples."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+
+from lostmotion.contracts import Array, Input
+
+QUARTERS = np.array([0.125, 0.375, 0.625, 0.875])
+"""The middles of the quarters of a sample, where an input that is held is looked at as its mean over a quarter."""
+_THIRDS = np.array([0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0])
+_CUBIC = np.linalg.inv(_THIRDS[:, None] ** np.arange(4))
+_LINE = np.linalg.pinv(QUARTERS[:, None] ** np.arange(2))
+
+
+class Tone(NamedTuple):
+    """What the drive of a recording is: angular frequency (rad/s; 0 where it has none) and amplitude."""
+
+    omega: float = 0.0
+    amplitude: float = 0.0
+
+
+SILENT = Tone()
+
+
+@dataclass(frozen=True)
+class Drive:
+    """Measured inputs as a cubic for each sample: at a share s of the way it is the sum of `cubics[k, j] * s**j`.
+
+    `cubics` is (samples, 4, inputs). An input that jumps at the samples (`hold = "step"`) is integrated exactly, since
+    each sample has a cubic of its own. `begin` is the time of the first sample, `dt` that between two (s).
+    """
+
+    cubics: Array
+    dt: float
+    begin: float = 0.0
+    tone: Tone = SILENT
+
+    @property
+    def samples(self) -> int:
+        """The number of samples."""
+        return len(self.cubics)
+
+    @property
+    def inputs(self) -> Array:
+        """The inputs (samples, inputs) at the samples."""
+        return self.cubics[:, 0]
+
+    @classmethod
+    def smooth(cls, columns: Sequence[Callable[[Array], Array]], dt: float, samples: int, begin: float = 0.0) -> Drive:
+        """Return the drive of functions of time (s), one to each input: cubics through four points of each sample."""
+        t = begin + ((np.arange(samples)[:, None] + _THIRDS) * dt).ravel()
+        values = np.stack([np.asarray(f(t), dtype=float).reshape(samples, 4) for f in columns], axis=2)
+        return cls(_fitted(_CUBIC, values), dt, begin)
+
+    @classmethod
+    def held(cls, inputs: Array, dt: float) -> Drive:
+        """Return the drive of inputs (samples, inputs) that are held between the samples."""
+        cubics = np.zeros((len(inputs), 4, inputs.shape[1]))
+        cubics[:, 0] = inputs
+        return cls(cubics, dt)
+
+    @classmethod
+    def acting(cls, u: Input, grid: Drive, held: bool) -> Drive:
+        """Return the drive of an input with as many orders as another drive has inputs, on the samples of that.
+
+        One that is `held` is a line over each sample, with the mean and the first moment of the input.
+        """
+        places = QUARTERS if held else _THIRDS
+        t = grid.begin + ((np.arange(grid.samples)[:, None] + places) * grid.dt).ravel()
+        orders = range(grid.cubics.shape[2])
+        values = np.stack([np.asarray(u(t, order)).reshape(grid.samples, 4) for order in orders], axis=2)
+        cubics = np.zeros_like(grid.cubics)
+        cubics[:, : 2 if held else 4] = _fitted(_LINE if held else _CUBIC, values)
+        return replace(grid, cubics=cubics)
+
+
+def _fitted(inverse: Array, values: Array) -> Array:
+    """Return the coefficients (samples, powers, inputs) of polynomials through `values` (samples, places, inputs)."""
+    return np.ascontiguousarray(np.einsum("jp,kpi->kji", inverse, values))
+
+
+def substeps(rate: float, dt: float, *, accuracy: float = 0.06, most: int = 64) -> int:
+    """Return how many steps to take between samples so that `rate * step <= accuracy` (0.06: 105 steps a cycle)."""
+    return math.ceil(min(max(rate * dt / accuracy, 1.0), most))

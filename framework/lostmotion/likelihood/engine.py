@@ -1,0 +1,127 @@
+"""What an engine is handed and what it returns: plain arrays, many parameter points at once."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, fields, replace
+from functools import cached_property
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lostmotion.contracts import Array
+from lostmotion.likelihood.drive import Drive
+from lostmotion.likelihood.system import System
+
+Random = Literal["white", "held", "latent"]
+"""How the random force acts: white; held over each sample, where a sensor sees it at once; or with a memory."""
+
+
+@dataclass(frozen=True)
+class Dynamics:
+    """What moves: a system with those terms that are active, integrated in at most `nsub` steps to a sample.
+
+    A random force pushes each body; one with a memory (`latent`) the first body alone. Of the latter two each force is
+    a state of its own, behind those of model and terms.
+    """
+
+    system: System
+    active: frozenset[str] = frozenset()
+    nsub: int = 1
+    random: Random = "white"
+
+    @cached_property
+    def states(self) -> int:
+        """The number of states of model and terms."""
+        return self.system.states(self.active)
+
+    @cached_property
+    def forces(self) -> int:
+        """The number of random forces that are states."""
+        return {"white": 0, "latent": 1, "held": len(self.system.blueprint.bodies)}[self.random]
+
+
+@dataclass(frozen=True)
+class Points:
+    """Parameter points for one observation; the first axis of each array runs over them.
+
+    `params` (points, parameters) are in the order of `System.slots`; `process` is the intensity (N^2 s, N^2 m^2 s) of
+    the random force and `pace` (1/s) how fast a latent one fades; for each sensor, (points, sensors), `white` and
+    `slow` are the variances of white noise and of noise with a memory, of which the share `fade` is left after a
+    sample, `gain` and `offset` what the sensor makes of its channel. The states of model and terms begin at `mean`
+    (points, n) with `covariance` (points, n, n). `drives` are what drives them, `which` (points,) of them each point,
+    and `first` (points,) the sample of its drive at which a simulation begins.
+    """
+
+    params: Array
+    process: Array
+    pace: Array
+    white: Array
+    slow: Array
+    fade: Array
+    gain: Array
+    offset: Array
+    mean: Array
+    covariance: Array
+    drives: tuple[Drive, ...]
+    which: NDArray[np.int64]
+    first: NDArray[np.int64]
+
+    def __len__(self) -> int:
+        return len(self.params)
+
+    def taken(self, rows: Any) -> Points:
+        """Return some of the points: a slice, or an array of their numbers."""
+        arrays = {f.name: getattr(self, f.name)[rows] for f in fields(self) if f.name != "drives"}
+        return replace(self, **arrays)
+
+
+@dataclass(frozen=True)
+class Innovations:
+    """One-step errors and their variances, and which points got through all samples with finite numbers.
+
+    Of an engine both are (points, samples, sensors) and `finite` is (points,); where nothing was read the error is 0
+    and the variance 1 / (2 pi), which adds nothing. `reached` counts the samples that were got through.
+    """
+
+    errors: Array
+    variances: Array
+    finite: NDArray[np.bool_]
+    reached: NDArray[np.int64] | None = None
+
+    @classmethod
+    def of(cls, errors: Array, variances: Array, reached: NDArray[np.int64]) -> Innovations:
+        """Return the innovations of an engine, which has got through so many samples at each point."""
+        with np.errstate(over="ignore", invalid="ignore"):
+            sums = np.sum(errors * errors / variances, axis=(1, 2))
+        return cls(errors, variances, (reached == errors.shape[1]) & np.isfinite(sums), reached)
+
+    @property
+    def log_likelihood(self) -> Any:
+        """The log-likelihood by its one-step errors, (points,) or one number; minus infinity after a divergence."""
+        axes = tuple(range(np.ndim(self.finite), self.errors.ndim))
+        with np.errstate(all="ignore"):
+            told = -0.5 * np.sum(self.errors**2 / self.variances + np.log(2.0 * np.pi * self.variances), axis=axes)
+        found = np.where(self.finite & np.isfinite(told), told, -math.inf)
+        return found if found.ndim else float(found)
+
+    def __getitem__(self, point: Any) -> Innovations:
+        return Innovations(self.errors[point], self.variances[point], self.finite[point])
+
+    def __len__(self) -> int:
+        return len(self.errors)
+
+
+@dataclass(frozen=True)
+class Smoothed:
+    """The states (samples, n) of one point with their covariances (samples, n, n): after each sample, and after all.
+
+    Behind the states of model and terms stand the random forces that are states.
+    """
+
+    filtered: Array
+    filtered_covariance: Array
+    states: Array
+    covariance: Array
+    innovations: Innovations

@@ -1,0 +1,68 @@
+"""Where the states of a recording begin: mean and covariance at the first sample, as far as its sensors tell."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from lostmotion.contracts import Array
+from lostmotion.likelihood.observation import Observation, static_equilibrium
+
+if TYPE_CHECKING:
+    from lostmotion.likelihood.problem import Problem
+
+
+def initial(problem: Problem, fulls: Array, gain: Array, offset: Array, index: int = 0) -> tuple[Array, Array]:
+    """Return mean (points, n) and covariance (points, n, n) of the states of model and terms at the first sample.
+
+    `fulls` (points, parameters), `gain` and `offset` (points, sensors). Where a force was measured, the place depends
+    on the parameters: it is that where the model shows this force.
+    """
+    observation, scales, model = problem.observations[index], problem.scales, problem.system.model
+    n = problem.dynamics.states
+    mean, cov = np.zeros((len(fulls), n)), np.zeros((n, n))
+    for i, name in enumerate(model.states):
+        cov[i, i] = (scales.velocity if i == 1 or "velocity" in name else scales.length) ** 2
+    if observation.channel == "force":
+        return _by_force(problem, fulls, offset[:, 0], (mean, cov), index)
+    for number, sensor in enumerate(observation.sensors):
+        state = model.states.index(sensor.channel) if sensor.channel in model.states else -1
+        if "position" in sensor.channel and state >= 0:
+            _at_reading(observation, number, (state, scales.length), (mean, cov), gain[:, number], offset[:, number])
+    return mean, np.tile(cov, (len(fulls), 1, 1))
+
+
+def _at_reading(
+    observation: Observation,
+    number: int,
+    state: tuple[int, float],
+    begun: tuple[Array, Array],
+    gain: Array,
+    offset: Array,
+) -> None:
+    """Let a position and the velocity behind it begin where a sensor shows them."""
+    (mean, cov), (at, length) = begun, state
+    place, speed = observation.first(number)
+    mean[:, at] = (place - offset) / gain
+    cov[at, at] = min((10.0 * observation.noises[number]) ** 2 + (1e-3 * length) ** 2, length**2)
+    if at + 1 < cov.shape[0]:
+        mean[:, at + 1] = speed / gain
+        cov[at + 1, at + 1] *= 0.25
+
+
+def _by_force(
+    problem: Problem, fulls: Array, offset: Array, begun: tuple[Array, Array], index: int
+) -> tuple[Array, Array]:
+    """Return mean and covariance where the first sensor shows a force: the body stands where it is felt."""
+    observation, model = problem.observations[index], problem.system.model
+    mean, cov = begun
+    mean[:, :2] = observation.inputs[0]
+    cov[1, 1] *= 0.25
+    covariance = np.tile(cov, (len(fulls), 1, 1))
+    for point, full in enumerate(fulls):
+        shown = replace(observation, readings=observation.readings - offset[point])
+        mean[point, 0], spread = static_equilibrium(shown, model, full[: len(model.params)])
+        covariance[point, 0, 0] = spread**2 + (1e-3 * problem.scales.length) ** 2
+    return mean, covariance

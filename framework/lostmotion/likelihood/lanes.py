@@ -1,0 +1,168 @@
+"""The engine that computes many points in lock-step, in the vector registers of one core."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lostmotion.contracts import Array, Engine
+from lostmotion.kernels.inputs import DRAWN, DRIVES, SOURCES
+from lostmotion.kernels.smooth import smooth
+from lostmotion.kernels.vector import STRIDE
+from lostmotion.likelihood.engine import Dynamics, Innovations, Points, Smoothed
+from lostmotion.likelihood.kernels import filter_kernels
+from lostmotion.likelihood.motion import block, lanes_for, model_block, model_wires, require_sound, run, spread
+from lostmotion.likelihood.observation import Observation
+
+_NONE = (np.zeros((1, 1)), np.zeros((1, 1, 1)), np.zeros((1, 1)), np.zeros((1, 1, 1)), np.zeros((1, 1, 1)))
+
+Kept = tuple[Array, Array, Array, Array, Array]
+"""What a smoother needs: states and covariances after and before each sample, and the steps between."""
+
+
+@dataclass(frozen=True)
+class Lanes(Engine):
+    """Filters up to 32 points at once, as numbers in lanes; `compiled=False` runs the same source as plain Python."""
+
+    compiled: bool = True
+    name: ClassVar[str] = "lanes"
+    paper: ClassVar[str] = (
+        "Norgaard, Poulsen, Ravn, Automatica 36 (2000) 1627-1638, with steps halved where a force bends"
+    )
+
+    def filter(self, dynamics: Dynamics, observation: Observation, points: Points) -> Innovations:
+        """Return one-step errors and their variances, (points, samples, sensors)."""
+        shape = (len(points), observation.samples, len(observation.sensors))
+        errors, variances, reached = np.zeros(shape), np.ones(shape), np.zeros(len(points), dtype=np.int64)
+        for begin in range(0, len(points), STRIDE):
+            part = slice(begin, begin + STRIDE)
+            self._track(
+                dynamics, observation, points.taken(part), (errors[part], variances[part], reached[part]), _NONE
+            )
+        return Innovations.of(errors, variances, reached)
+
+    def smooth(self, dynamics: Dynamics, observation: Observation, points: Points) -> Smoothed:
+        """Return filtered and smoothed states of one point, and their covariances."""
+        kept, innovations = self.kept(dynamics, observation, points)
+        states, covariance = smooth(*kept)
+        return Smoothed(kept[0], kept[1], states, covariance, innovations)
+
+    def kept(self, dynamics: Dynamics, observation: Observation, points: Points) -> tuple[Kept, Innovations]:
+        """Return what a smoother needs of one point, and its innovations."""
+        rows, n = observation.samples, dynamics.states + dynamics.forces
+        square = (rows, n, n)
+        kept = (np.zeros((rows, n)), np.zeros(square), np.zeros((rows, n)), np.zeros(square), np.zeros(square))
+        shape = (1, rows, len(observation.sensors))
+        written = (np.zeros(shape), np.ones(shape), np.zeros(1, dtype=np.int64))
+        self._track(dynamics, observation, points.taken(slice(0, 1)), written, kept)
+        return kept, Innovations.of(*written)
+
+    def simulate(self, dynamics: Dynamics, points: Points, start: Array, steps: int) -> Array:
+        """Return the states (points, steps, n) of free runs from `start` (points, n), NaN where they leave numbers."""
+        states = np.empty((len(points), steps, dynamics.states))
+        for number, drive in enumerate(points.drives):
+            rows = np.flatnonzero(points.which == number)
+            if len(rows):
+                packed = dynamics.system.pack(points.params[rows], drive.dt / dynamics.nsub, drive.tone)
+                found = run(
+                    dynamics.system, dynamics.active, packed, start[rows], drive, dynamics.nsub, points.first[rows],
+                    steps, compiled=self.compiled,
+                )  # fmt: skip
+                states[rows] = found[0]
+        return states
+
+    def _track(
+        self,
+        dynamics: Dynamics,
+        observation: Observation,
+        points: Points,
+        written: tuple[Array, Array, NDArray[np.int64]],
+        kept: Kept,
+    ) -> None:
+        """Run the filter at up to `STRIDE` points, into the given arrays."""
+        system, drives, n = dynamics.system, points.drives, dynamics.states + dynamics.forces
+        tone, dt, nsub = drives[0].tone, observation.dt, fine_steps(dynamics.nsub)
+        numbers = _numbers_of(observation, dynamics)
+        forces = tuple(dynamics.states + i for i in range(dynamics.forces))
+        packed = system.pack(points.params, dt / nsub, tone)
+        packed[:, system.blueprint.rows.pace - system.blueprint.rows.params] = points.pace
+        wires = model_wires(system, dynamics.active, forces)
+        noise, wires[SOURCES], wires[DRAWN] = _noise_of(dynamics, points, dt)
+        used = np.unique(points.which)
+        inputs = drives[used[0]].cubics if len(used) == 1 else np.concatenate([drives[i].cubics for i in used])
+        wires[DRIVES] = len(used)
+        each = np.searchsorted(used, points.which) * observation.samples
+        which = each[np.minimum(np.arange(STRIDE), len(points) - 1)].astype(np.int64)
+        levels = np.stack([points.white, points.slow, points.fade, points.gain, points.offset], axis=2)
+        mean, covariance = _begun(dynamics, points)
+        kernels = filter_kernels(n, self.compiled)
+        many = int(numbers[:, 2].max()) + 1
+        blocks = (
+            model_block(system, packed),
+            block(kernels["NOISE"] + (2 + 2 * n) * wires[SOURCES]),
+            block(many * (2 + n + many) + 1),
+            spread(np.full((1, 1), drives[0].begin)),
+            spread(levels.reshape(len(points), -1)),
+            spread(noise),
+            spread(np.concatenate([mean, covariance.reshape(len(points), -1)], axis=1)),
+        )
+        made = system.functions(self.compiled)
+        lanes = lanes_for(len(points))
+        padded = _padded(written, lanes)
+        failed = kernels["filtered"](
+            (made.derive, made.observe), blocks, wires, inputs, which, np.ascontiguousarray(observation.readings),
+            numbers, dt, nsub, *padded, kept, lanes,
+        )  # fmt: skip
+        require_sound(failed, system, blocks[0], wires)
+        for mine, theirs in zip(written, padded, strict=True):
+            if mine is not theirs:
+                mine[:] = theirs[: len(mine)]
+
+
+def _padded(written: tuple[Any, ...], lanes: int) -> tuple[Any, ...]:
+    """Return arrays with a row for each lane: the given ones where they have as many."""
+    if len(written[0]) == lanes:
+        return written
+    return tuple(np.zeros((lanes, *array.shape[1:]), dtype=array.dtype) for array in written)
+
+
+def fine_steps(steps: int) -> int:
+    """Return how many fine steps a sample is halved into: a power of two, and at least so many."""
+    return int(1 << (max(steps, 1) - 1).bit_length())
+
+
+def _numbers_of(observation: Observation, dynamics: Dynamics) -> NDArray[np.int64]:
+    """Return channel, directly shown state, and place among those with slow noise, of each sensor, (sensors, 3)."""
+    slow = -1
+    rows = []
+    for sensor in observation.sensors:
+        slow += sensor.noise.kind == "ar1"
+        rows.append((*dynamics.system.channel(sensor.channel), slow if sensor.noise.kind == "ar1" else -1))
+    return np.array(rows, dtype=np.int64)
+
+
+def _noise_of(dynamics: Dynamics, points: Points, dt: float) -> tuple[Array, int, int]:
+    """Return which states the random force enters, with its intensities, (points, rows), and how many of each kind."""
+    plan, n = dynamics.system.blueprint, dynamics.states
+    if dynamics.random == "latent":
+        return np.column_stack([np.full(len(points), float(n)), points.process * points.pace**2]), 1, 0
+    if dynamics.random == "held":
+        rows = [(np.full(len(points), float(n + i)), points.process / dt) for i in range(len(plan.bodies))]
+        return np.column_stack([column for row in rows for column in row]), 0, len(rows)
+    rows = [
+        (np.full(len(points), float(b.row)), points.process / points.params[:, b.inertia] ** 2) for b in plan.bodies
+    ]
+    return np.column_stack([column for row in rows for column in row]), len(rows), 0
+
+
+def _begun(dynamics: Dynamics, points: Points) -> tuple[Array, Array]:
+    """Return mean and covariance of all states at the first sample, random forces included."""
+    m, n = dynamics.states, dynamics.states + dynamics.forces
+    mean, covariance = np.zeros((len(points), n)), np.zeros((len(points), n, n))
+    mean[:, :m], covariance[:, :m, :m] = points.mean, points.covariance
+    if dynamics.random == "latent":
+        covariance[:, m, m] = 0.5 * points.process * points.pace
+    return mean, covariance

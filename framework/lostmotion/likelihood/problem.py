@@ -1,0 +1,334 @@
+"""What is to be estimated from which recordings: the posterior density that every fit and every sampler sees."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, field, replace
+from functools import cache, cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lostmotion.contracts import Array, Engine
+from lostmotion.likelihood.drive import Drive
+from lostmotion.likelihood.engine import Dynamics, Innovations, Points, Random, Smoothed
+from lostmotion.likelihood.initial import initial
+from lostmotion.likelihood.lanes import Lanes
+from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.sensors import AR1
+from lostmotion.likelihood.space import (
+    FADE,
+    LEVELS,
+    NOISE,
+    OFFSET,
+    PACE,
+    RANDOM,
+    SLOW,
+    Free,
+    ParameterSpace,
+    Route,
+    Scales,
+    level_of,
+)  # fmt: skip
+from lostmotion.likelihood.system import System
+
+__all__ = [
+    "LEVELS", "NOISE", "OFFSET", "PACE", "RANDOM", "USUAL", "Free", "Innovations", "Problem", "Scales",
+]  # fmt: skip
+
+USUAL = 1e-3
+"""The noise of a measured excitation as a share of the drive that is usual, and no mechanism left out."""
+TOGETHER = 16
+"""Points that are computed at once: fewer leave vector registers empty, more only wait for memory."""
+
+
+@cache
+def _pool(jobs: int) -> ThreadPoolExecutor:
+    return ThreadPoolExecutor(jobs)
+
+
+@dataclass(frozen=True)
+class Problem:
+    """Recordings, a system, what is known of it (`known`, full vector) and what is free.
+
+    A key such as `c[run 1]` is the parameter `c` of the recording "run 1" alone; without brackets all share it.
+
+    The random force is white, or, when `PACE` is among the free parameters, an Ornstein-Uhlenbeck force of the same
+    intensity at low frequency: it stands for what no term explains, and keeps slow leftovers from posing as evidence.
+    """
+
+    system: System
+    observations: tuple[Observation, ...]
+    scales: Scales
+    known: Array
+    free: tuple[Free, ...]
+    active: frozenset[str] = frozenset()
+    nsub: int = 3
+    jobs: int = 2
+    engine: Engine = field(default_factory=Lanes)
+
+    @cached_property
+    def space(self) -> ParameterSpace:
+        """The free parameters as coordinates."""
+        return ParameterSpace(self.free)
+
+    @property
+    def keys(self) -> tuple[str, ...]:
+        """The keys of the free parameters."""
+        return self.space.keys
+
+    @property
+    def start(self) -> Array:
+        """The coordinates to start from."""
+        return self.space.start
+
+    @cached_property
+    def coloured(self) -> bool:
+        """Whether the random force has a memory."""
+        return any(f.parameter == PACE for f in self.free)
+
+    @cached_property
+    def routes(self) -> tuple[Route, ...]:
+        """Which coordinate stands for what in each recording."""
+        return tuple(Route.of(self.keys, observation.name) for observation in self.observations)
+
+    @cached_property
+    def _seen(self) -> tuple[Observation, ...]:
+        """The observations, with noise that has a memory at those sensors of which such a level is free."""
+        return tuple(
+            replace(
+                o,
+                sensors=tuple(
+                    replace(s, noise=AR1()) if self._slow(o, i) in r.columns else s for i, s in enumerate(o.sensors)
+                ),
+            )
+            for o, r in zip(self.observations, self.routes, strict=True)
+        )
+
+    @staticmethod
+    def _slow(observation: Observation, sensor: int) -> str:
+        return level_of(SLOW, observation.sensors[sensor].label, len(observation.sensors) > 1)
+
+    @cached_property
+    def dynamics(self) -> Dynamics:
+        """What moves, as an engine sees it."""
+        random: Random = "white"
+        if self.coloured:
+            random = "latent"
+        elif any(self.system.feels(s.channel) for o in self.observations for s in o.sensors):
+            random = "held"
+        return Dynamics(self.system, self.active, self.nsub, random)
+
+    @cached_property
+    def _slots(self) -> tuple[tuple[int, Free], ...]:
+        """Where each free parameter of the system stands in the full vector."""
+        frees = {f.parameter: f for f in self.free}
+        return tuple((self.system.index[name], f) for name, f in frees.items() if f.level not in LEVELS)
+
+    def full(self, theta: Array, index: int = 0) -> Array:
+        """Return the full parameter vector of the system in a recording at coordinates (n,), or (points, n)."""
+        route = self.routes[index]
+        full = np.tile(self.known, (*theta.shape[:-1], 1))
+        for slot, f in self._slots:
+            full[..., slot] = f.value(route.at(theta, f.parameter))
+        return full
+
+    def values(self, theta: Array) -> dict[str, float]:
+        """Return the free parameters by key at the coordinates `theta`."""
+        return {key: float(value) for key, value in self.space.values(theta).items()}
+
+    def log_prior(self, theta: Array) -> Any:
+        """Return the log prior density at coordinates, one point or many."""
+        return self.space.log_prior(theta)
+
+    def clip(self, theta: Array) -> Array:
+        """Return the coordinates moved into their bounds."""
+        return self.space.clip(theta)
+
+    def innovations(self, theta: Array) -> Innovations:
+        """Return the one-step prediction errors of the filter at the coordinates `theta`, all readings in a row."""
+        return self.many(theta[None])[0]
+
+    def log_posterior(self, theta: Array) -> float:
+        """Return log-likelihood plus log prior at the coordinates `theta`."""
+        return float(self.log_posteriors(theta[None])[0])
+
+    def log_posteriors(self, thetas: Array) -> Array:
+        """Return log-likelihood plus log prior (points,) at coordinates (points, n); -inf outside of the prior."""
+        found = np.array(self.log_prior(thetas))
+        inside = np.isfinite(found)
+        if inside.any():
+            found[inside] += self.log_likelihoods(thetas[inside])
+        return found
+
+    def log_likelihoods(self, thetas: Array) -> Array:
+        """Return the log-likelihood (points,) at coordinates (points, n); minus infinity where it diverges."""
+        return np.asarray(sum(part.log_likelihood for part in self._filtered(np.asarray(thetas))))
+
+    def many(self, thetas: Array) -> Innovations:
+        """Return the innovations (points, readings) at coordinates (points, n), all recordings in a row."""
+        parts = self._filtered(np.asarray(thetas))
+        flat = [(p.errors.reshape(len(p), -1), p.variances.reshape(len(p), -1)) for p in parts]
+        errors, variances = (
+            np.concatenate([f[k] for f in flat], axis=1) if len(flat) > 1 else flat[0][k] for k in (0, 1)
+        )
+        return Innovations(errors, variances, np.all([p.finite for p in parts], axis=0))
+
+    def _filtered(self, thetas: Array) -> list[Innovations]:
+        """Return the innovations of each recording; points that differ in nothing that matters are filtered once."""
+        tasks, places = [], []
+        for index, route in enumerate(self.routes):
+            rows, inverse = _distinct(thetas[:, route.used])
+            places.append(inverse)
+            share = max(TOGETHER, -(-len(rows) // self.jobs))
+            tasks += [(index, rows[k : k + share]) for k in range(0, len(rows), share)]
+        done = self._each(tasks, thetas)
+        found = []
+        for index, inverse in enumerate(places):
+            parts = [part for (i, _), part in zip(tasks, done, strict=True) if i == index]
+            whole = parts[0] if len(parts) == 1 else _joined(parts)
+            found.append(whole if inverse is None else whole[inverse])
+        return found
+
+    def _each(self, tasks: Sequence[tuple[int, NDArray[np.intp]]], thetas: Array) -> list[Innovations]:
+        def work(task: tuple[int, NDArray[np.intp]]) -> Innovations:
+            index, rows = task
+            return self.engine.filter(self.dynamics, self._seen[index], self.points(thetas[rows], index))
+
+        if self.jobs < 2 or len(tasks) < 2:
+            return [work(task) for task in tasks]
+        return list(_pool(self.jobs).map(work, tasks))
+
+    def points(self, thetas: Array, index: int = 0) -> Points:
+        """Return coordinates (points, n) as an engine takes them, for one recording."""
+        observation, fulls = self.observations[index], self.full(thetas, index)
+        route, shape = self.routes[index], (len(thetas), len(observation.sensors))
+        pace = np.exp(route.at(thetas, PACE)) if self.coloured else np.zeros(len(thetas))
+        columns = [self._sensor(thetas, index, s) for s in range(shape[1])]
+        white, slow, fade, offset = (
+            np.stack([np.broadcast_to(c[k], len(thetas)) for c in columns], axis=1) for k in range(4)
+        )
+        gain = np.ones(shape) * self._gains(fulls)[:, None]
+        drives, which = self._drives(fulls, index)
+        mean, covariance = initial(self, fulls, gain, offset, index)
+        process = np.exp(route.at(thetas, RANDOM))
+        first = np.zeros(len(thetas), dtype=np.int64)
+        return Points(fulls, process, pace, white, slow, fade, gain, offset, mean, covariance, drives, which, first)
+
+    def _sensor(self, thetas: Array, index: int, sensor: int) -> tuple[Any, Any, Any, Any]:
+        """Return the variances of white and of slow noise, the share of it that a sample leaves, and the zero."""
+        observation, route = self.observations[index], self.routes[index]
+        several = len(observation.sensors) > 1
+
+        def level(name: str) -> Any:
+            key = level_of(name, observation.sensors[sensor].label, several)
+            return route.at(thetas, key) if key in route.columns else None
+
+        noise, slow, fade, offset = (level(name) for name in (NOISE, SLOW, FADE, OFFSET))
+        if slow is None:
+            return np.exp(2.0 * noise), 0.0, 0.0, 0.0 if offset is None else offset
+        left = np.exp(-observation.dt / np.exp(fade))
+        return np.exp(2.0 * noise), np.exp(2.0 * slow), left, 0.0 if offset is None else offset
+
+    def _gains(self, fulls: Array) -> Array:
+        """Return what the sensors show of one unit, (points,)."""
+        if not self.system.gauging(self.active):
+            return np.ones(len(fulls))
+        return np.array([self.system.gain(full, self.active) for full in fulls])
+
+    def _drives(self, fulls: Array, index: int) -> tuple[tuple[Drive, ...], NDArray[np.int64]]:
+        """Return the distinct inputs that act in a recording, and which of them acts at each point."""
+        observation, keys = self.observations[index], self.system.shaping(self.active)
+        if not keys:
+            return (observation.drive,), np.zeros(len(fulls), dtype=np.int64)
+        numbers: dict[Any, int] = {}
+        drives: list[Drive] = []
+        which = []
+        for full in fulls:
+            acts = [key for key in keys if not self.system.idle(full, key)]
+            values = tuple((key, self.system.values(full, key, observation.tone)) for key in acts)
+            if values not in numbers:
+                numbers[values] = len(drives)
+                u = self.system.acting(observation.recorded, full, acts, observation.tone)
+                drives.append(Drive.acting(u, observation.drive, observation.held) if acts else observation.drive)
+            which.append(numbers[values])
+        return tuple(drives), np.array(which, dtype=np.int64)
+
+    def drive(self, index: int, theta: Array) -> Drive:
+        """Return the input that acts in a recording at the coordinates `theta`."""
+        return self._drives(self.full(theta, index)[None], index)[0][0]
+
+    def noise(self, theta: Array, index: int = 0) -> tuple[float, float]:
+        """Return the intensity of the random force (N^2 s) and the variance of the white noise of the first sensor."""
+        return math.exp(self.routes[index].at(theta, RANDOM)), float(self._sensor(theta, index, 0)[0])
+
+    def slow(self, theta: Array, index: int = 0) -> tuple[float, float]:
+        """Return the variance of noise with a memory of the first sensor, and the share that is left after a sample."""
+        _, variance, left, _ = self._sensor(theta, index, 0)
+        return float(variance), float(left)
+
+    def measurement(self, theta: Array, index: int = 0) -> float:
+        """Return the variance of all noise of the first sensor, the white and the slow."""
+        return self.noise(theta, index)[1] + self.slow(theta, index)[0]
+
+    def offset(self, theta: Array, index: int = 0) -> float:
+        """Return what the first sensor shows at zero, in the unit of the channel."""
+        return float(self._sensor(theta, index, 0)[3])
+
+    def gain(self, theta: Array, index: int = 0) -> float:
+        """Return what the sensors of a recording show of one unit."""
+        return float(self._gains(self.full(theta, index)[None])[0])
+
+    def begun(self, theta: Array, index: int = 0) -> Array:
+        """Return the mean state (n,) of model and terms at the first sample of a recording."""
+        mean: Array = self.points(theta[None], index).mean[0]
+        return mean
+
+    def smooth(self, theta: Array, index: int = 0) -> Smoothed:
+        """Return the filtered and the smoothed states of a recording at the coordinates `theta`."""
+        return self.engine.smooth(self.dynamics, self._seen[index], self.points(theta[None], index))
+
+    def extended(self, more: Iterable[Free], active: Iterable[str]) -> Problem:
+        """Return the problem with further free parameters and terms."""
+        return replace(self, free=(*self.free, *more), active=self.active | frozenset(active))
+
+    def knowing(self, values: Mapping[str, float]) -> Problem:
+        """Return the problem with further parameters held at `values`."""
+        known = self.known.copy()
+        known[[self.system.index[key] for key in values]] = list(values.values())
+        return replace(self, known=known)
+
+    def reduced(self, key: str, values: Mapping[str, float]) -> Problem:
+        """Return the problem without the term `key`; `values` become the new starting points."""
+        kept = tuple(
+            replace(f, start=f.coordinate(values.get(f.key, f.value(f.start))))
+            for f in self.free
+            if not f.key.startswith(key + ".")
+        )
+        return replace(self, free=kept, active=self.active - {key})
+
+    def on(self, observations: tuple[Observation, ...]) -> Problem:
+        """Return the same problem on other recordings, or on parts of them."""
+        return replace(self, observations=observations)
+
+
+def _distinct(used: Array) -> tuple[NDArray[np.intp], NDArray[np.intp] | None]:
+    """Return the first row of each distinct one of `used` (points, n), and which one each point is; None if its own."""
+    _, rows, inverse = np.unique(used, axis=0, return_index=True, return_inverse=True)
+    if len(rows) == len(used):
+        return np.arange(len(used)), None
+    order = np.argsort(rows)
+    place = np.empty(len(rows), dtype=np.intp)
+    place[order] = np.arange(len(rows))
+    return rows[order], place[inverse.reshape(-1)]
+
+
+def _joined(parts: Sequence[Innovations]) -> Innovations:
+    """Return innovations at the points of all parts, one after the other."""
+    errors, variances, finite = (
+        np.concatenate([getattr(p, name) for p in parts]) for name in ("errors", "variances", "finite")
+    )
+    return Innovations(errors, variances, finite)

@@ -1,0 +1,306 @@
+"""The engine that computes one point after the other in plain NumPy: the others are held against it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import ClassVar
+
+import numpy as np
+
+from lostmotion.contracts import Array, Engine
+from lostmotion.kernels.crossing import BENDS, LONG, TINY
+from lostmotion.kernels.filter import SILENT
+from lostmotion.likelihood.drive import Drive
+from lostmotion.likelihood.engine import Dynamics, Innovations, Points, Smoothed
+from lostmotion.likelihood.lanes import fine_steps
+from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.system import System
+
+GAUSS = (0.5 - math.sqrt(1.0 / 12.0), 0.5 + math.sqrt(1.0 / 12.0))
+
+
+@dataclass(frozen=True)
+class Reference(Engine):
+    """The same filter as `lanes`, written with matrices and the Python functions of model and terms."""
+
+    name: ClassVar[str] = "reference"
+    paper: ClassVar[str] = (
+        "Norgaard, Poulsen, Ravn, Automatica 36 (2000) 1627-1638, with steps halved where a force bends"
+    )
+
+    def filter(self, dynamics: Dynamics, observation: Observation, points: Points) -> Innovations:
+        """Return one-step errors and their variances, (points, samples, sensors)."""
+        runs = [_Run.of(dynamics, observation, points.taken(slice(i, i + 1))) for i in range(len(points))]
+        reached = np.array([run.filter() for run in runs], dtype=np.int64)
+        return Innovations.of(np.array([r.errors for r in runs]), np.array([r.variances for r in runs]), reached)
+
+    def smooth(self, dynamics: Dynamics, observation: Observation, points: Points) -> Smoothed:
+        """Return filtered and smoothed states of one point, and their covariances (Rauch, Tung, Striebel 1965)."""
+        run = _Run.of(dynamics, observation, points)
+        reached = np.array([run.filter()], dtype=np.int64)
+        seen, ahead, steps = run.seen, run.ahead, run.steps
+        states, covs = [seen[-1][0]], [seen[-1][1]]
+        for (y, cov), (mean, before), step in zip(seen[-2::-1], ahead[:0:-1], steps[::-1], strict=True):
+            gain = np.linalg.solve(before + 1e-300 * np.eye(len(y)), step @ cov).T
+            covs.append(cov + gain @ (covs[-1] - before) @ gain.T)
+            states.append(y + gain @ (states[-1] - mean))
+        filtered, covariance = (np.array([pair[i] for pair in seen]) for i in (0, 1))
+        innovations = Innovations.of(run.errors[None], run.variances[None], reached)
+        return Smoothed(filtered, covariance, np.array(states[::-1]), np.array(covs[::-1]), innovations)
+
+    def simulate(self, dynamics: Dynamics, points: Points, start: Array, steps: int) -> Array:
+        """Return the states (points, steps, n) of free runs by RK4, NaN where they leave all numbers."""
+        states = np.full((len(points), steps, dynamics.states), np.nan)
+        for i in range(len(points)):
+            machine = _Machine.of(dynamics, points.taken(slice(i, i + 1)), dynamics.nsub)
+            y, h = start[i].astype(float), machine.drive.dt / dynamics.nsub
+            for k in range(steps):
+                states[i, k] = y
+                if k == steps - 1 or not np.isfinite(y).all():
+                    break
+                for j in range(dynamics.nsub):
+                    y = machine.stepped(y, (int(points.first[i]) + k, j / dynamics.nsub, 1.0 / dynamics.nsub), h)
+        states[~np.isfinite(states).all(axis=2)] = np.nan
+        return states
+
+
+@dataclass(frozen=True)
+class _Machine:
+    """A system at one point as functions of the state; forces that are states come last."""
+
+    system: System
+    dynamics: Dynamics
+    packed: Array
+    drive: Drive
+    pace: float
+
+    @classmethod
+    def of(cls, dynamics: Dynamics, points: Points, nsub: int) -> _Machine:
+        """Return the machine of a single point, with what its laws need of steps so fine."""
+        drive = points.drives[points.which[0]]
+        packed = dynamics.system.pack(points.params, drive.dt / nsub, drive.tone)[0]
+        return cls(dynamics.system, dynamics, packed, drive, float(points.pace[0]))
+
+    def input(self, k: int, share: float) -> Array:
+        """Return the inputs at a share of the way through sample `k`."""
+        return np.asarray(share ** np.arange(4) @ self.drive.cubics[k], dtype=float)
+
+    def slope(self, y: Array, u: Array, t: float) -> Array:
+        """Return the derivatives of all states."""
+        system, plan = self.system, self.system.blueprint
+        dydt = np.zeros(len(y))
+        system.model.rhs(t, y, u, self.packed, dydt)
+        on, at = system.wiring(self.dynamics.active)
+        first = len(system.model.params)
+        for i, (law, (_, term)) in enumerate(zip(plan.laws, system.forces, strict=True)):
+            own, first = tuple(self.packed[first : first + law.width]), first + law.width
+            if on[i]:
+                place = plan.places[law.place]
+                x, v = place.motion(y, u)
+                states = slice(at[i], at[i] + law.states)
+                push = term.force(t, x, v, u, own, tuple(y[states]))
+                dydt[place.row] += push / self.packed[place.inertia]
+                if place.against:
+                    dydt[place.against[0]] -= push / self.packed[place.against[1]]
+                if law.states:
+                    term.rate(t, x, v, u, own, tuple(y[states]), dydt[states])
+        for i, body in enumerate(plan.bodies[: self.dynamics.forces]):
+            force = self.dynamics.states + i
+            dydt[body.row] += y[force] / self.packed[body.inertia]
+            dydt[force] = -self.pace * y[force]
+        return dydt
+
+    def seen(self, y: Array, u: Array, t: float, channel: int) -> float:
+        """Return what a channel shows."""
+        shown = np.zeros(len(self.system.model.channels))
+        self.system.model.observe(t, y, self.slope(y, u, t), u, self.packed, shown)
+        return float(shown[channel])
+
+    def stepped(self, y: Array, where: tuple[int, float, float], h: float) -> Array:
+        """Return the state after a step of RK4; `where` is the sample, where in it the step begins, and its length."""
+        k, share, width = where
+        begin = self.drive.begin + (k + share) * self.drive.dt
+        early, middle, late = (self.input(k, share + part * width) for part in (0.0, 0.5, 1.0))
+        k1 = self.slope(y, early, begin)
+        k2 = self.slope(y + 0.5 * h * k1, middle, begin + 0.5 * h)
+        k3 = self.slope(y + 0.5 * h * k2, middle, begin + 0.5 * h)
+        k4 = self.slope(y + h * k3, late, begin + h)
+        return np.asarray(y + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4))
+
+
+@dataclass
+class _Run:
+    """The filter over one recording at one point: state and covariance, slow noise of sensors, and what is written."""
+
+    machine: _Machine
+    observation: Observation
+    points: Points
+    nsub: int
+    y: Array
+    cov: Array
+    slow: Array
+    shared: Array
+    errors: Array
+    variances: Array
+    wish: int = 0
+    near: Array | float = 0.0
+    seen: list[tuple[Array, Array]] = field(default_factory=list)
+    ahead: list[tuple[Array, Array]] = field(default_factory=list)
+    steps: list[Array] = field(default_factory=list)
+
+    @classmethod
+    def of(cls, dynamics: Dynamics, observation: Observation, points: Points) -> _Run:
+        """Return the filter at the first sample; slow noise has the mean `slow` and the covariances `shared`."""
+        nsub, n, m = fine_steps(dynamics.nsub), dynamics.states, len(observation.sensors)
+        total = n + dynamics.forces
+        machine = _Machine.of(dynamics, points, nsub)
+        y, cov = np.zeros(total), np.zeros((total, total))
+        y[:n], cov[:n, :n] = points.mean[0], points.covariance[0]
+        if dynamics.random == "latent":
+            cov[n, n] = 0.5 * points.process[0] * points.pace[0]
+        shared = np.zeros((m, total + m))
+        shared[:, total:] = np.diag(points.slow[0])
+        shape = (observation.samples, m)
+        errors, variances = np.zeros(shape), np.full(shape, SILENT)
+        return cls(machine, observation, points, nsub, y, cov, np.zeros(m), shared, errors, variances, nsub)
+
+    def filter(self) -> int:
+        """Run over all samples; return how many were got through."""
+        for k in range(self.observation.samples):
+            self._redrawn()
+            self.ahead.append((self.y.copy(), self.cov.copy()))
+            for sensor in range(len(self.observation.sensors)):
+                if np.isfinite(self.observation.readings[k, sensor]):
+                    self._corrected(k, sensor)
+            told = self.variances[k] > 0.0
+            if not (np.isfinite(self.y[0]) and np.isfinite(self.cov[1, 1]) and told.all()):
+                return k
+            self.seen.append((self.y.copy(), self.cov.copy()))
+            if k < self.observation.samples - 1:
+                self._crossed(k)
+        return self.observation.samples
+
+    def _redrawn(self) -> None:
+        """Draw anew the forces that are held over a sample."""
+        dynamics, dt = self.machine.dynamics, self.observation.dt
+        if dynamics.random == "held":
+            for force in range(dynamics.states, len(self.y)):
+                self.y[force], self.cov[force], self.cov[:, force] = 0.0, 0.0, 0.0
+                self.cov[force, force] = self.points.process[0] / dt
+
+    def _expected(self, k: int, sensor: int) -> tuple[float, Array]:
+        """Return what a sensor should show of its channel, and the slopes of that over the states."""
+        channel, direct = self.machine.system.channel(self.observation.sensors[sensor].channel)
+        if direct >= 0:
+            return float(self.y[direct]), np.eye(len(self.y))[direct]
+        u, t = self.machine.input(k, 0.0), self.machine.drive.begin + k * self.machine.drive.dt
+        centre = self.machine.seen(self.y, u, t, channel)
+        reach = np.sqrt(3.0 * np.diag(self.cov)) + TINY * (1.0 + np.abs(self.y))
+        ends = [[self.machine.seen(self.y + s * row, u, t, channel) for row in np.diag(reach)] for s in (1.0, -1.0)]
+        up, down = np.array(ends)
+        bent = np.sum((up + down - 2.0 * centre) * np.diag(self.cov) / (2.0 * reach**2))
+        return centre + float(bent), (up - down) / (2.0 * reach)
+
+    def _corrected(self, k: int, sensor: int) -> None:
+        """Correct all that is not known by one reading, in which it shows as `look` says."""
+        p, n = self.points, len(self.y)
+        slow = self.observation.sensors[sensor].noise.kind == "ar1"
+        expected, slopes = self._expected(k, sensor)
+        look = np.concatenate([p.gain[0, sensor] * slopes, np.zeros(len(self.slow))])
+        look[n + sensor] = 1.0 if slow else 0.0
+        whole = np.block([[self.cov, self.shared[:, :n].T], [self.shared]])
+        gain = whole @ look
+        variance = float(look @ gain) + p.white[0, sensor]
+        shown = p.gain[0, sensor] * expected + p.offset[0, sensor] + (self.slow[sensor] if slow else 0.0)
+        error = float(self.observation.readings[k, sensor]) - shown
+        whole -= np.outer(gain, gain) / variance
+        self.y = self.y + gain[:n] / variance * error
+        self.slow = self.slow + gain[n:] / variance * error
+        self.cov, self.shared = whole[:n, :n], whole[n:]
+        self.cov[np.diag_indices(n)] = np.maximum(np.diag(self.cov), 0.0)
+        self.errors[k, sensor], self.variances[k, sensor] = error, variance
+
+    def _crossed(self, k: int) -> None:
+        """Go over one sample, in steps as wide as the force is straight."""
+        place, across = 0, np.eye(len(self.y))
+        while place < self.nsub:
+            wide = min(place & -place if place else self.nsub, self.wish)
+            reach = np.sqrt(3.0 * np.diag(self.cov))
+            while wide > 1 and np.any(wide * self._fine * self.near > BENDS * reach):
+                wide //= 2
+            while not self._taken(k, place, wide, reach):
+                wide //= 2
+            across = self._step @ across
+            place, self.wish = place + wide, 2 * wide
+        if self.machine.dynamics.random == "held":
+            across[self.machine.dynamics.states :] = 0.0
+        self.steps.append(across)
+        fade = self.points.fade[0]
+        self.slow = self.slow * fade
+        self.shared[:, : len(self.y)] *= fade[:, None]
+        self.shared[:, len(self.y) :] *= np.outer(fade, fade)
+        self.shared[:, len(self.y) :] += np.diag((1.0 - fade**2) * self.points.slow[0])
+
+    @property
+    def _fine(self) -> float:
+        return self.observation.dt / self.nsub
+
+    def _taken(self, k: int, place: int, wide: int, reach: Array) -> bool:
+        """Try a step; go it, and return true, where the force is straight along it or it is a fine one."""
+        machine, y = self.machine, self.y
+        share, width = place / self.nsub, wide / self.nsub
+        h = width * self.observation.dt
+        begin = machine.drive.begin + (k + share) * machine.drive.dt
+        early, middle, late = (machine.input(k, share + part * width) for part in (0.0, 0.5, 1.0))
+        k1 = machine.slope(y, early, begin)
+        centre = y + 0.5 * h * k1
+        k2 = machine.slope(centre, middle, begin + 0.5 * h)
+        end = y + 0.5 * h * k2
+        k3 = machine.slope(end, middle, begin + 0.5 * h)
+        end = y + h * k3
+        k4 = machine.slope(end, late, begin + h)
+        d = reach + TINY * (1.0 + np.abs(centre))
+        up, down = (
+            np.array([machine.slope(centre + s * r, middle, begin + 0.5 * h) for r in np.diag(d)]).T for s in (1, -1)
+        )
+        slopes = (up - down) / (2.0 * d)
+        bend = ((up + down - 2.0 * k2[:, None]) * np.diag(self.cov) / (2.0 * d**2)).sum(axis=1)
+        square, far = slopes @ slopes, np.zeros(len(y))
+        if wide > 1:
+            sides = [machine.slope(end + s * reach, late, begin + h) for s in (1.0, -1.0)]
+            far = np.abs(0.5 * (sides[0] + sides[1]) - k4)
+            both = machine.slope(centre, early + late - middle, begin + h)
+            kink = k1 + k4 - k2 - both - slopes @ (y + end - 2.0 * centre)
+            bent = np.abs(kink) + self.near + far + 3.0 * np.abs(bend)
+            if np.any(h * bent > BENDS * reach) or np.any(h * h * np.abs(np.diag(square)) > LONG):
+                return False
+        self.near = far
+        third, fourth = square @ slopes, square @ square
+        self._step = np.eye(len(y)) + h * (slopes + h / 2.0 * (square + h / 3.0 * (third + h / 4.0 * fourth)))
+        mean = (k1 + 2.0 * k2 + 2.0 * k3 + k4) / 6.0
+        self.y = y + h * (mean + h * h / 30.0 * square @ (k3 - k2) + bend)
+        self.cov = self._step @ self.cov @ self._step.T + self._noise(h, slopes, square)
+        self.shared[:, : len(y)] = self.shared[:, : len(y)] @ self._step.T
+        return True
+
+    def _noise(self, h: float, slopes: Array, square: Array) -> Array:
+        """Return the covariance that the random force adds over a step, by two Gauss points."""
+        added = np.zeros_like(self.cov)
+        for row, intensity in self._sources():
+            for part in GAUSS:
+                way = part * h * (slopes[:, row] + 0.5 * part * h * square[:, row])
+                way[row] += 1.0
+                added += 0.5 * h * intensity * np.outer(way, way)
+        return added
+
+    def _sources(self) -> Sequence[tuple[int, float]]:
+        """Return the states that noise enters, with its intensities."""
+        dynamics, process = self.machine.dynamics, float(self.points.process[0])
+        if dynamics.random == "held":
+            return ()
+        if dynamics.random == "latent":
+            return ((dynamics.states, process * self.machine.pace**2),)
+        bodies = dynamics.system.blueprint.bodies
+        return [(body.row, process / self.points.params[0, body.inertia] ** 2) for body in bodies]

@@ -1,0 +1,63 @@
+"""The stroboscopic map of a model with its terms, with tangent vectors: one point after the other, for long orbits."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import lru_cache
+from importlib import resources
+from typing import Any
+
+import numba
+import numpy as np
+
+from lostmotion.kernels.vector import BARE
+from lostmotion.kernels.views import slow_view, view
+from lostmotion.likelihood.adopted import adopted, defined, fingerprint, kept_as, told
+from lostmotion.likelihood.compose import Blueprint, fields_of, parts_of
+
+
+def _law_lines(index: int, plan: Blueprint, start: int) -> list[str]:
+    """Return the lines that add one law to `dydt`, behind its switch."""
+    law, i = plan.laws[index], index
+    place = plan.places[law.place]
+    own = "".join(f"w[{start + a}], " for a in range(law.width))
+    states = "".join(f"y[at[{i}] + {a}], " for a in range(law.states))
+    handed = f"{f'fields_{i}, ' if law.fields else ''}t, x, v, u, ({own}), ({states})"
+    lines = [
+        f"    if on[{i}]:",
+        f"        x, v = motion_{law.place}(y, u)",
+        f"        push = force_{i}({handed})",
+        f"        dydt[{place.row}] += push / p[{place.inertia}]",
+    ]
+    if place.against:
+        lines.append(f"        dydt[{place.against[0]}] -= push / p[{place.against[1]}]")
+    if law.states:
+        lines.append(f"        rate_{i}({handed}, view(dydt, at[{i}], {law.states}))")
+    return lines
+
+
+def _text(plan: Blueprint, states: int) -> str:
+    """Return the source of the map for so many states."""
+    starts = [sum(law.width for law in plan.laws[:i]) for i in range(len(plan.laws))]
+    laws = "\n".join(line for i, start in enumerate(starts) for line in _law_lines(i, plan, start))
+    text = resources.files("lostmotion.kernels").joinpath("tangent.txt").read_text()
+    return text.replace("@N@", str(states)).replace("@LAWS@", laws)
+
+
+@lru_cache(maxsize=64)
+def stroboscopic_map(plan: Blueprint, states: int, compiled: bool = True) -> Callable[..., int]:
+    """Return the map of a plan with so many active states, compiled, or as its plain Python twin."""
+    text, parts, fields = _text(plan, states), parts_of(plan), fields_of(plan)
+    if compiled:
+        also = "".join(f"{name}{fingerprint(part)}" for name, part in sorted(parts.items())) + repr(fields)
+        path = kept_as(text, also)
+        given = {name: adopted(part, path.stem) for name, part in parts.items()}
+        whole = numba.njit(**BARE, cache=True)
+        space = defined(text, str(path), {**given, **fields, "jit": whole, "view": view})
+    else:
+        space = defined(text, "<slow twin>", {**parts, **fields, "jit": lambda f: f, "view": slow_view})
+
+    def mapped(*args: Any) -> int:
+        return int(space["march"](*args, np.zeros((10, states)), np.zeros((3, states, states))))
+
+    return told(mapped)
