@@ -43,7 +43,7 @@ def asked(samples, count):
     return Dynamics(system, system.everything, SUBSTEPS), observation, points
 
 
-@pytest.mark.parametrize("count", [1, 16, 32])
+@pytest.mark.parametrize("count", [1, 16, 32], ids=["1 point", "16 points", "32 points"])
 def test_filter_against_plain_matrices(benchmark, count):
     """20,000 samples in lanes, over 200 samples at one point with matrices; the speed of one core is printed."""
     work, part = asked(SAMPLES, count), asked(PART, 1)

@@ -3,8 +3,9 @@
 A sample is crossed in one step where the force is straight, and in halves of it, down to the fine grid, where it bends
 within sqrt(3) standard deviations of the way: while second differences of the force, along the way, in its middle and
 at its end, would move the state by more than `BENDS` times that width, or the step is long against the motion
-(h^2 |A^2| > `LONG`). Each point halves by its own tests alone and waits while others do, so that its result does not
-depend on them. The linearisation at hand makes RK4 one of fifth order; noise enters at two Gauss points.
+(h^2 |A^2| > `LONG`, or `PACED` for the states of laws that bound their own pace by the step). Each point halves by its
+own tests alone and waits while others do, so that its result does not depend on them. The linearisation at hand makes
+RK4 one of fifth order; noise enters at two Gauss points.
 
 A block is an array (rows, STRIDE), rows by the names below; the functions of a model read and write a block of their
 own (`space`), of which `wires` begins with the rows of time, states, derivatives, inputs and channels. Between two
@@ -14,6 +15,8 @@ calls of a model there is one loop over the points.
 from __future__ import annotations
 
 from lostmotion.kernels.inputs import (
+    PACES,
+    STEP,
     driven,
     mirrored,
 )  # fmt: skip
@@ -32,7 +35,7 @@ from lostmotion.kernels.vector import (
 )  # fmt: skip
 
 N = 2
-BENDS, LONG = 0.0023, 0.05
+BENDS, LONG, PACED = 0.0023, 0.05, 1.05
 TINY = 1e-14
 SOON = 0.21132486540518712
 """The first of two Gauss points on a step of one."""
@@ -66,15 +69,6 @@ EXPECTED = HOPE + 1
 SEEN = EXPECTED + 1
 NOISE = SEEN + 1
 """Intensities of the noise that enters the states: as many rows as there are sources; behind them the slow noise."""
-
-
-@jit
-def shown(space, wires, work, row, lanes):  # type: ignore[no-untyped-def]
-    """Hand the states in the rows from `row` on to the model, and note their `REACH`: sqrt(3) standard deviations."""
-    for o in range(0, lanes, WIDTH):
-        for a in range(N):
-            store(space, wires[1] + a, o, load(work, row + a, o))
-            store(work, REACH + a, o, root(3.0 * load(work, P + a * N + a, o)))
 
 
 @jit
@@ -153,7 +147,7 @@ def sloped(space, wires, work, c, lanes):  # type: ignore[no-untyped-def]
 
 @jit
 def attempted(derive, space, wires, work, u, which, begin, k, place, wide, nsub, dt, lanes):  # type: ignore[no-untyped-def]
-    """Try a step of `wide` fine ones from the states `Y`, of which `K1` are the derivatives; return a failure.
+    """Try a step of `wide` fine ones from the states `Y`; return a failure.
 
     It begins at `place` of the `nsub` fine ones of sample `k`. `HOPE` tells which points may take it, `KINK` how far
     the derivatives at both ends are off those in the middle.
@@ -161,12 +155,14 @@ def attempted(derive, space, wires, work, u, which, begin, k, place, wide, nsub,
     share, width = place / nsub, wide / nsub
     h = width * dt
     for o in range(0, lanes, WIDTH):
+        store(space, wires[STEP], o, h)
         for a in range(N):
-            y = load(work, Y + a, o) + 0.5 * h * load(work, K1 + a, o)
-            store(work, MIDDLE + a, o, y)
-            store(space, wires[1] + a, o, y)
-    driven(space, wires, u, which, begin, k, share + 0.5 * width, dt, lanes)
+            store(space, wires[1] + a, o, load(work, Y + a, o))
+    driven(space, wires, u, which, begin, k, share, dt, lanes)
     failed = call(derive, space, wires, lanes)
+    staged(space, wires, work, K1, 0.5 * h, MIDDLE, lanes)
+    driven(space, wires, u, which, begin, k, share + 0.5 * width, dt, lanes)
+    failed |= call(derive, space, wires, lanes)
     staged(space, wires, work, K2, 0.5 * h, END, lanes)
     failed |= call(derive, space, wires, lanes)
     staged(space, wires, work, K3, h, END, lanes)
@@ -201,7 +197,7 @@ def attempted(derive, space, wires, work, u, which, begin, k, place, wide, nsub,
 
 
 @jit
-def accepted(work, o, place, wide, h):  # type: ignore[no-untyped-def]
+def accepted(work, o, place, wide, h, paced):  # type: ignore[no-untyped-def]
     """Note which points take the step that was tried, where they wait, and how far they would go next.
 
     `F` holds the square of the slopes `A`. Return a mask of the points that take it.
@@ -219,7 +215,8 @@ def accepted(work, o, place, wide, h):  # type: ignore[no-untyped-def]
                 kink = kink - load(work, A + a * N + c, o) * way
             bent = load(work, NEAR + a, o) + load(work, FAR + a, o) + 3.0 * size(load(work, BEND + a, o))
             taken = taken & ((h * (size(kink) + bent) <= BENDS * load(work, REACH + a, o)) | dead)
-            taken = taken & ((h * h * size(load(work, F + a * N + a, o)) <= LONG) | dead)
+            limit = PACED if (paced >> a) & 1 else LONG
+            taken = taken & ((h * h * size(load(work, F + a * N + a, o)) <= limit) | dead)
     store(work, AT, o, select(taken, place + wide, at))
     store(work, WANT, o, select(waits, 0.5 * wide, load(work, WANT, o)))
     store(work, WISH, o, select(taken, 2.0 * wide, load(work, WISH, o)))
@@ -301,11 +298,11 @@ def widened(work, o, taken, sources, h):  # type: ignore[no-untyped-def]
 
 
 @jit
-def carried(work, slow, sources, many, h, wide, place, keep, lanes):  # type: ignore[no-untyped-def]
+def carried(work, slow, sources, many, paced, h, wide, place, keep, lanes):  # type: ignore[no-untyped-def]
     """Carry all that is known over the step that was tried, at those points that take it: they go on from its end."""
     for o in range(0, lanes, WIDTH):
         product(work, F, A, A, o)
-        taken = accepted(work, o, place, wide, h)
+        taken = accepted(work, o, place, wide, h, paced)
         if not some(taken):
             continue
         moved(work, o, taken, wide, h)
@@ -331,6 +328,8 @@ def carried(work, slow, sources, many, h, wide, place, keep, lanes):  # type: ig
 def wanted(work, place, aligned, step, lanes):  # type: ignore[no-untyped-def]
     """Write how far the points at `place` would step, by how the force bends there; return the farthest of them."""
     for o in range(0, lanes, WIDTH):
+        for a in range(N):
+            store(work, REACH + a, o, root(3.0 * load(work, P + a * N + a, o)))
         want = load(work, WISH, o)
         want = select(want > aligned, aligned, want)
         wide = aligned
@@ -367,17 +366,11 @@ def crossed(derive, space, wires, work, slow, u, which, begin, k, nsub, dt, sour
         if not waiting:
             place += aligned
             continue
-        driven(space, wires, u, which, begin, k, place / nsub, dt, lanes)
-        shown(space, wires, work, Y, lanes)
-        failed |= call(derive, space, wires, lanes)
-        for o in range(0, lanes, WIDTH):
-            for a in range(N):
-                store(work, K1 + a, o, load(space, wires[2] + a, o))
         wide = wanted(work, place, aligned, step, lanes)
         done = wide
         while wide > 0:
             failed |= attempted(derive, space, wires, work, u, which, begin, k, place, wide, nsub, dt, lanes)
-            carried(work, slow, sources, many, wide * step, wide, place, keep, lanes)
+            carried(work, slow, sources, many, wires[PACES], wide * step, wide, place, keep, lanes)
             done = wide
             wide = widest(work, place, lanes)
         place += done

@@ -29,11 +29,11 @@ from lostmotion.kernels.crossing import (
     T,
     Y,
     crossed,
-    shown,
 )  # fmt: skip
 from lostmotion.kernels.inputs import (
     DRAWN,
     SOURCES,
+    STEP,
     driven,
 )  # fmt: skip
 from lostmotion.kernels.vector import (
@@ -44,6 +44,7 @@ from lostmotion.kernels.vector import (
     jit,
     load,
     pointer,
+    root,
     select,
     size,
     store,
@@ -56,10 +57,14 @@ SILENT = 1.0 / (2.0 * math.pi)
 
 
 @jit
-def linearised(derive, observe, space, wires, work, channel, lanes):  # type: ignore[no-untyped-def]
+def linearised(derive, observe, space, wires, work, channel, step, lanes):  # type: ignore[no-untyped-def]
     """Write what a sensor should show, and its slopes over the states, into `EXPECTED` and `H`; return a failure."""
     row = wires[4] + channel
-    shown(space, wires, work, Y, lanes)
+    for o in range(0, lanes, WIDTH):
+        store(space, wires[STEP], o, step)
+        for a in range(N):
+            store(space, wires[1] + a, o, load(work, Y + a, o))
+            store(work, REACH + a, o, root(3.0 * load(work, P + a * N + a, o)))
     failed = call(derive, space, wires, lanes) | call(observe, space, wires, lanes)
     for o in range(0, lanes, WIDTH):
         store(work, SEEN, o, load(space, row, o))
@@ -257,7 +262,7 @@ def filtered(functions, blocks, wiring, inputs, drives, z, sensors, dt, nsub, er
                     store(work, EXPECTED, o, load(work, Y + direct, o))
             else:
                 driven(space, wires, u, which, begin, k, 0.0, dt, lanes)
-                failed |= linearised(derive, observe, space, wires, work, sensors[s, 0], lanes)
+                failed |= linearised(derive, observe, space, wires, work, sensors[s, 0], dt / nsub, lanes)
             corrected(work, slow, levels, s, z[k, s], many, sensors[s, 2], errors, variances, k, lanes)
         living = False
         for lane in range(lanes):

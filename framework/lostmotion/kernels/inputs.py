@@ -14,8 +14,9 @@ from lostmotion.kernels.vector import (
     store,
 )  # fmt: skip
 
-SOURCES, DRAWN, INPUTS, DRIVES = 5, 6, 7, 8
-"""Where the wires tell how many sources of noise there are, forces drawn anew, inputs and drives."""
+SOURCES, DRAWN, INPUTS, DRIVES, STEP, PACES = 5, 6, 7, 8, 9, 10
+"""Where the wires tell how many sources of noise there are, forces drawn anew, inputs and drives; the row of the step;
+and, bit by bit, which states belong to laws that bound their own pace by the step."""
 
 
 @jit

@@ -24,7 +24,7 @@ from lostmotion.kernels import plain, windows
 from lostmotion.kernels.vector import BARE, value
 from lostmotion.likelihood.adopted import adopted, defined, fingerprint, kept_as, told
 
-FIRST = 9
+FIRST = 11
 """Where the switches of the laws begin in the wires."""
 
 
@@ -45,7 +45,8 @@ class Place:
 class Law:
     """A term as the kernel sees it: where it acts, its functions, and how many of `w` and of `y` are its own.
 
-    `fields` are the numbers of the term itself, handed to functions that are methods and not static ones.
+    `steps` are those of its own numbers that are the step of the integration. `fields` are the numbers of the term
+    itself, handed to functions that are methods and not static ones.
     """
 
     place: int
@@ -53,13 +54,15 @@ class Law:
     states: int
     force: Callable[..., Any]
     rate: Callable[..., Any]
+    steps: tuple[int, ...] = ()
     fields: tuple[Any, ...] | None = None
 
 
 class Rows(NamedTuple):
     """Where in the block of a model its quantities begin.
 
-    `own` are the parameters of the laws, `pace` how fast latent forces fade, `inverse` one over each inertia.
+    `own` are the parameters of the laws, `pace` how fast latent forces fade, `step` is that of the integration (s), and
+    `inverse` one over each inertia.
     """
 
     time: int
@@ -70,6 +73,7 @@ class Rows(NamedTuple):
     params: int
     own: int
     pace: int
+    step: int
     inverse: int
     total: int
 
@@ -103,7 +107,7 @@ class Blueprint:
         """Where the quantities stand in a block; there is room for the states of all laws and a force on each body."""
         states = self.states + sum(law.states for law in self.laws) + len(self.bodies)
         width = sum(law.width for law in self.laws)
-        sizes = (1, states, states, self.inputs, self.channels, self.params, width, 1, len(self.inertias))
+        sizes = (1, states, states, self.inputs, self.channels, self.params, width, 1, 1, len(self.inertias))
         starts = np.cumsum([0, *sizes])
         return Rows(*(int(start) for start in starts))
 
@@ -126,7 +130,8 @@ def law_of(term: Term, place: int) -> Law:
             f"{term.name} takes its own fields in {own[0]}, and has none that are numbers: make it static"
         )
     width = len(term.params) + len(term.needs)
-    return Law(place, width, len(term.states), cls.force, cls.rate, made)
+    steps = tuple(len(term.params) + i for i, need in enumerate(term.needs) if need == "step")
+    return Law(place, width, len(term.states), cls.force, cls.rate, steps, made)
 
 
 def _number(value: Any) -> bool:
@@ -170,7 +175,8 @@ def _law_lines(index: int, plan: Blueprint, start: int) -> list[str]:
     """Return the lines that add one law to the derivatives of all points, behind its switch."""
     law, rows = plan.laws[index], plan.rows
     place, at = plan.places[law.place], FIRST + len(plan.laws) + index
-    own = "".join(f"value(block, {rows.own + start + a}, l), " for a in range(law.width))
+    places = [rows.step if a in law.steps else rows.own + start + a for a in range(law.width)]
+    own = "".join(f"value(block, {row}, l), " for row in places)
     states = "".join(f"value(block, {rows.states + a} + at, l), " for a in range(law.states))
     first = f"fields_{index}, " if law.fields else ""
     told = f"{first}value(block, 0, l), x, v, u, ({own}), ({states})"

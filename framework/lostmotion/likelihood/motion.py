@@ -50,7 +50,10 @@ def model_wires(system: System, active: frozenset[str], latent: tuple[int, ...] 
     """Return the wires of a model: rows, switches, where the states of each law begin, and those of latent forces."""
     plan, (on, at) = system.blueprint, system.wiring(active)
     forces = [*latent, *(-1 for _ in plan.bodies[len(latent) :])]
-    wires = np.array([*plan.rows[:5], 0, 0, plan.inputs, 1, *on, *at, *forces], dtype=np.int64)
+    paced = sum(
+        1 << int(a + i) for law, a in zip(plan.laws, at, strict=True) if a and law.steps for i in range(law.states)
+    )
+    wires = np.array([*plan.rows[:5], 0, 0, plan.inputs, 1, plan.rows.step, paced, *on, *at, *forces], dtype=np.int64)
     assert len(wires) == FIRST + 2 * len(plan.laws) + len(plan.bodies)  # noqa: S101
     return wires
 

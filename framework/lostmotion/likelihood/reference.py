@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import ClassVar
 
 import numpy as np
 
 from lostmotion.contracts import Array, Engine
-from lostmotion.kernels.crossing import BENDS, LONG, TINY
+from lostmotion.kernels.crossing import BENDS, LONG, PACED, TINY
 from lostmotion.kernels.filter import SILENT
 from lostmotion.likelihood.drive import Drive
 from lostmotion.likelihood.engine import Dynamics, Innovations, Points, Smoothed
@@ -86,6 +87,23 @@ class _Machine:
     def input(self, k: int, share: float) -> Array:
         """Return the inputs at a share of the way through sample `k`."""
         return np.asarray(share ** np.arange(4) @ self.drive.cubics[k], dtype=float)
+
+    def going(self, step: float) -> None:
+        """Tell the laws how long the step is that is tried."""
+        rows, first = self.system.blueprint.rows, len(self.system.model.params)
+        for law in self.system.blueprint.laws:
+            self.packed[[first + i for i in law.steps]] = step
+            first += law.width
+        self.packed[rows.step - rows.params] = step
+
+    @cached_property
+    def limits(self) -> Array:
+        """How large h^2 |A^2| may be in each state."""
+        limits = np.full(self.dynamics.states + self.dynamics.forces, LONG)
+        for law, begin in zip(self.system.blueprint.laws, self.system.wiring(self.dynamics.active)[1], strict=True):
+            if begin and law.steps:
+                limits[begin : begin + law.states] = PACED
+        return limits
 
     def slope(self, y: Array, u: Array, t: float) -> Array:
         """Return the derivatives of all states."""
@@ -196,6 +214,7 @@ class _Run:
         if direct >= 0:
             return float(self.y[direct]), np.eye(len(self.y))[direct]
         u, t = self.machine.input(k, 0.0), self.machine.drive.begin + k * self.machine.drive.dt
+        self.machine.going(self._fine)
         centre = self.machine.seen(self.y, u, t, channel)
         reach = np.sqrt(3.0 * np.diag(self.cov)) + TINY * (1.0 + np.abs(self.y))
         ends = [[self.machine.seen(self.y + s * row, u, t, channel) for row in np.diag(reach)] for s in (1.0, -1.0)]
@@ -254,6 +273,7 @@ class _Run:
         h = width * self.observation.dt
         begin = machine.drive.begin + (k + share) * machine.drive.dt
         early, middle, late = (machine.input(k, share + part * width) for part in (0.0, 0.5, 1.0))
+        machine.going(h)
         k1 = machine.slope(y, early, begin)
         centre = y + 0.5 * h * k1
         k2 = machine.slope(centre, middle, begin + 0.5 * h)
@@ -274,7 +294,7 @@ class _Run:
             both = machine.slope(centre, early + late - middle, begin + h)
             kink = k1 + k4 - k2 - both - slopes @ (y + end - 2.0 * centre)
             bent = np.abs(kink) + self.near + far + 3.0 * np.abs(bend)
-            if np.any(h * bent > BENDS * reach) or np.any(h * h * np.abs(np.diag(square)) > LONG):
+            if np.any(h * bent > BENDS * reach) or np.any(h * h * np.abs(np.diag(square)) > machine.limits):
                 return False
         self.near = far
         third, fourth = square @ slopes, square @ square

@@ -163,7 +163,7 @@ class System:
         """Return what a model and its forces are handed, (points, params): each force has what it needs behind its own.
 
         `fulls` is (points, parameters); `step` is that of the integration (s). Behind the parameters of the model and
-        of the forces stand the pace of a latent force, zero, and one over each inertia.
+        of the forces stand the pace of a latent force, zero, the step, and one over each inertia.
         """
         base = fulls[:, : len(self.model.params)]
         more = {"step": step, "omega": tone.omega, "amplitude": tone.amplitude, "none": 0.0}
@@ -175,7 +175,7 @@ class System:
                 columns.append(fulls[:, i] if kind == "own" else np.full(len(fulls), more[kind]))
         with np.errstate(divide="ignore"):
             inverse = [1.0 / fulls[:, i] for i in self.blueprint.inertias]
-        return np.column_stack([base, *columns, np.zeros(len(fulls)), *inverse])
+        return np.column_stack([base, *columns, np.zeros(len(fulls)), np.full(len(fulls), step), *inverse])
 
     def values(self, full: Array, key: str, tone: Tone) -> tuple[float, ...]:
         """Return `p` of a term beside the machine: its own parameters, and behind them what it needs."""
