@@ -87,13 +87,14 @@ def findings(d):
 
 def predictions(d, observation, hidden):
     """Return valid-prediction times on held-out starts, in Lyapunov times: before, after, and with the truth."""
-    from lostmotion.stages.compare import exponent_of, horizon_for, pieces_of, predict
+    from lostmotion.stages.compare import exponent_of, horizon_for, pieces_of, predict, rates_of
 
     pieces = pieces_of([observation], d.held)
     fits = {"before": d.before, "after": d.after, "truth": truth_of(d, hidden)}
-    exponents = {name: exponent_of(fit, [observation]) for name, fit in fits.items()}
+    rates = {name: rates_of(fit, [observation]) for name, fit in fits.items()}
+    exponents = {name: exponent_of(found) for name, found in rates.items()}
     horizon = horizon_for(d.after, pieces, exponents["after"])
-    seen = {name: predict(fit, pieces, horizon, exponents[name]) for name, fit in fits.items()}
+    seen = {name: predict(fit, pieces, horizon, rates[name]) for name, fit in fits.items()}
     return {
         "exponents": exponents,
         "valid": {name: p.valid_time / horizon.unit_time for name, p in seen.items()},

@@ -13,7 +13,7 @@ import pytest
 from lostmotion.case import Case, Prior
 from lostmotion.contracts import Param, Term
 from lostmotion.errors import CaseError, ContractError, DataError
-from lostmotion.inference.candidates import Trial, _hint
+from lostmotion.inference.candidates import _hint
 from lostmotion.inference.setup import known_of
 from lostmotion.likelihood.latent import Missing
 from lostmotion.likelihood.observation import Observation
@@ -118,8 +118,8 @@ def test_a_term_without_a_finite_force_is_refused():
     observation = Observation.of("seen", np.sin(np.arange(40.0)), np.zeros((40, 1)), 0.1, "position")
     fit = SimpleNamespace(problem=SimpleNamespace(system=oscillator(Rootless, Plain), observations=(observation,)))
     with pytest.raises(ContractError, match="force of rootless is not a finite number"):
-        _hint(fit, Trial("rootless", (None,), {}), Lost())
-    assert _hint(fit, Trial("plain", (None,), {}), Lost()).gain == 0.0
+        _hint(fit, "rootless", (None,), {}, Lost())
+    assert _hint(fit, "plain", (None,), {}, Lost()).gain == 0.0
 
 
 @pytest.mark.parametrize("size", [1e200, np.nan])

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from truths import FORCE, FRICTION, case_of, observation_of, system_of
 
-from lostmotion.stages.compare import exponent_of, horizon_for, pieces_of, predict
+from lostmotion.stages.compare import exponent_of, horizon_for, pieces_of, predict, rates_of
 from lostmotion.stages.diagnose import diagnose
 from lostmotion.workflow.findings import draws_of, intervals
 
@@ -63,9 +63,9 @@ def test_held_out_data_are_predicted_better(rubbing):
     """
     observation, d = rubbing
     pieces = pieces_of([observation], d.held)
-    exponent = exponent_of(d.after, [observation])
-    horizon = horizon_for(d.after, pieces, exponent)
-    before, after = (predict(fit, pieces, horizon, exponent) for fit in (d.before, d.after))
+    rates = rates_of(d.after, [observation])
+    horizon = horizon_for(d.after, pieces, exponent_of(rates))
+    before, after = (predict(fit, pieces, horizon, rates) for fit in (d.before, d.after))
     assert after.valid_time > 2.0 * before.valid_time
     assert after.nrmse < 0.3 * before.nrmse
     assert after.log_score > before.log_score + 0.01

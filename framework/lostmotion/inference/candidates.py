@@ -25,6 +25,14 @@ CALM, LARGE = 0.05, 0.7
 """Noise of a calm start in amplitudes of the response, and a large force in amplitudes of the measured one."""
 LOOKS = 200
 """Places of a recording at which a force is looked at, when a filter with it does not get through."""
+SPREAD = (0.003, 0.01, 0.03, 0.1, 0.3, 1.0, 3.0)
+"""Where the shape of a law begins that takes the place of a simpler relative, in units of its typical value."""
+RAISED = 2.0
+"""By how much the log random force is raised where a fit begins far from its maximum."""
+ROUGHLY = 0.1
+"""A fit that is to be compared with others has converged when a step promises less log posterior than this."""
+FARTHEST = 4
+"""So many of the values far off are refitted: those at which the likelihood is highest to begin with."""
 SHAPES = (0.3, 1.0, 3.0)
 """Where a shape parameter is tried, in units of its typical value."""
 
@@ -90,7 +98,7 @@ def screen(fit: Fit, slopes: Sensitivity, key: str, more: Sequence[Mapping[str, 
     amplitudes, shapes = sorted_slots(problem, key)
     grids = [tried_of(s.param, problem.scales) for s in shapes]
     usual = [dict(zip((s.key for s in shapes), values, strict=True)) for values in star(grids)]
-    hints = [_score(fit, slopes, Trial(key, amplitudes, shape)) for shape in (*usual, *more)]
+    hints = _scored(fit, slopes, key, (*usual, *more))
     if len(amplitudes) == 1 and amplitudes[0].param.far and not problem.active:
         hints.append(_afar(fit, amplitudes[0], key, hints[0].distinct))
     return max(hints, key=lambda h: h.gain)
@@ -105,12 +113,15 @@ def _afar(fit: Fit, slot: Slot, key: str, distinct: float) -> Hint:
     short = fit.problem.on(tuple(t.part(0, min(t.samples, SHORT)) for t in fit.problem.observations))
     size = size_of(slot.param, fit.problem.scales)
     best, gain, bottom = 0.0, 0.0, maximise(restarted(replace(fit, problem=short)), fit.theta, rounds=2)
-    for factor in slot.param.far:
-        trial = short.knowing({slot.key: factor * size})
-        trial = replace(trial, active=trial.active | {key})
-        found = maximise(trial, bottom.theta, rounds=3, tolerance=1.0)
+    wider = short.extended((_held(slot),), {key})
+    theta = warmed(short, bottom.theta, RAISED)
+    heights = wider.log_likelihoods(np.array([np.append(theta, factor * size) for factor in slot.param.far]))
+    for i in np.argsort(-heights)[:FARTHEST]:
+        value = slot.param.far[i] * size
+        trial = short.knowing({slot.key: value})
+        found = maximise(replace(trial, active=trial.active | {key}), bottom.theta, rounds=3, tolerance=1.0)
         if found.log_likelihood - bottom.log_likelihood > gain:
-            best, gain = factor * size, found.log_likelihood - bottom.log_likelihood
+            best, gain = value, found.log_likelihood - bottom.log_likelihood
     return Hint(key, gain if gain > CLEAR else 0.0, {slot.key: best}, distinct)
 
 
@@ -155,40 +166,49 @@ def steps_for_sticking(problem: Problem, theta: Array, *, creep: float = CREEP) 
     return min(math.ceil(most), FINEST)
 
 
-@dataclass(frozen=True)
-class Trial:
-    """A term to be tried: its key, its amplitudes, and the values of its shape parameters."""
-
-    key: str
-    amplitudes: list[Slot]
-    shape: Mapping[str, float]
-
-
-def _score(fit: Fit, slopes: Sensitivity, trial: Trial) -> Hint:
-    problem = fit.problem
-    wider = problem.knowing(trial.shape).extended(frees_of(trial.amplitudes, problem.scales, {}), {trial.key})
-    sizes = np.array([size_of(s.param, problem.scales) for s in trial.amplitudes])
-    widths = 1e-3 * sizes
+def _scored(fit: Fit, slopes: Sensitivity, key: str, shapes: Sequence[Mapping[str, float]]) -> list[Hint]:
+    """Return what a term promises at several shapes, all of them computed together."""
+    amplitudes, fixed = sorted_slots(fit.problem, key)
+    frees = (*frees_of(amplitudes, fit.problem.scales, {}), *(_held(slot) for slot in fixed))
+    wider = fit.problem.extended(frees, {key})
+    sizes = np.array([size_of(s.param, fit.problem.scales) for s in amplitudes])
+    zeros = [np.concatenate([slopes.theta, np.zeros(len(sizes)), [shape[s.key] for s in fixed]]) for shape in shapes]
+    widths = [1e-3 * sizes for _ in shapes]
+    joints: list[Sensitivity] = []
     for _ in range(2):
-        joint = _joint(slopes, wider, widths)
-        curvature = np.diag(joint.information())[-len(widths) :]
-        widths = np.clip(0.5 / np.sqrt(np.maximum(curvature, 1e-300)), 1e-9 * sizes, sizes)
-    return _hint(fit, trial, joint)
+        joints = _joint(slopes, wider, zeros, widths)
+        told = [np.maximum(np.diag(joint.information())[-len(sizes) :], 1e-300) for joint in joints]
+        widths = [np.clip(0.5 / np.sqrt(curvature), 1e-9 * sizes, sizes) for curvature in told]
+    return [_hint(fit, key, amplitudes, shape, joint) for shape, joint in zip(shapes, joints, strict=True)]
 
 
-def _joint(slopes: Sensitivity, wider: Problem, widths: Array) -> Sensitivity:
-    """Return the sensitivities of base parameters and amplitudes together, at amplitude zero."""
-    zero = np.concatenate([slopes.theta, np.zeros(len(widths))])
-    steps = np.concatenate([slopes.steps, widths])
-    above = zero + np.diag(steps)[len(slopes.theta) :]
-    seen = wider.many(np.vstack([zero[None], above]))
-    de = (seen.errors[1:] - seen.errors[0]) / widths[:, None]
-    dv = (seen.variances[1:] - seen.variances[0]) / widths[:, None]
-    return Sensitivity(zero, seen[0], np.vstack([slopes.errors, de]), np.vstack([slopes.variances, dv]), steps)
+def _held(slot: Slot) -> Free:
+    """Return a shape parameter as a coordinate that stays where it is put."""
+    return Free(slot.key, slot.unit, 0.0, -math.inf, math.inf)
 
 
-def _hint(fit: Fit, trial: Trial, joint: Sensitivity) -> Hint:
-    key, amplitudes, shape = trial.key, trial.amplitudes, trial.shape
+def _joint(slopes: Sensitivity, wider: Problem, zeros: Sequence[Array], widths: Sequence[Array]) -> list[Sensitivity]:
+    """Return the sensitivities of base parameters and amplitudes together, at amplitude zero, for each point."""
+    base, count = len(slopes.theta), len(widths[0])
+    rows = []
+    for zero, width in zip(zeros, widths, strict=True):
+        above = np.zeros((count, len(zero)))
+        above[:, base : base + count] = np.diag(width)
+        rows += [zero[None], zero + above]
+    seen, found = wider.many(np.vstack(rows)), []
+    for k, (zero, width) in enumerate(zip(zeros, widths, strict=True)):
+        part = seen[k * (1 + count) : (k + 1) * (1 + count)]
+        de = (part.errors[1:] - part.errors[0]) / width[:, None]
+        dv = (part.variances[1:] - part.variances[0]) / width[:, None]
+        errors, variances = np.vstack([slopes.errors, de]), np.vstack([slopes.variances, dv])
+        found.append(
+            Sensitivity(zero[: base + count], part[0], errors, variances, np.concatenate([slopes.steps, width]))
+        )
+    return found
+
+
+def _hint(fit: Fit, key: str, amplitudes: Sequence[Slot], shape: Mapping[str, float], joint: Sensitivity) -> Hint:
+    """Return what a score test says of a term at one shape."""
     gradient, information = joint.gradient(), joint.information()
     if not (np.all(np.isfinite(gradient)) and np.all(np.isfinite(information))):
         _require_finite(fit.problem, key)
@@ -253,7 +273,7 @@ def fit_with(fit: Fit, hint: Hint, *, hopeless: float = -math.inf) -> Fit:
     order = (*np.argsort(heights)[::-1], *range(2, len(SHARES)))
     fits: list[Fit] = []
     for i in order:
-        fits.append(maximise(problems[i], hopeless=hopeless))
+        fits.append(maximise(problems[i], hopeless=hopeless, tolerance=ROUGHLY))
         if fits[-1].status in ("converged", "abandoned") and fits[-1].log_likelihood > fit.log_likelihood - 1.0:
             break
     return max(fits, key=lambda f: f.local.log_posterior)
@@ -286,7 +306,21 @@ def fit_in_place(fit: Fit, key: str, hint: Hint, *, hopeless: float = -math.inf)
     shared = {s.key: values.get(f"{key}.{s.param.name}") for s in slots}
     start = {**hint.start, **{name: value for name, value in shared.items() if value is not None}}
     problem = with_term(restarted(fit).reduced(key, values), hint, start)
-    return maximise(problem, warmed(problem, problem.start, 2.0), hopeless=hopeless)
+    begins = np.array([problem.start, *_reshaped(problem, [s for s in slots if shared[s.key] is None])])
+    begins = problem.clip(np.vstack([begins, [warmed(problem, theta, RAISED) for theta in begins]]))
+    heights = problem.log_posteriors(begins)
+    return maximise(problem, begins[int(np.argmax(heights))], hopeless=hopeless, tolerance=ROUGHLY)
+
+
+def _reshaped(problem: Problem, slots: Sequence[Slot]) -> Iterator[Array]:
+    """Yield the start of a problem with one of the shapes among `slots` put elsewhere: a thousandfold range of each."""
+    for slot in slots:
+        if slot.param.null is None and slot.param.scale == "log" and not slot.param.choices:
+            at = problem.keys.index(slot.key)
+            for factor in SPREAD:
+                theta = problem.start.copy()
+                theta[at] = math.log(factor * size_of(slot.param, problem.scales))
+                yield theta
 
 
 def _scaled(hint: Hint, slots: list[Slot], factor: float) -> dict[str, float]:

@@ -21,6 +21,10 @@ STRIDE = 0.3
 MANY = 20
 """Beyond so many parameters derivatives cost more than all else, and are kept while steps along them gain."""
 COASTING = 8
+COARSELY = 3.0
+"""Derivatives are taken anew where the first steps were wrong by more than this factor."""
+LADDER = (1.0, 8.0, 64.0, 512.0)
+"""Steps with so many times the damping are tried at once."""
 
 
 @dataclass(frozen=True)
@@ -208,24 +212,48 @@ def maximise(
         return Fit(problem, local, "diverged", 0)
     if len(point) > MANY:
         return _coasted(problem, local, rounds, tolerance)
-    local = expand(problem, point, _tuned(local, problem))
+    steps = _tuned(local, problem)
+    if np.any((steps > COARSELY * local.steps) | (local.steps > COARSELY * steps)):
+        local = expand(problem, point, steps)
     damping = 1e-3
     for turn in range(rounds):
-        step, promise = _step(problem, local, damping)
+        promise = _step(problem, local, damping)[1]
         if promise < tolerance:
             return Fit(problem, local, "converged", turn)
         if turn >= 3 and local.log_posterior + 5.0 * promise < hopeless:
             return Fit(problem, local, "abandoned", turn)
-        trial = problem.clip(local.theta + step)
-        gain = problem.log_posterior(trial) - local.log_posterior
-        if gain > 0.0:
+        better = _climbed(problem, local, damping)
+        if better is not None:
+            gain = better.log_posterior - local.log_posterior
             damping = max(damping * (0.2 if gain > 0.5 * promise else 1.0), 1e-6)
-            local = expand(problem, trial, _tuned(local, problem))
+            local = better
         else:
-            damping *= 8.0
+            damping *= LADDER[-1] * 8.0
             if damping > 1e6:
                 return Fit(problem, local, "rough", turn)
     return Fit(problem, local, "not converged", rounds)
+
+
+def _climbed(problem: Problem, local: Local, damping: float) -> Local | None:
+    """Return the expansion at the best of several steps, the more damped the shorter, or None where none gains.
+
+    They are computed together with the stencil of the longest step, which is the one to be taken as a rule.
+    """
+    trials = [problem.clip(local.theta + _step(problem, local, factor * damping)[0]) for factor in LADDER]
+    steps = _tuned(local, problem)
+    ends = stencil(problem, trials[0], steps)
+    points = around(trials[0], *ends)
+    seen = problem.many(np.vstack([points, *(t[None] for t in trials[1:])]))
+    heights = [
+        seen[k].log_likelihood + problem.log_prior(t)
+        for k, t in zip((0, *range(len(points), len(seen))), trials, strict=True)
+    ]
+    best = int(np.argmax(np.where(np.isnan(heights), -np.inf, heights)))
+    if not heights[best] > local.log_posterior:
+        return None
+    if best == 0:
+        return _local(problem, differenced(trials[0], ends, seen[: len(points)], steps))
+    return expand(problem, trials[best], steps)
 
 
 def _coasted(problem: Problem, local: Local, rounds: int, tolerance: float) -> Fit:
@@ -274,6 +302,16 @@ def _step(problem: Problem, local: Local, damping: float) -> tuple[Array, float]
     step = np.clip(step, -limit, limit)
     clipped = problem.clip(local.theta + step) - local.theta
     return clipped, 0.5 * float(local.gradient @ clipped)
+
+
+def alone(fit: Fit) -> Fit:
+    """Return the fit with its problem on one core, for work that is spread over the cores already."""
+    return replace(fit, problem=replace(fit.problem, jobs=1))
+
+
+def together(fit: Fit, jobs: int) -> Fit:
+    """Return the fit with its problem on so many cores."""
+    return replace(fit, problem=replace(fit.problem, jobs=jobs))
 
 
 def restarted(fit: Fit) -> Problem:

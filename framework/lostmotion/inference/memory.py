@@ -13,8 +13,9 @@ from dataclasses import replace
 import numpy as np
 
 from lostmotion.inference.candidates import Shapes
-from lostmotion.inference.fit import Fit, maximise
+from lostmotion.inference.fit import Fit, maximise, together
 from lostmotion.inference.selection import Progress, Selection, Selector, significant_random_force
+from lostmotion.kernels.threads import each
 from lostmotion.likelihood.problem import Problem
 from lostmotion.likelihood.space import FADE, NOISE, RANDOM, SLOW, Free
 
@@ -59,8 +60,9 @@ def remembering(fit: Fit) -> Fit | None:
     if SLOW in problem.keys:
         return None
     wider = replace(problem, free=(*problem.free, *_frees(problem, fit)))
-    fits = [maximise(wider, _start(wider, fit, samples)) for samples in STARTS]
-    return max(fits, key=lambda f: f.log_evidence)
+    single = replace(wider, jobs=1)
+    fits = each(lambda samples: maximise(single, _start(wider, fit, samples)), STARTS, wider.jobs)
+    return together(max(fits, key=lambda f: f.log_evidence), wider.jobs)
 
 
 def believed(plain: Fit, hung: Fit | None) -> bool:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
+from functools import partial
 
 import numpy as np
 
@@ -21,8 +22,9 @@ from lostmotion.inference.candidates import (
     term_of,
     with_term,
 )
-from lostmotion.inference.fit import MANY, Fit, maximise, restarted, warmed
+from lostmotion.inference.fit import MANY, Fit, alone, maximise, restarted, together, warmed
 from lostmotion.inference.standing import CERTAIN, standing
+from lostmotion.kernels.threads import each
 from lostmotion.likelihood.problem import RANDOM
 
 PROMISING = 3.0
@@ -38,6 +40,8 @@ DECISIVE = math.log(20.0)
 """A term is taken when it makes the posterior odds of the model twenty times better."""
 REMEMBERS = 2.0
 WORTH, RICH = 0.2, 4
+QUIET = 2.0 * math.log(3.0)
+"""A random force this far above the usual one, in log intensity, is reason to look for more."""
 SAME = 1e-4
 """Below this share of its own information a term cannot be told from parameters that are estimated anyway."""
 
@@ -92,7 +96,7 @@ class Selector:
 
     def __init__(self, nominal: Fit, candidates: Iterable[str], say: Progress, shapes: Shapes | None = None) -> None:
         self.candidates = tuple(candidates)
-        self.say, self.shapes = say, shapes or {}
+        self.say, self.shapes, self.jobs = say, shapes or {}, nominal.problem.jobs
         self.course = Selection(nominal, nominal)
         self._settled: set[frozenset[str]] = set()
         self._sure: dict[frozenset[str], tuple[float, float]] = {}
@@ -119,7 +123,7 @@ class Selector:
     def _forward(self) -> bool:
         """Take the best of what additions and swaps lead to, if it is decisive."""
         here = self.course.visits[self.course.chosen.problem.active]
-        for visit in self._beam(here):
+        for visit in [here] if here.terms and quiet(here.fit) else self._beam(here):
             self._additions(visit.fit)
         self._swaps(here.fit)
         for visit in self._nearly(here):
@@ -150,13 +154,17 @@ class Selector:
     def _settle(self) -> None:
         """Fit the best sets again from a raised random force: some of them may have stopped at a false maximum."""
         best = max(v.weight for v in self.course.visits.values())
-        for visit in [
-            v for v in self.course.visits.values() if v.weight > best - CLOSE and v.terms not in self._settled
-        ]:
-            self.say(f"again with {' and '.join(sorted(visit.terms)) or 'nothing'}")
-            self._settled.add(visit.terms)
-            problem = visit.fit.problem
-            self._visit(maximise(problem, warmed(problem, visit.fit.theta, 6.0)))
+        close = [v for v in self.course.visits.values() if v.weight > best - CLOSE and v.terms not in self._settled]
+        if not close:
+            return
+        self.say(f"again with {', '.join(' and '.join(sorted(v.terms)) or 'nothing' for v in close)}")
+        self._settled.update(v.terms for v in close)
+
+        def again(visit: Visit) -> Fit:
+            fit = alone(visit.fit)
+            return maximise(fit.problem, warmed(fit.problem, fit.theta, 6.0))
+
+        self._visit_all(each(again, close, self.jobs))
 
     def _certain(self, visit: Visit, here: Visit) -> bool:
         """Return whether a better set may be believed where something with a memory is left over.
@@ -185,22 +193,35 @@ class Selector:
 
     def _additions(self, fit: Fit) -> None:
         """Fit the terms whose score tests promise most on top of a fit, those first that promise most."""
-        slopes = slopes_of(fit)
+        slopes, single = slopes_of(fit), alone(fit)
         hints: list[Hint] = []
-        for key in sorted(self.candidates, key=lambda k: self._rich(fit, k)):
-            if key in fit.problem.active or self._kin(fit, key) or fit.problem.active | {key} in self.course.visits:
-                continue
-            if self._rich(fit, key) and not any(h.gain > PROMISING and self._related(fit, key, h.key) for h in hints):
-                continue
-            self.say(f"score test of {key}")
-            hints.append(screen(fit, slopes, key, self.shapes.get(key, ())))
+        untried = [k for k in self.candidates if not self._tried(fit, k)]
+        for rich in (False, True):
+            keys = [key for key in untried if self._rich(fit, key) == rich]
+            if rich:
+                promising = [h.key for h in hints if h.gain > PROMISING]
+                keys = [key for key in keys if any(self._related(fit, key, other) for other in promising)]
+            if keys:
+                self.say(f"score tests of {', '.join(keys)}")
+            hints += each(lambda key: screen(single, slopes, key, self.shapes.get(key, ())), keys, self.jobs)
         if not fit.problem.active:
             self.course.hints = {h.key: h for h in hints}
         good = sorted((h for h in hints if h.gain > PROMISING and h.distinct > SAME), key=lambda h: -h.gain)
-        for hint in sorted(good[:MOST_FITTED], key=lambda h: len(h.start)):
-            self.say(f"fit with {hint.key}")
-            self._visit(self._fitted(fit, hint))
+        for size in sorted({len(h.start) for h in good[:MOST_FITTED]}):
+            group = [h for h in good[:MOST_FITTED] if len(h.start) == size]
+            self.say(f"fits with {', '.join(h.key for h in group)}")
+            self._visit_all(each(partial(self._fitted, single, self._hopeless()), group, self.jobs))
         self._large(fit)
+
+    def _tried(self, fit: Fit, key: str) -> bool:
+        """Return whether a term is in a fit already, itself or as a relative, or was tried on top of it."""
+        active = fit.problem.active
+        return key in active or self._kin(fit, key) or active | {key} in self.course.visits
+
+    def _visit_all(self, fits: Iterable[Fit]) -> None:
+        """Note fits that were made on one core each."""
+        for fit in fits:
+            self._visit(together(fit, self.jobs))
 
     def _large(self, fit: Fit) -> None:
         """Fit each force as most of what a load cell has measured.
@@ -218,13 +239,13 @@ class Selector:
                 self.say(f"fit with much of {key}")
                 self._visit(maximise(with_term(restarted(calm), hint, hint.start)))
 
-    def _fitted(self, fit: Fit, hint: Hint) -> Fit:
+    def _fitted(self, fit: Fit, hopeless: float, hint: Hint) -> Fit:
         """Return the fit with one more term, begun at the fit with a simpler relative of it where there is one."""
         for key in self.candidates:
             visit = self.course.visits.get(fit.problem.active | {key})
             if visit and self._related(visit.fit, key, hint.key):
-                return fit_in_place(visit.fit, key, hint, hopeless=self._hopeless())
-        return fit_with(fit, hint, hopeless=self._hopeless())
+                return fit_in_place(alone(visit.fit), key, hint, hopeless=hopeless)
+        return fit_with(fit, hint, hopeless=hopeless)
 
     def _hopeless(self) -> float:
         """Return the log posterior below which a fit cannot matter any more."""
@@ -233,8 +254,8 @@ class Selector:
     def _swaps(self, fit: Fit) -> None:
         """Fit each relative of a term in place of it, so that one that only stands in for another gives way."""
         for key in sorted(fit.problem.active):
-            without = maximise(fit.problem.reduced(key, fit.values))
-            self._visit(without)
+            known = self.course.visits.get(fit.problem.active - {key})
+            without = known.fit if known else self._visit(maximise(fit.problem.reduced(key, fit.values))).fit
             slopes = slopes_of(without)
             for other in self.candidates:
                 terms = without.problem.active | {other}
@@ -283,6 +304,11 @@ def price_of(term: Term, many: int) -> float:
     return math.log(max(many, 1)) + 1.0 + EXTRA * further + sum(math.log(count) for count in choices)
 
 
+def quiet(fit: Fit) -> bool:
+    """Return whether no random force beyond three times the usual noise of the drive is left."""
+    return all(at <= f.mean + QUIET for f, at in zip(fit.problem.free, fit.theta, strict=True) if f.parameter == RANDOM)
+
+
 def significant_random_force(fit: Fit) -> float:
     """Return the log-likelihood that a random force beyond three times the usual noise of the drive adds.
 
@@ -290,7 +316,7 @@ def significant_random_force(fit: Fit) -> float:
     """
     problem, theta, frees = fit.problem, fit.theta.copy(), list(fit.problem.free)
     for i, free in enumerate(frees):
-        cap = free.mean + 2.0 * math.log(3.0)
+        cap = free.mean + QUIET
         if free.parameter == RANDOM and theta[i] > cap:
             theta[i], frees[i] = cap, replace(free, high=cap, start=cap)
     if np.array_equal(theta, fit.theta):

@@ -15,6 +15,7 @@ from lostmotion.errors import CaseError, ContractError
 from lostmotion.inference.candidates import CREEP, steps_for_sticking
 from lostmotion.inference.fit import Fit, maximise, restarted, warmed
 from lostmotion.inference.modes import Tried, distinct
+from lostmotion.kernels.threads import each
 from lostmotion.likelihood.drive import substeps
 from lostmotion.likelihood.levels import LEVELS_TRIED, noise_frees, own_levels, random_level, usual_of
 from lostmotion.likelihood.observation import Observation
@@ -175,7 +176,8 @@ def search(problem: Problem, rng: np.random.Generator, *, points: int = 48, fina
     """Return the best fit of several starts: a Latin hypercube on the beginnings of the recordings, then all of it."""
     beginning = beginnings(problem)
     tried = _tried(problem, beginning, rng, points)
-    fits = [maximise(beginning, tried.starts[i]) for i in tried.best(finalists)]
+    single = replace(beginning, jobs=1)
+    fits = each(lambda i: maximise(single, tried.starts[i]), tried.best(finalists), problem.jobs)
     ranked = sorted(fits, key=lambda f: -f.local.log_posterior)
     chosen = _distinct(ranked)
     whole = [maximise(stepped(problem, f.theta), warmed(problem, f.theta, 3.0)) for f in chosen]
@@ -233,7 +235,9 @@ def modes(
     """
     beginning = beginnings(problem)
     tried = _tried(problem, beginning, rng, points)
-    short = distinct([maximise(beginning, tried.starts[i]) for i in tried.peaks(finalists)], SLACK)
+    single = replace(beginning, jobs=1)
+    peaks = each(lambda i: maximise(single, tried.starts[i]), tried.peaks(finalists), problem.jobs)
+    short = distinct(peaks, SLACK)
     whole: list[Fit] = []
     for fit in short:
         hopeless = max((f.local.log_posterior for f in whole), default=-math.inf) - 2.0 * SLACK

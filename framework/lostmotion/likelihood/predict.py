@@ -103,33 +103,27 @@ def observed(problem: Problem, theta: Array, states: Array, where: tuple[int, in
     return gain * seen[:, channel] + offset
 
 
-def largest_exponent(problem: Problem, theta: Array, y0: Array, index: int = 0) -> float:
-    """Return the largest Lyapunov exponent (1/s, base e) under the recorded drive: the mean of `growth_rates`."""
-    rates = growth_rates(problem, theta, y0, index)
-    return float(np.mean(rates)) if len(rates) else math.nan
-
-
 def growth_rates(problem: Problem, theta: Array, y0: Array, index: int = 0) -> Array:
     """Return how fast (1/s, base e) near runs part in each natural time, (pieces,); none where they cannot be told.
 
     Two runs from `y0` a millionth of the motion apart are brought together again after each piece;
     Benettin, Galgani, Giorgilli, Strelcyn, Meccanica 15 (1980) 9-20. The first tenth is not counted.
     """
-    observation = problem.observations[index]
+    observation, one = problem.observations[index], problem.points(theta[None], index).taken(np.array([0, 0]))
     piece = max(int(problem.scales.time * 3.0 / observation.dt), 8)
     unit = np.ones(len(y0))
     unit[0], unit[1] = problem.scales.length, problem.scales.velocity
-    near, far = y0.copy(), y0 + 1e-6 * unit * _direction(len(y0))
+    pair = np.stack([y0, y0 + 1e-6 * unit * _direction(len(y0))])
     rates = []
     for start in range(0, observation.samples - piece, piece):
-        near = free_run(problem, theta, near, start, piece + 1, index)[-1]
-        far = free_run(problem, theta, far, start, piece + 1, index)[-1]
-        gap = float(np.linalg.norm((far - near) / unit))
+        begun = replace(one, first=np.array([start, start]))
+        pair = problem.engine.simulate(problem.dynamics, begun, pair, piece + 1)[:, -1]
+        gap = float(np.linalg.norm((pair[1] - pair[0]) / unit))
         if not math.isfinite(gap) or gap == 0.0:
             return np.zeros(0)
         if start > 0.1 * observation.samples:
             rates.append(math.log(gap / 1e-6) / (piece * observation.dt))
-        far = near + (far - near) * (1e-6 / gap)
+        pair[1] = pair[0] + (pair[1] - pair[0]) * (1e-6 / gap)
     return np.array(rates)
 
 

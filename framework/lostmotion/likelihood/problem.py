@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field, replace
-from functools import cache, cached_property
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from lostmotion.contracts import Array, Engine
+from lostmotion.kernels.threads import each
 from lostmotion.likelihood.drive import Drive
 from lostmotion.likelihood.engine import Dynamics, Innovations, Points, Random, Smoothed
 from lostmotion.likelihood.initial import initial
@@ -43,11 +43,6 @@ USUAL = 1e-3
 """The noise of a measured excitation as a share of the drive that is usual, and no mechanism left out."""
 TOGETHER = 16
 """Points that are computed at once: fewer leave vector registers empty, more only wait for memory."""
-
-
-@cache
-def _pool(jobs: int) -> ThreadPoolExecutor:
-    return ThreadPoolExecutor(jobs)
 
 
 @dataclass(frozen=True)
@@ -198,9 +193,7 @@ class Problem:
             index, rows = task
             return self.engine.filter(self.dynamics, self._seen[index], self.points(thetas[rows], index))
 
-        if self.jobs < 2 or len(tasks) < 2:
-            return [work(task) for task in tasks]
-        return list(_pool(self.jobs).map(work, tasks))
+        return each(work, tasks, self.jobs)
 
     def points(self, thetas: Array, index: int = 0) -> Points:
         """Return coordinates (points, n) as an engine takes them, for one recording."""

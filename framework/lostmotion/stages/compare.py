@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -18,7 +19,6 @@ from lostmotion.likelihood.predict import (
     free_runs,
     growth_rates,
     horizon_of,
-    largest_exponent,
     observed,
 )
 from lostmotion.likelihood.problem import Problem
@@ -48,6 +48,7 @@ class Prediction:
     expected_score: float
     nrmse: float
     exponent: float
+    rates: Array
     lead: Array
     growth: Array
     valid_time: float
@@ -64,23 +65,24 @@ def pieces_of(observations: Sequence[Observation], held: Sequence[Observation]) 
     return tuple(Piece(t, max(t.samples // 20, 5)) for t in held)
 
 
-def exponent_of(fit: Fit, observations: Sequence[Observation]) -> float:
-    """Return the largest exponent (1/s) of a fit under the recorded drive."""
+def rates_of(fit: Fit, observations: Sequence[Observation]) -> Array:
+    """Return how fast (1/s) near runs of a fit part under the recorded drive, (pieces,); see `growth_rates`."""
     problem = fit.problem.on((observations[0],))
-    y0 = problem.begun(fit.theta)
-    return largest_exponent(problem, fit.theta, y0)
+    return growth_rates(problem, fit.theta, problem.begun(fit.theta))
 
 
-def exponent_blocks(fit: Fit, observations: Sequence[Observation], blocks: int = 10) -> Array:
-    """Return the exponent (blocks,), in 1/s, over successive parts of the first recording; none if it is too short."""
-    problem = fit.problem.on((observations[0],))
-    y0 = problem.begun(fit.theta)
-    rates = growth_rates(problem, fit.theta, y0)
+def exponent_of(rates: Array) -> float:
+    """Return the largest exponent (1/s), the mean of growth rates; NaN where there are none."""
+    return float(np.mean(rates)) if len(rates) else math.nan
+
+
+def exponent_blocks(rates: Array, blocks: int = 10) -> Array:
+    """Return the exponent (blocks,), in 1/s, over successive parts of a recording; none if it is too short."""
     return np.array([part.mean() for part in np.array_split(rates, blocks)]) if len(rates) >= blocks else np.zeros(0)
 
 
-def predict(fit: Fit, pieces: Sequence[Piece], horizon: Horizon, exponent: float) -> Prediction:
-    """Return the predictions of one model on the held-out pieces, judged over `horizon`."""
+def predict(fit: Fit, pieces: Sequence[Piece], horizon: Horizon, rates: Array) -> Prediction:
+    """Return the predictions of one model on the held-out pieces, judged over a horizon; `rates`: see `rates_of`."""
     scale = float(np.nanstd(np.concatenate([p.observation.response[p.begin :] for p in pieces])))
     problems = [fit.problem.on((piece.observation,)) for piece in pieces]
     tracked = [filtered(problem, fit.theta) for problem in problems]
@@ -99,7 +101,8 @@ def predict(fit: Fit, pieces: Sequence[Piece], horizon: Horizon, exponent: float
         log_score=float(np.average([s for s, _ in scores], weights=lengths)),
         expected_score=float(np.average([s for _, s in scores], weights=lengths)),
         nrmse=float(np.sqrt(np.nanmean(judged**2)) / scale),
-        exponent=exponent,
+        exponent=exponent_of(rates),
+        rates=rates,
         lead=joint.lead,
         growth=joint.growth(scale),
         valid_time=joint.valid_time(own_motion(fit, pieces)),

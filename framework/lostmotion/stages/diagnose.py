@@ -19,6 +19,7 @@ from lostmotion.inference.selection import Selection, significant_random_force
 from lostmotion.inference.setup import polish, problem_of, search, split, stepped
 from lostmotion.inference.shares import Covariate, Share, shares_of, significant
 from lostmotion.inference.unexplained import Unknown, unknown_of
+from lostmotion.kernels.threads import each
 from lostmotion.likelihood.latent import Missing, missing_force
 from lostmotion.likelihood.motion import derivatives
 from lostmotion.likelihood.observation import Observation
@@ -187,22 +188,21 @@ def _located(bare: Diagnosis, rng: np.random.Generator) -> Diagnosis:
     after, shown = bare.after, bare.shown
     honest = stepped(after.problem, after.theta).on((shown,))
     model, plays = after.problem.system.model, plays_of(honest, after.theta)
-    left = missing_force(honest, after.theta)
+    of_left, of_all = rng, rng.spawn(1)[0]
+
+    def placed(problem: Problem, theta: Array, chance: np.random.Generator) -> Located:
+        return locate(model, shown, missing_force(problem, theta), plays=plays, rng=chance)
+
     if not bare.found:
-        return replace(bare, located=locate(model, shown, left, plays=plays, rng=rng))
-    located = locate(model, shown, missing_force(*taken_out(honest, after.theta)), plays=plays, rng=rng)
-    laws = {key: law_of(after, shown, left.states, key) for key in bare.found}
+        return replace(bare, located=placed(honest, after.theta, of_left))
+    single = replace(honest, jobs=1)
+    asked = [(single, after.theta, of_left), (*taken_out(single, after.theta), of_all)]
+    left, located = each(lambda one: placed(*one), asked, honest.jobs)
+    laws = {key: law_of(after, shown, left.missing.states, key) for key in bare.found}
     law = np.sum(list(laws.values()), axis=0)
-    table = covariates(model, shown, left)
+    table = covariates(model, shown, left.missing)
     curves = {k: curve(v, law, edges_of(table[k])) for k, v in table.items()}
-    return replace(
-        bare,
-        located=located,
-        left=locate(model, shown, left, plays=plays, rng=rng),
-        law=law,
-        laws=laws,
-        law_curves=curves,
-    )
+    return replace(bare, located=located, left=left, law=law, laws=laws, law_curves=curves)
 
 
 def taken_out(problem: Problem, theta: Array) -> tuple[Problem, Array]:

@@ -10,12 +10,12 @@ from typing import Any
 import numpy as np
 
 from lostmotion.errors import ContractError
-from lostmotion.inference.fit import Fit
+from lostmotion.kernels.threads import each
 from lostmotion.likelihood.system import System, key_of
 from lostmotion.provenance import provenance
 from lostmotion.registry import Registry
 from lostmotion.report import write_report
-from lostmotion.stages.compare import exponent_of, horizon_for, pieces_of, predict
+from lostmotion.stages.compare import exponent_of, horizon_for, pieces_of, predict, rates_of
 from lostmotion.stages.diagnose import Diagnosis, diagnose
 from lostmotion.storage import folder_for, save_arrays, save_json
 from lostmotion.workflow.arrays import arrays_of
@@ -108,15 +108,12 @@ def judged(diagnosis: Diagnosis, prepared: Prepared, rng: np.random.Generator) -
     """Return the diagnosis with what both models predict of the held-out data."""
     pieces = pieces_of(prepared.observations, diagnosis.held)
     same = diagnosis.after is diagnosis.before
-    exponents = [exponent_of(diagnosis.before, prepared.observations)]
-    exponents.append(exponents[0] if same else exponent_of(diagnosis.after, prepared.observations))
-    horizon = horizon_for(diagnosis.after, pieces, exponents[1])
-
-    def predicted(fit: Fit, exponent: float):  # type: ignore[no-untyped-def]
-        return predict(fit, pieces, horizon, exponent)
-
-    before = predicted(diagnosis.before, exponents[0])
-    after = before if same else predicted(diagnosis.after, exponents[1])
+    fits = [diagnosis.before] if same else [diagnosis.before, diagnosis.after]
+    jobs = diagnosis.before.problem.jobs
+    rates = each(lambda fit: rates_of(fit, prepared.observations), fits, jobs)
+    horizon = horizon_for(diagnosis.after, pieces, exponent_of(rates[-1]))
+    both = each(lambda pair: predict(pair[0], pieces, horizon, pair[1]), list(zip(fits, rates, strict=True)), jobs)
+    before, after = both[0], both[-1]
     draws = draws_of(diagnosis.before, rng)
     return Outcome(diagnosis, before, after, horizon, draws, draws if same else draws_after(diagnosis, rng))
 

@@ -20,7 +20,7 @@ from lostmotion.inference.setup import polish, problem_of, split, stepped
 from lostmotion.likelihood.predict import Horizon
 from lostmotion.likelihood.problem import NOISE, RANDOM, Problem
 from lostmotion.likelihood.system import System, key_of
-from lostmotion.stages.compare import exponent_of, pieces_of, predict
+from lostmotion.stages.compare import pieces_of, predict, rates_of
 from lostmotion.workflow.prepare import Prepared
 
 ALIKE: tuple[frozenset[str], ...] = (
@@ -166,7 +166,7 @@ def _held_out(fit: Fit, prepared: Prepared, held: Sequence[Any], said: Row) -> f
     unit_time, number = float(said["horizon_unit_time"]), float(said["after"]["horizon"])
     steps = int(min(max(round(number * unit_time / observation.dt), 2), observation.samples // 4))
     horizon = Horizon(steps, number, said["horizon_unit"], unit_time)
-    error = predict(fit, pieces, horizon, exponent_of(fit, prepared.observations)).nrmse
+    error = predict(fit, pieces, horizon, rates_of(fit, prepared.observations)).nrmse
     return float(error) if np.isfinite(error) else None
 
 

@@ -17,7 +17,7 @@ from lostmotion.likelihood.predict import observed
 from lostmotion.registry import Registry
 from lostmotion.results import Estimate
 from lostmotion.signals import checked
-from lostmotion.stages.compare import exponent_blocks
+from lostmotion.stages.compare import Prediction, exponent_blocks
 from lostmotion.stages.embed import embed
 from lostmotion.stages.quantify import quantify
 from lostmotion.workflow.attractors import Apart, distances_between
@@ -26,8 +26,8 @@ from lostmotion.workflow.motion import returned
 from lostmotion.workflow.show_words import said
 
 EMBEDDER, DIMENSION = "ami_cao", "correlation_dimension"
-PAIRS = 1_000_000
-"""Pairs of points for a dimension: a second for 20,000 samples."""
+PAIRS = 250_000
+"""Pairs of points for a dimension: a few tenths of a second for 20,000 samples."""
 STUDENT = 2.262
 """What a mean of ten blocks may be off, in standard errors, at 95 %."""
 FEWEST = 50
@@ -53,7 +53,7 @@ def shown(seen: Seen, rng: np.random.Generator) -> dict[str, Any]:
     apart, strobed = distances_between(seen.motions, d.shown, rng)
     dimensions = _dimensions(seen, rng)
     table: dict[str, Any] = {}
-    for name, (prediction, fit) in both.items():
+    for name, (prediction, _) in both.items():
         table[name] = {
             "heldout_log_score": prediction.log_score,
             "free_run_error": prediction.nrmse,
@@ -62,7 +62,7 @@ def shown(seen: Seen, rng: np.random.Generator) -> dict[str, Any]:
                 "or_longer": bool(prediction.valid_time >= prediction.lead[-1]),
             },
             "attractor_distance": _distance(apart[name]),
-            "largest_exponent": _exponent(fit, seen.observations, prediction.exponent),
+            "largest_exponent": _exponent(prediction),
             "d2": _estimate(dimensions[name]),
             "whiteness": {"p": prediction.white},
         }
@@ -92,9 +92,9 @@ def _distance(apart: Apart) -> dict[str, Any]:
     return {"value": apart.value, "p": apart.chance, "status": apart.status}
 
 
-def _exponent(fit: Fit, observations: tuple[Observation, ...], value: float) -> dict[str, Any]:
+def _exponent(prediction: Prediction) -> dict[str, Any]:
     """Return the exponent with an interval from the scatter over blocks of the recording."""
-    blocks = exponent_blocks(fit, observations)
+    value, blocks = prediction.exponent, exponent_blocks(prediction.rates)
     if not len(blocks) or not math.isfinite(value):
         return {"value": value, "low": math.nan, "high": math.nan, "status": "too_short"}
     half = STUDENT * float(np.std(blocks, ddof=1)) / math.sqrt(len(blocks))
