@@ -31,6 +31,8 @@ RAISED = 2.0
 """By how much the log random force is raised where a fit begins far from its maximum."""
 ROUGHLY = 0.1
 """A fit that is to be compared with others has converged when a step promises less log posterior than this."""
+MUTE = 1e-6
+"""An amplitude of typical size that carries less information than this says nothing while the others are zero."""
 FARTHEST = 4
 """So many of the values far off are refitted: those at which the likelihood is highest to begin with."""
 SHAPES = (0.3, 1.0, 3.0)
@@ -219,8 +221,9 @@ def _hint(fit: Fit, key: str, amplitudes: Sequence[Slot], shape: Mapping[str, fl
     pulled = solved(base, np.column_stack([cross, gradient[:-k]]))
     schur = own - cross.T @ pulled[:, :k]
     force = gradient[-k:] - cross.T @ pulled[:, k]
-    distinct = float(np.min(np.diag(schur) / np.maximum(np.diag(own), 1e-300)))
-    kept = list(range(k))
+    sizes = np.array([size_of(a.param, fit.problem.scales) for a in amplitudes])
+    kept = [i for i in range(k) if own[i, i] * sizes[i] ** 2 > MUTE]
+    distinct = min((float(schur[i, i] / own[i, i]) for i in kept), default=0.0)
     while kept:
         estimate = solved(schur[np.ix_(kept, kept)], force[kept])
         wrong = [i for i, a in zip(kept, estimate, strict=True) if a < amplitudes[i].param.low]
