@@ -145,6 +145,8 @@ class Term(ABC):
     `physics` is a sentence with the parameters in braces; `formula` is the law in plain text. `resembles` names terms
     that tell a similar story, `equals` those that no recording of a machine that does not age can tell from this one. A
     term that does the same at every place says so by `anywhere`, and is tried at the ground alone.
+
+    `force` and `rate` are static, or methods that read numbers among the fields of the term from `self`.
     """
 
     at: str
@@ -170,6 +172,14 @@ class Term(ABC):
     @staticmethod  # noqa: B027 - most terms have no states of their own
     def rate(t: float, x: float, v: float, u: Array, p: Values, s: Values, dsdt: Array) -> None:
         """Write the time derivative of the own states into `dsdt`; a term without states leaves this alone."""
+
+    def prepared(self, p: Array) -> Array:
+        """Return what `force` and `rate` are handed as `p`, (points, count), for `params` and `needs` (points, count).
+
+        A law that says no other is handed these as they are. One may compute here, once for each point and not at each
+        step, all that depends on its parameters alone, such as a table; it cannot need `step`.
+        """
+        return p
 
     @staticmethod
     def derived(p: Values) -> Values:

@@ -21,7 +21,6 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from lostmotion.contracts import Array, Assembly, Flow, Model, Orbit
 from lostmotion.errors import ContractError
@@ -224,19 +223,12 @@ class Stepped:
 
     def _packed(self, h: float) -> tuple[Array, Array]:
         """Return the parameters of model and terms, the mobility being that of `LINE` steps."""
-        packed = self.system.pack(self.full[None], h, self._tone)[0]
+        packed = self.system.pack(self.full[None], h, self._tone, line=LINE)[0]
         base, own = np.split(
             packed[: self.system.blueprint.rows.pace - self.system.blueprint.rows.params],
             [len(self.system.model.params)],
         )
-        own[self._steep] *= LINE
         return np.ascontiguousarray(base), np.ascontiguousarray(own)
-
-    @cached_property
-    def _steep(self) -> NDArray[np.bool_]:
-        """Where the parameters of the terms hold a mobility."""
-        needs = [name for _, term in self.system.forces for name in (*("",) * len(term.params), *term.needs)]
-        return np.array([name == "mobility" for name in needs], dtype=np.bool_)
 
     def _measured(self, fixed: bool) -> Stepped:
         """Return this flow with a step and with sizes of the states that suit a motion of some periods."""
@@ -259,7 +251,7 @@ class Stepped:
         inputs = self._inputs(looks, self.period / looks)[3 * (picked % looks)]
         n = len(self.system.model.states)
         rate = self.system.stiffness(self.full, self.system.everything, seen[picked][:, :n], inputs)
-        finer = LINE if self._steep.any() else 1
+        finer = LINE if any("mobility" in term.needs for _, term in self.system.forces) else 1
         return finer * rate * self.period / ACCURACY
 
 

@@ -259,7 +259,8 @@ def called_with(
     term: Term, observation: Observation, looks: int
 ) -> Iterator[tuple[float, float, float, Array, Values, Values]]:
     """Yield what the force of a term is told at about `looks` points of a recording, all its numbers one at rest."""
-    p, s, u = (1.0,) * (len(term.params) + len(term.needs)), (0.0,) * len(term.states), np.zeros(2)
+    p = tuple(term.prepared(np.ones((1, len(term.params) + len(term.needs))))[0].tolist())
+    s, u = (0.0,) * len(term.states), np.zeros(2)
     speed = np.gradient(observation.response, observation.dt)
     for k in range(0, observation.samples, max(1, observation.samples // looks)):
         yield k * observation.dt, float(observation.response[k]), float(speed[k]), u, p, s

@@ -21,6 +21,10 @@ WIDER = 1.25
 """The interval of the sines, in units of that of the data."""
 FINE, COARSE = 40, 16
 HARMONICS = 8
+CELLS = 128
+"""Cells of the table of a coarse curve, twice as many of a fine one: cubics are off by less than 1e-3 of a function."""
+POSITION, VELOCITY, TIME_PASSED, PHASE = range(4)
+ONE, AGAINST_MOTION, DRAG = range(3)
 
 
 def _params(count: int, dimension: Dimension, over: Dimension) -> tuple[Param, ...]:
@@ -30,13 +34,19 @@ def _params(count: int, dimension: Dimension, over: Dimension) -> tuple[Param, .
     return (*weights, middle, Param("half", "half width of the range", over, low=0.0, scale="log"))
 
 
+@dataclass(frozen=True)
 class Learned(Term):
-    """A force that is learned as a curve over `over`; `count` functions with `waves` (rad per half width of the range).
+    """A force that is learned as a curve: a sum of `count` sines of what it runs over.
 
-    `depends` names the covariates on which the force depends, `times` what the curve is multiplied with.
+    `depends` names the covariates on which the force depends, `times` what the curve is multiplied with. The kernel
+    reads the curve from a table of so many `cells`, over the `source`, and multiplies it with the `factor`.
     """
 
-    count: ClassVar[int]
+    at: str = "ground"
+    source: int = POSITION
+    factor: int = ONE
+    cells: int = CELLS
+    count: ClassVar[int] = COARSE
     over: ClassVar[str]
     depends: ClassVar[tuple[str, ...]]
     times: ClassVar[str] = ""
@@ -53,12 +63,56 @@ class Learned(Term):
         """Return the functions (points, count) at places `z` (points,), in half widths from the middle of the range."""
         return np.asarray(np.sin(np.outer(np.clip(z, -1.0, 1.0) + WIDER, cls.waves())), dtype=float)
 
+    @classmethod
+    def slopes(cls, z: Array) -> Array:
+        """Return the derivatives (points, count) of the functions within the range."""
+        return np.asarray(cls.waves() * np.cos(np.outer(z + WIDER, cls.waves())), dtype=float)
+
+    def prepared(self, p: Array) -> Array:
+        """Return begin and cells per unit of the table, what the law needs, then value and slope at each node."""
+        middle, half = p[:, self.count], p[:, self.count + 1]
+        need = p[:, self.count + 2] if self.needs else np.zeros(len(p))
+        begin, per = middle - half, 0.5 * self.cells / half
+        if self.source == PHASE:
+            begin, per = np.zeros(len(p)), 0.5 * self.cells / math.pi * need
+        z = np.linspace(0.0, 2.0, self.cells + 1) - (0.0 if self.source == PHASE else 1.0)
+        nodes = np.zeros((len(p), self.cells + 1, 2))
+        if p[:, : self.count].any():
+            nodes[..., 0] = p[:, : self.count] @ self.basis(z).T
+            nodes[..., 1] = p[:, : self.count] @ self.slopes(z).T * (2.0 / self.cells)
+        return np.column_stack([begin, per, need, nodes.reshape(len(p), -1)])
+
+    def force(self, t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
+        """Return the curve, by a cubic from node to node of its table, times its factor."""
+        seen = t
+        if self.source == POSITION:
+            seen = x
+        if self.source == VELOCITY:
+            seen = v
+        z = (seen - p[0]) * p[1]
+        if self.source == PHASE:
+            z -= self.cells * math.floor(z / self.cells)
+        z = min(z, self.cells) if z > 0.0 else 0.0
+        cell = min(int(z), self.cells - 1)
+        z -= cell
+        low, high, first, last = p[3 + 2 * cell], p[5 + 2 * cell], p[4 + 2 * cell], p[6 + 2 * cell]
+        bent = first + last - 2.0 * (high - low)
+        size = low + z * (first + z * (high - low - first - bent + z * bent))
+        if self.factor == DRAG:
+            return -size * v
+        if self.factor == AGAINST_MOTION:
+            width = abs(size) * p[2]
+            if abs(v) >= width:
+                return -size if v > 0.0 else (size if v < 0.0 else 0.0)
+            return -size * v / width
+        return size
+
 
 @dataclass(frozen=True)
 class OverPosition(Learned):
     """A force that depends on the position."""
 
-    at: str = "ground"
+    cells: int = 2 * CELLS
     name: ClassVar[str] = "unknown_over_position"
     formula: ClassVar[str] = "f(x)"
     count: ClassVar[int] = FINE
@@ -66,121 +120,63 @@ class OverPosition(Learned):
     depends: ClassVar[tuple[str, ...]] = ("position",)
     params = _params(FINE, FORCE, LENGTH)
 
-    @staticmethod
-    def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
-        """Return f(x)."""
-        z = min(max((x - p[40]) / p[41], -1.0), 1.0)
-        angle = 0.5 * math.pi * (z / 1.25 + 1.0)
-        twice, near, far = 2.0 * math.cos(angle), 0.0, 0.0
-        for i in range(40):
-            near, far = p[39 - i] + twice * near - far, near
-        return near * math.sin(angle)
-
 
 @dataclass(frozen=True)
 class OverVelocity(Learned):
     """A force that depends on the velocity."""
 
-    at: str = "ground"
+    source: int = VELOCITY
     name: ClassVar[str] = "unknown_over_velocity"
     formula: ClassVar[str] = "f(v)"
-    count: ClassVar[int] = COARSE
     over: ClassVar[str] = "velocity"
     depends: ClassVar[tuple[str, ...]] = ("velocity",)
     params = _params(COARSE, FORCE, SPEED)
-
-    @staticmethod
-    def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
-        """Return f(v)."""
-        z = min(max((v - p[16]) / p[17], -1.0), 1.0)
-        angle = 0.5 * math.pi * (z / 1.25 + 1.0)
-        twice, near, far = 2.0 * math.cos(angle), 0.0, 0.0
-        for i in range(16):
-            near, far = p[15 - i] + twice * near - far, near
-        return near * math.sin(angle)
 
 
 @dataclass(frozen=True)
 class FrictionOverPosition(Learned):
     """Friction of a size that depends on the position; it sticks as `coulomb_friction` does."""
 
-    at: str = "ground"
+    factor: int = AGAINST_MOTION
     name: ClassVar[str] = "unknown_friction_over_position"
     formula: ClassVar[str] = "-f(x) * sign(v)"
-    count: ClassVar[int] = COARSE
     over: ClassVar[str] = "position"
     depends: ClassVar[tuple[str, ...]] = ("position", "sign of velocity")
     times: ClassVar[str] = "-sign(v)"
     params = _params(COARSE, FORCE, LENGTH)
     needs = ("mobility",)
 
-    @staticmethod
-    def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
-        """Return -f(x) sign(v)."""
-        z = min(max((x - p[16]) / p[17], -1.0), 1.0)
-        angle = 0.5 * math.pi * (z / 1.25 + 1.0)
-        twice, near, far = 2.0 * math.cos(angle), 0.0, 0.0
-        for i in range(16):
-            near, far = p[15 - i] + twice * near - far, near
-        size = near * math.sin(angle)
-        width = abs(size) * p[18]
-        if abs(v) >= width:
-            return -size if v > 0.0 else (size if v < 0.0 else 0.0)
-        return -size * v / width
-
 
 @dataclass(frozen=True)
 class DragOverPosition(Learned):
     """A viscous drag of which the coefficient depends on the position."""
 
-    at: str = "ground"
+    factor: int = DRAG
     name: ClassVar[str] = "unknown_drag_over_position"
     formula: ClassVar[str] = "-f(x) * v"
-    count: ClassVar[int] = COARSE
     over: ClassVar[str] = "position"
     depends: ClassVar[tuple[str, ...]] = ("position", "velocity")
     times: ClassVar[str] = "-v"
     params = _params(COARSE, DAMPING, LENGTH)
-
-    @staticmethod
-    def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
-        """Return -f(x) v."""
-        z = min(max((x - p[16]) / p[17], -1.0), 1.0)
-        angle = 0.5 * math.pi * (z / 1.25 + 1.0)
-        twice, near, far = 2.0 * math.cos(angle), 0.0, 0.0
-        for i in range(16):
-            near, far = p[15 - i] + twice * near - far, near
-        return -near * math.sin(angle) * v
 
 
 @dataclass(frozen=True)
 class OverTime(Learned):
     """A force that changes slowly in the course of a recording; after its end it stays what it is there."""
 
-    at: str = "ground"
+    source: int = TIME_PASSED
     name: ClassVar[str] = "unknown_over_time"
     formula: ClassVar[str] = "f(t)"
-    count: ClassVar[int] = COARSE
     over: ClassVar[str] = "time"
     depends: ClassVar[tuple[str, ...]] = ("time",)
     params = _params(COARSE, FORCE, TIME)
-
-    @staticmethod
-    def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
-        """Return f(t)."""
-        z = min(max((t - p[16]) / p[17], -1.0), 1.0)
-        angle = 0.5 * math.pi * (z / 1.25 + 1.0)
-        twice, near, far = 2.0 * math.cos(angle), 0.0, 0.0
-        for i in range(16):
-            near, far = p[15 - i] + twice * near - far, near
-        return near * math.sin(angle)
 
 
 @dataclass(frozen=True)
 class OverPhase(Learned):
     """A force that repeats with each period of the drive; `middle` and `half` have no part in it."""
 
-    at: str = "ground"
+    source: int = PHASE
     name: ClassVar[str] = "unknown_over_phase"
     formula: ClassVar[str] = "f(omega t)"
     count: ClassVar[int] = 2 * HARMONICS
@@ -197,18 +193,17 @@ class OverPhase(Learned):
     @classmethod
     def basis(cls, z: Array) -> Array:
         """Return the functions (points, count) at places `z` (points,), in half periods from the start."""
-        angles = np.outer(z, math.pi * np.arange(1, HARMONICS + 1))
-        return np.stack([np.cos(angles), np.sin(angles)], axis=2).reshape(len(z), cls.count)
+        return np.asarray(np.sin(np.outer(z, cls.waves()) + _turned(cls.count)), dtype=float)
 
-    @staticmethod
-    def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
-        """Return f of the drive phase."""
-        c, d = math.cos(p[18] * t), math.sin(p[18] * t)
-        a, b, total = c, d, 0.0
-        for i in range(8):
-            total += p[2 * i] * a + p[2 * i + 1] * b
-            a, b = a * c - b * d, a * d + b * c
-        return total
+    @classmethod
+    def slopes(cls, z: Array) -> Array:
+        """Return the derivatives (points, count) of the functions."""
+        return np.asarray(cls.waves() * np.cos(np.outer(z, cls.waves()) + _turned(cls.count)), dtype=float)
+
+
+def _turned(count: int) -> Array:
+    """Return phases (count,) that make every other sine a cosine."""
+    return np.asarray(np.tile([0.5 * math.pi, 0.0], count // 2), dtype=float)
 
 
 KINDS: tuple[type[Learned], ...] = (OverPosition, OverVelocity, FrictionOverPosition, DragOverPosition)

@@ -85,7 +85,8 @@ def _steady(problem: Problem, key: str, shape: Mapping[str, float], seen: Array,
     edges, u = np.linspace(0, len(lean), BLOCKS + 1).astype(int)[:-1], np.zeros(2)
     most = 0.0
     for one in amplitudes:
-        p = tuple(shape.get(s.key, float(s.key == one.key)) for s in slots)
+        own = np.array([[shape.get(s.key, float(s.key == one.key)) for s in slots]])
+        p = tuple(term.prepared(own)[0].tolist())
         law = np.array([term.force(t, x, v, u, p, ()) for t, x, v in seen.T.tolist()])
         if not np.all(np.isfinite(law)):
             return 0.0

@@ -3,7 +3,8 @@
 A sample is crossed in one step where the force is straight, and in halves of it, down to the fine grid, where it bends
 within sqrt(3) standard deviations of the way: while second differences of the force, along the way, in its middle and
 at its end, would move the state by more than `BENDS` times that width, or the step is long against the motion
-(h^2 |A^2| > `LONG`, or `PACED` for the states of laws that bound their own pace by the step). Each point halves by its
+(h^2 |A^2| > `LONG`). The states of laws that bound their own pace by the step are borne to be off by a share of what
+they are, and a step is long for them beyond `PACED`. Each point halves by its
 own tests alone and waits while others do, so that its result does not depend on them. The linearisation at hand makes
 RK4 one of fifth order; noise enters at two Gauss points.
 
@@ -93,6 +94,15 @@ def beside(space, wires, work, slopes, side, lanes):  # type: ignore[no-untyped-
 
 
 @jit
+def borne(work, a, o, paced):  # type: ignore[no-untyped-def]
+    """Return how far off a state may be: a share of its reach, for a paced one of what it is beside its reach."""
+    reach = load(work, REACH + a, o)
+    if (paced >> a) & 1:
+        reach = reach + size(load(work, Y + a, o))
+    return BENDS * reach
+
+
+@jit
 def hopeful(space, wires, work, place, wide, h, lanes):  # type: ignore[no-untyped-def]
     """Note how far the force bends about `END`, and go to `MIDDLE`; return whether any point may take the step."""
     hope = False
@@ -100,7 +110,7 @@ def hopeful(space, wires, work, place, wide, h, lanes):  # type: ignore[no-untyp
         good = (load(work, AT, o) == place) & (load(work, WANT, o) == wide)
         for a in range(N):
             far = size(0.5 * (load(work, UP + a, o) + load(space, wires[2] + a, o)) - load(work, K4 + a, o))
-            good = good & (h * far <= BENDS * load(work, REACH + a, o))
+            good = good & (h * far <= borne(work, a, o, wires[PACES]))
             store(work, FAR + a, o, far)
             store(space, wires[1] + a, o, load(work, MIDDLE + a, o))
         good = good | (load(work, ALIVE, o) < 0.5)
@@ -214,7 +224,7 @@ def accepted(work, o, place, wide, h, paced):  # type: ignore[no-untyped-def]
                 way = load(work, Y + c, o) + load(work, END + c, o) - 2.0 * load(work, MIDDLE + c, o)
                 kink = kink - load(work, A + a * N + c, o) * way
             bent = load(work, NEAR + a, o) + load(work, FAR + a, o) + 3.0 * size(load(work, BEND + a, o))
-            taken = taken & ((h * (size(kink) + bent) <= BENDS * load(work, REACH + a, o)) | dead)
+            taken = taken & ((h * (size(kink) + bent) <= borne(work, a, o, paced)) | dead)
             limit = PACED if (paced >> a) & 1 else LONG
             taken = taken & ((h * h * size(load(work, F + a * N + a, o)) <= limit) | dead)
     store(work, AT, o, select(taken, place + wide, at))
@@ -325,7 +335,7 @@ def carried(work, slow, sources, many, paced, h, wide, place, keep, lanes):  # t
 
 
 @jit
-def wanted(work, place, aligned, step, lanes):  # type: ignore[no-untyped-def]
+def wanted(work, place, aligned, step, paced, lanes):  # type: ignore[no-untyped-def]
     """Write how far the points at `place` would step, by how the force bends there; return the farthest of them."""
     for o in range(0, lanes, WIDTH):
         for a in range(N):
@@ -336,7 +346,7 @@ def wanted(work, place, aligned, step, lanes):  # type: ignore[no-untyped-def]
         while wide > 1:
             bent = want < 0.0
             for a in range(N):
-                bent = bent | (wide * step * load(work, NEAR + a, o) > BENDS * load(work, REACH + a, o))
+                bent = bent | (wide * step * load(work, NEAR + a, o) > borne(work, a, o, paced))
             want = select(bent & (want == wide) & (load(work, ALIVE, o) > 0.5), 0.5 * wide, want)
             wide = wide // 2
         store(work, WANT, o, want)
@@ -366,7 +376,7 @@ def crossed(derive, space, wires, work, slow, u, which, begin, k, nsub, dt, sour
         if not waiting:
             place += aligned
             continue
-        wide = wanted(work, place, aligned, step, lanes)
+        wide = wanted(work, place, aligned, step, wires[PACES], lanes)
         done = wide
         while wide > 0:
             failed |= attempted(derive, space, wires, work, u, which, begin, k, place, wide, nsub, dt, lanes)

@@ -46,7 +46,8 @@ class Law:
     """A term as the kernel sees it: where it acts, its functions, and how many of `w` and of `y` are its own.
 
     `steps` are those of its own numbers that are the step of the integration. `fields` are the numbers of the term
-    itself, handed to functions that are methods and not static ones.
+    itself, handed to functions that are methods and not static ones. The numbers of a law that is `prepared` may be
+    many: it is handed a window on them.
     """
 
     place: int
@@ -56,6 +57,7 @@ class Law:
     rate: Callable[..., Any]
     steps: tuple[int, ...] = ()
     fields: tuple[Any, ...] | None = None
+    prepared: bool = False
 
 
 class Rows(NamedTuple):
@@ -129,9 +131,12 @@ def law_of(term: Term, place: int) -> Law:
         raise ContractError(
             f"{term.name} takes its own fields in {own[0]}, and has none that are numbers: make it static"
         )
-    width = len(term.params) + len(term.needs)
     steps = tuple(len(term.params) + i for i, need in enumerate(term.needs) if need == "step")
-    return Law(place, width, len(term.states), cls.force, cls.rate, steps, made)
+    prepared = cls.prepared is not Term.prepared
+    if prepared and steps:
+        raise ContractError(f"{term.name} prepares its numbers and needs `step`, which changes: let it do one of both")
+    width = term.prepared(np.ones((1, len(term.params) + len(term.needs)))).shape[1]
+    return Law(place, width, len(term.states), cls.force, cls.rate, steps, made, prepared)
 
 
 def _number(value: Any) -> bool:
@@ -176,10 +181,12 @@ def _law_lines(index: int, plan: Blueprint, start: int) -> list[str]:
     law, rows = plan.laws[index], plan.rows
     place, at = plan.places[law.place], FIRST + len(plan.laws) + index
     places = [rows.step if a in law.steps else rows.own + start + a for a in range(law.width)]
-    own = "".join(f"value(block, {row}, l), " for row in places)
+    own = "(" + "".join(f"value(block, {row}, l), " for row in places) + ")"
+    if law.prepared:
+        own = f"column(block, {rows.own + start}, l, {law.width})"
     states = "".join(f"value(block, {rows.states + a} + at, l), " for a in range(law.states))
     first = f"fields_{index}, " if law.fields else ""
-    told = f"{first}value(block, 0, l), x, v, u, ({own}), ({states})"
+    told = f"{first}value(block, 0, l), x, v, u, {own}, ({states})"
     lines = [
         f"    if wires[{FIRST + index}] != 0:",
         f"        at = wires[{at}]",

@@ -9,6 +9,7 @@ from functools import cached_property
 from typing import ClassVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from lostmotion.contracts import Array, Engine
 from lostmotion.kernels.crossing import BENDS, LONG, PACED, TINY
@@ -97,13 +98,13 @@ class _Machine:
         self.packed[rows.step - rows.params] = step
 
     @cached_property
-    def limits(self) -> Array:
-        """How large h^2 |A^2| may be in each state."""
-        limits = np.full(self.dynamics.states + self.dynamics.forces, LONG)
+    def paced(self) -> NDArray[np.bool_]:
+        """Which states belong to laws that bound their own pace by the step."""
+        paced = np.zeros(self.dynamics.states + self.dynamics.forces, dtype=np.bool_)
         for law, begin in zip(self.system.blueprint.laws, self.system.wiring(self.dynamics.active)[1], strict=True):
             if begin and law.steps:
-                limits[begin : begin + law.states] = PACED
-        return limits
+                paced[begin : begin + law.states] = True
+        return paced
 
     def slope(self, y: Array, u: Array, t: float) -> Array:
         """Return the derivatives of all states."""
@@ -113,7 +114,7 @@ class _Machine:
         on, at = system.wiring(self.dynamics.active)
         first = len(system.model.params)
         for i, (law, (_, term)) in enumerate(zip(plan.laws, system.forces, strict=True)):
-            own, first = tuple(self.packed[first : first + law.width]), first + law.width
+            own, first = tuple(self.packed[first : first + law.width].tolist()), first + law.width
             if on[i]:
                 place = plan.places[law.place]
                 x, v = place.motion(y, u)
@@ -247,7 +248,8 @@ class _Run:
         while place < self.nsub:
             wide = min(place & -place if place else self.nsub, self.wish)
             reach = np.sqrt(3.0 * np.diag(self.cov))
-            while wide > 1 and np.any(wide * self._fine * self.near > BENDS * reach):
+            borne = BENDS * (reach + np.where(self.machine.paced, np.abs(self.y), 0.0))
+            while wide > 1 and np.any(wide * self._fine * self.near > borne):
                 wide //= 2
             while not self._taken(k, place, wide, reach):
                 wide //= 2
@@ -294,7 +296,9 @@ class _Run:
             both = machine.slope(centre, early + late - middle, begin + h)
             kink = k1 + k4 - k2 - both - slopes @ (y + end - 2.0 * centre)
             bent = np.abs(kink) + self.near + far + 3.0 * np.abs(bend)
-            if np.any(h * bent > BENDS * reach) or np.any(h * h * np.abs(np.diag(square)) > machine.limits):
+            borne = BENDS * (reach + np.where(machine.paced, np.abs(y), 0.0))
+            limits = np.where(machine.paced, PACED, LONG)
+            if np.any(h * bent > borne) or np.any(h * h * np.abs(np.diag(square)) > limits):
                 return False
         self.near = far
         third, fourth = square @ slopes, square @ square

@@ -20,9 +20,11 @@ def _law_lines(index: int, plan: Blueprint, start: int) -> list[str]:
     """Return the lines that add one law to `dydt`, behind its switch."""
     law, i = plan.laws[index], index
     place = plan.places[law.place]
-    own = "".join(f"w[{start + a}], " for a in range(law.width))
+    own = "(" + "".join(f"w[{start + a}], " for a in range(law.width)) + ")"
+    if law.prepared:
+        own = f"view(w, {start}, {law.width})"
     states = "".join(f"y[at[{i}] + {a}], " for a in range(law.states))
-    handed = f"{f'fields_{i}, ' if law.fields else ''}t, x, v, u, ({own}), ({states})"
+    handed = f"{f'fields_{i}, ' if law.fields else ''}t, x, v, u, {own}, ({states})"
     lines = [
         f"    if on[{i}]:",
         f"        x, v = motion_{law.place}(y, u)",

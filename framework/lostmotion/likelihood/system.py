@@ -159,20 +159,24 @@ class System:
             start += len(term.states) if on[i] else 0
         return on, at
 
-    def pack(self, fulls: Array, step: float, tone: Tone = SILENT) -> Array:
+    def pack(self, fulls: Array, step: float, tone: Tone = SILENT, *, line: int = 1) -> Array:
         """Return what a model and its forces are handed, (points, params): each force has what it needs behind its own.
 
-        `fulls` is (points, parameters); `step` is that of the integration (s). Behind the parameters of the model and
+        `fulls` is (points, parameters); `step` is that of the integration (s), of which a law that jumps at rest takes
+        `line` to pass its steep line. Behind the parameters of the model and
         of the forces stand the pace of a latent force, zero, the step, and one over each inertia.
         """
         base = fulls[:, : len(self.model.params)]
         more = {"step": step, "omega": tone.omega, "amplitude": tone.amplitude, "none": 0.0}
         columns = []
-        for kind, i in (source for key, _ in self.forces for source in self._sources[key]):
-            if kind == "mobility":
-                columns.append(step / self.inertia(fulls, self.model.interfaces[i]))
-            else:
-                columns.append(fulls[:, i] if kind == "own" else np.full(len(fulls), more[kind]))
+        for key, term in self.forces:
+            own = np.empty((len(fulls), len(self._sources[key])))
+            for column, (kind, i) in enumerate(self._sources[key]):
+                if kind == "mobility":
+                    own[:, column] = line * step / self.inertia(fulls, self.model.interfaces[i])
+                else:
+                    own[:, column] = fulls[:, i] if kind == "own" else more[kind]
+            columns.append(term.prepared(own))
         with np.errstate(divide="ignore"):
             inverse = [1.0 / fulls[:, i] for i in self.blueprint.inertias]
         return np.column_stack([base, *columns, np.zeros(len(fulls)), np.full(len(fulls), step), *inverse])

@@ -185,7 +185,7 @@ def methods_have_the_arguments_of_the_contract(component: Any) -> str:
 
 
 def _arguments(cls: type[Any], name: str) -> list[str]:
-    return list(inspect.signature(getattr(cls, name)).parameters)
+    return [name for name in inspect.signature(getattr(cls, name)).parameters if name != "self"]
 
 
 @rule(*KINDS, courtesy=True)

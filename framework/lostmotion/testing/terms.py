@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import inspect
 import itertools
 import math
 import string
 from dataclasses import fields
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 from lostmotion.contracts import Array, DriveTerm, SensorTerm, Term
+from lostmotion.likelihood.compose import law_of
 from lostmotion.testing.probes import STEP, Point, compiled, differ, of_term
 from lostmotion.testing.rules import SNAKE, listed, rule
 from lostmotion.testing.shared import repeated
@@ -20,14 +23,27 @@ _STEPS = 5
 
 def pull(term: Term, point: Point, function: Any = None) -> Any:
     """Return the force at a point."""
-    return (function or type(term).force)(point.t, point.x, point.v, point.u, tuple(point.p), tuple(point.y))
+    return (function or term.force)(*_told(term, point))
 
 
 def pace(term: Term, point: Point, function: Any = None, *, over: float = math.nan) -> Array:
     """Return the time derivative of the own states, written over `over`."""
     dsdt = np.full(len(term.states), over)
-    (function or type(term).rate)(point.t, point.x, point.v, point.u, tuple(point.p), tuple(point.y), dsdt)
+    (function or term.rate)(*_told(term, point), dsdt)
     return dsdt
+
+
+def _told(term: Term, point: Point) -> tuple[Any, ...]:
+    p = tuple(term.prepared(np.array([point.p], dtype=float))[0].tolist())
+    return point.t, point.x, point.v, point.u, p, tuple(point.y)
+
+
+def _fast(term: Term, name: str) -> Any:
+    """Return `force` or `rate` compiled, with the fields of the term where it reads them."""
+    law = law_of(term, 0)
+    made = compiled(getattr(type(term), name))
+    static = isinstance(inspect.getattr_static(type(term), name), staticmethod)
+    return made if static else partial(made, law.fields)
 
 
 def _walked(term: Term, point: Point) -> Point:
@@ -227,7 +243,7 @@ def force_is_deterministic(term: Term) -> str:
 @rule("term")
 def compiles_to_the_same_numbers(term: Term) -> str:
     """Use only `math`, arithmetic, branches and other such functions: numba must compile them to the same numbers."""
-    force, rate = compiled(type(term).force), compiled(type(term).rate) if term.states else type(term).rate
+    force, rate = _fast(term, "force"), _fast(term, "rate") if term.states else term.rate
     for p in of_term(term):
         gaps = {
             "force": differ(pull(term, p), pull(term, p, force)),
