@@ -14,7 +14,7 @@ import numpy as np
 
 from lostmotion.inference.candidates import Shapes
 from lostmotion.inference.fit import Fit, maximise, together
-from lostmotion.inference.selection import Progress, Selection, Selector, significant_random_force
+from lostmotion.inference.selection import Progress, Promise, Selection, Selector, significant_random_force
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.problem import Problem
 from lostmotion.likelihood.space import FADE, NOISE, RANDOM, SLOW, Free
@@ -33,13 +33,15 @@ NOTICED = 4.0
 """A random force that gains this much is reason enough to look for a memory."""
 
 
-def selected(nominal: Fit, candidates: Iterable[str], say: Progress, shapes: Shapes | None = None) -> Selection:
+def selected(
+    nominal: Fit, candidates: Iterable[str], say: Progress, shapes: Shapes | None = None, promise: Promise | None = None
+) -> Selection:
     """Return the selection among `candidates`, made again with a memory of the measurement noise where it has one.
 
-    `shapes` are tried beyond the usual.
+    `shapes` are tried beyond the usual; `promise` tells what a learned curve would win.
     """
     keys = tuple(candidates)
-    course = Selector(nominal, keys, say, shapes).run()
+    course = Selector(nominal, keys, say, shapes, promise).run()
     chosen = course.chosen
     if not chosen.problem.active and significant_random_force(chosen) < NOTICED:
         return course
@@ -48,7 +50,9 @@ def selected(nominal: Fit, candidates: Iterable[str], say: Progress, shapes: Sha
     if not believed(chosen, hung):
         return course
     hung = hung if chosen is nominal else remembering(nominal)
-    return Selector(hung, keys, say, shapes).run() if hung is not None and hung.status != "diverged" else course
+    if hung is None or hung.status == "diverged":
+        return course
+    return Selector(hung, keys, say, shapes, promise).run()
 
 
 def remembering(fit: Fit) -> Fit | None:

@@ -45,7 +45,13 @@ QUIET = 2.0 * math.log(3.0)
 SAME = 1e-4
 """Below this share of its own information a term cannot be told from parameters that are estimated anyway."""
 
+OUTSHONE = 0.1
+"""A search ends where its terms have each won less than this share of what one learned curve wins, in log evidence:
+at that pace the most terms that are taken would reach half of it."""
+
 Progress = Callable[[str], None]
+Promise = Callable[[Fit], float]
+"""Tells what the best learned curve would add to the log evidence of a nominal fit."""
 
 
 @dataclass(frozen=True)
@@ -94,9 +100,16 @@ class Selection:
 class Selector:
     """Carries out one selection from the `nominal` fit; `say` is told what is being tried."""
 
-    def __init__(self, nominal: Fit, candidates: Iterable[str], say: Progress, shapes: Shapes | None = None) -> None:
+    def __init__(
+        self,
+        nominal: Fit,
+        candidates: Iterable[str],
+        say: Progress,
+        shapes: Shapes | None = None,
+        promise: Promise | None = None,
+    ) -> None:
         self.candidates = tuple(candidates)
-        self.say, self.shapes, self.jobs = say, shapes or {}, nominal.problem.jobs
+        self.say, self.shapes, self.jobs, self.promise = say, shapes or {}, nominal.problem.jobs, promise
         self.course = Selection(nominal, nominal)
         self._settled: set[frozenset[str]] = set()
         self._sure: dict[frozenset[str], tuple[float, float]] = {}
@@ -105,10 +118,20 @@ class Selector:
     def run(self) -> Selection:
         """Return the finished selection."""
         while len(self.course.chosen.problem.active) < MOST_TERMS and self._forward():
-            pass
+            if self._outshone():
+                self.say("a learned curve explains far more than the terms that were found")
+                break
         while self._backward():
             pass
         return self.course
+
+    def _outshone(self) -> bool:
+        """Return whether one learned curve wins so much more than the terms found that more of them will not do."""
+        here = self.course.visits[self.course.chosen.problem.active]
+        if self.promise is None or quiet(here.fit):
+            return False
+        won = here.weight - self.course.visits[frozenset()].weight
+        return won < OUTSHONE * len(here.terms) * self.promise(self.course.nominal)
 
     def _visit(self, fit: Fit) -> Visit:
         """Note a fitted set, weighted by its evidence and the prices of its terms."""

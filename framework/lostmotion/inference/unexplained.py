@@ -59,6 +59,7 @@ class Search:
     many: int
     say: Progress = lambda _: None
     visits: dict[frozenset[str], tuple[Fit, float]] = field(default_factory=dict)
+    learned: set[frozenset[str]] = field(default_factory=set)
 
     def visit(self, fit: Fit) -> float:
         """Note a fit and return its weight: log evidence less the price of its terms and curves."""
@@ -80,6 +81,9 @@ class Search:
 
         A score test promises too little where a large random force has to stand for what is missing.
         """
+        if fit.problem.active in self.learned:
+            return
+        self.learned.add(fit.problem.active)
         slopes = slopes_of(fit)
         shapes = []
         for key, term in zip(fit.problem.system.keys, fit.problem.system.terms, strict=True):
@@ -94,44 +98,75 @@ class Search:
             self.visit(fit_curve(fit, shape))
 
 
-def unknown_of(nominal: Fit, chosen: Fit, many: int, say: Progress = lambda _: None) -> Unknown | None:
-    """Return the learned curves that explain decisively more than the terms of the library, or None.
+@dataclass
+class Curves:
+    """All that is asked of learned curves in one diagnosis, where `many` terms of the library are tried.
 
-    `many` is the number of terms that were tried. Curves are tried on top of the chosen terms and of the nominal model
-    alone: where the curves do without the terms, these are dropped, and else the names are kept.
+    What was learned on top of a nominal fit is kept: a selection asks for it early, and the end of a diagnosis again.
     """
-    whole, samples = chosen.problem.observations, sum(t.samples for t in chosen.problem.observations)
-    before, after = (_shortened(transplanted(fit, chosen.problem.active)) for fit in (nominal, chosen))
-    search = Search(many + len(before.problem.system.terms), say)
-    bar = max(search.visit(before), search.visit(after))
-    search.learn(after)
-    if chosen.problem.active:
-        search.learn(before, 1)
-    best = _best(search)
-    while best and len(_curves(best.problem)) < MOST_CURVES and significant_random_force(best) > 0.0:
-        search.learn(best, 1)
-        further = _best(search)
-        if further is None or further.problem.active == best.problem.active:
-            break
-        best = further
-    if best is None:
-        return None
-    gain = search.visits[best.problem.active][1] - bar
-    if gain < DECISIVE or not _worth(best, after):
-        return None
-    if _takes_over(best, after):
-        return None
-    if samples > sum(t.samples for t in best.problem.observations):
-        say("learned curves on all of the recording")
-        best = maximise(best.problem.on(whole), best.theta, rounds=ROUNDS, tolerance=0.3)
-    alone = bool(chosen.problem.active) and best.problem.active == frozenset(_curves(best.problem))
-    return Unknown(best, _curves(best.problem), gain, alone)
+
+    many: int
+    say: Progress = lambda _: None
+    kept: list[tuple[Fit, Fit, Search]] = field(default_factory=list)
+
+    def _begun(self, nominal: Fit) -> tuple[Fit, Search]:
+        """Return a nominal fit in a system with every curve, on so many samples as curves are sought, and its search."""
+        for fit, before, search in self.kept:
+            if fit is nominal:
+                return before, search
+        before = _shortened(transplanted(nominal, ()))
+        search = Search(self.many + len(before.problem.system.terms), self.say)
+        search.visit(before)
+        self.kept.append((nominal, before, search))
+        return before, search
+
+    def promise(self, nominal: Fit) -> float:
+        """Return the log evidence that the best curve alone would add to a nominal fit, in all of its samples."""
+        before, search = self._begun(nominal)
+        search.learn(before)
+        most = max(weight for _, weight in search.visits.values()) - search.visits[before.problem.active][1]
+        return most * samples_of(nominal) / samples_of(before)
+
+    def unknown(self, nominal: Fit, chosen: Fit) -> Unknown | None:
+        """Return the learned curves that explain decisively more than the terms of the library, or None.
+
+        Curves are tried on top of the chosen terms and of the nominal model alone: where they do without the terms,
+        these are dropped, and else the names are kept.
+        """
+        before, search = self._begun(nominal)
+        after = _shortened(transplanted(chosen, chosen.problem.active)) if chosen.problem.active else before
+        bar = max(search.visits[before.problem.active][1], search.visit(after))
+        search.learn(after)
+        if chosen.problem.active:
+            search.learn(before, 1)
+        best = _best(search)
+        while best and len(_curves(best.problem)) < MOST_CURVES and significant_random_force(best) > 0.0:
+            search.learn(best, 1)
+            further = _best(search)
+            if further is None or further.problem.active == best.problem.active:
+                break
+            best = further
+        if best is None:
+            return None
+        gain = search.visits[best.problem.active][1] - bar
+        if gain < DECISIVE or not _worth(best, after) or _takes_over(best, after):
+            return None
+        alone = bool(chosen.problem.active) and best.problem.active == frozenset(_curves(best.problem))
+        if samples_of(chosen) > samples_of(best):
+            self.say("learned curves on all of the recording")
+            whole = best.problem.on(chosen.problem.observations)
+            best = maximise(whole, best.theta, rounds=ROUNDS, tolerance=0.3)
+        return Unknown(best, _curves(best.problem), gain, alone)
+
+
+def samples_of(fit: Fit) -> int:
+    """Return on how many samples a fit was made."""
+    return sum(observation.samples for observation in fit.problem.observations)
 
 
 def _shortened(fit: Fit) -> Fit:
     """Return the fit on the beginnings of its recordings where they are long: curves have dozens of coefficients."""
-    observations = fit.problem.observations
-    share = MOST_SAMPLES / sum(t.samples for t in observations)
+    observations, share = fit.problem.observations, MOST_SAMPLES / samples_of(fit)
     if share >= 1.0:
         return fit
     parts = tuple(t.part(0, round(share * t.samples)) for t in observations)

@@ -18,7 +18,7 @@ from lostmotion.inference.scout import scoutable, scouted
 from lostmotion.inference.selection import Selection, significant_random_force
 from lostmotion.inference.setup import polish, problem_of, search, split, stepped
 from lostmotion.inference.shares import Covariate, Share, shares_of, significant
-from lostmotion.inference.unexplained import Unknown, unknown_of
+from lostmotion.inference.unexplained import Curves, Unknown
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.latent import Missing, missing_force
 from lostmotion.likelihood.motion import derivatives
@@ -141,11 +141,12 @@ def diagnose(
     train, held = split(observations)
     say("fit of the nominal model")
     nominal = search(problem_of(system, case, train, jobs=jobs), rng)
-    selection = selected(nominal, fitted_keys(system), say)
+    curves = Curves(len(system.keys), say)
+    selection = selected(nominal, fitted_keys(system), say, promise=curves.promise)
     if scoutable(selection.chosen.problem) and significant_random_force(selection.chosen) > SIGNIFICANT:
         say("shapes far from the usual")
         if shapes := scouted(selection.chosen):
-            selection = selected(nominal, fitted_keys(system), say, shapes)
+            selection = selected(nominal, fitted_keys(system), say, shapes, curves.promise)
     say("final estimates")
     before = polish(selection.nominal)
     after = polish(selection.chosen) if selection.chosen.problem.active else before
@@ -159,7 +160,7 @@ def diagnose(
     suspicious = known.unexplained or bool((known.left or known.located).structure) or len(known.found) >= MANY
     if not suspicious:
         return known
-    learned = unknown_of(selection.nominal, selection.chosen, len(system.keys), say)
+    learned = curves.unknown(selection.nominal, selection.chosen)
     if learned is None:
         return known
     after = polish(learned.fit)
