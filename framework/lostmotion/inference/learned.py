@@ -82,7 +82,7 @@ class Learned(Term):
             nodes[..., 1] = p[:, : self.count] @ self.slopes(z).T * (2.0 / self.cells)
         return np.column_stack([begin, per, need, nodes.reshape(len(p), -1)])
 
-    def force(self, t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
+    def force(self, t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:  # type: ignore[override]
         """Return the curve, by a cubic from node to node of its table, times its factor."""
         seen = t
         if self.source == POSITION:
@@ -215,8 +215,8 @@ def curves_for(model: Model, *, driven: bool) -> tuple[Learned, ...]:
 
     `driven` says that all recordings have a drive with one frequency.
     """
-    own = [kind(at=place.name) for place in model.interfaces for kind in KINDS]  # type: ignore[call-arg]
-    own += [kind(at=model.interfaces[0].name) for kind in CLOCKS if driven or "omega" not in kind.needs]  # type: ignore[call-arg]
+    own = [kind(at=place.name) for place in model.interfaces for kind in KINDS]
+    own += [kind(at=model.interfaces[0].name) for kind in CLOCKS if driven or "omega" not in kind.needs]
     return tuple(own)
 
 

@@ -16,14 +16,14 @@ from typing import TYPE_CHECKING, Any
 
 from lostmotion.contracts import KINDS
 from lostmotion.errors import ContractError
-from lostmotion.testing import methods, models, shared, terms
+from lostmotion.testing import engines, methods, models, shared, terms
 from lostmotion.testing.rules import Finding, Rule, known_of, raised, rules_for
 
 if TYPE_CHECKING:
     import pytest
 
 __all__ = ["Finding", "Rule", "assert_conforms", "check", "kind_of", "parametrize", "rules_for"]
-_KITS = (shared, models, terms, methods)
+_KITS = (shared, models, terms, methods, engines)
 """The modules that write rules; a rule joins the kit when its module is imported."""
 _BUILDING = "is_built_without_arguments"
 _STALE, _HIDES = "it is kept, and `known_failures` has it", "Take it out: it would hide the next failure."

@@ -29,7 +29,8 @@ def pull(term: Term, point: Point, function: Any = None) -> Any:
 def pace(term: Term, point: Point, function: Any = None, *, over: float = math.nan) -> Array:
     """Return the time derivative of the own states, written over `over`."""
     dsdt = np.full(len(term.states), over)
-    (function or term.rate)(*_told(term, point), dsdt)
+    rate: Any = function or term.rate
+    rate(*_told(term, point), dsdt)
     return dsdt
 
 
