@@ -21,6 +21,8 @@ STRIDE = 0.3
 MANY = 20
 """Beyond so many parameters derivatives cost more than all else, and are kept while steps along them gain."""
 COASTING = 8
+STEEPEST = 4.0
+"""So many times the expected curvature is believed along a step that gained less than half of what it promised."""
 COARSELY = 3.0
 """Derivatives are taken anew where the first steps were wrong by more than this factor."""
 LADDER = (1.0, 8.0, 64.0, 512.0)
@@ -215,23 +217,36 @@ def maximise(
     steps = _tuned(local, problem)
     if np.any((steps > COARSELY * local.steps) | (local.steps > COARSELY * steps)):
         local = expand(problem, point, steps)
-    damping = 1e-3
+    damping, curved = 1e-3, local
     for turn in range(rounds):
-        promise = _step(problem, local, damping)[1]
+        promise = _step(problem, curved, damping)[1]
         if promise < tolerance:
             return Fit(problem, local, "converged", turn)
         if turn >= 3 and local.log_posterior + 5.0 * promise < hopeless:
             return Fit(problem, local, "abandoned", turn)
-        better = _climbed(problem, local, damping)
+        better = _climbed(problem, curved, damping)
         if better is not None:
-            gain = better.log_posterior - local.log_posterior
-            damping = max(damping * (0.2 if gain > 0.5 * promise else 1.0), 1e-6)
-            local = better
+            good = better.log_posterior - local.log_posterior > 0.5 * promise
+            damping = max(damping * (0.2 if good else 1.0), 1e-6)
+            local, curved = better, better if good else _curved(better, local)
         else:
             damping *= LADDER[-1] * 8.0
             if damping > 1e6:
                 return Fit(problem, local, "rough", turn)
     return Fit(problem, local, "not converged", rounds)
+
+
+def _curved(local: Local, before: Local) -> Local:
+    """Return the expansion with the curvature that was met along the last step, where the expected one is too small.
+
+    Where something is left over, the expected information of the noise levels is too small: steps overshoot by nearly
+    their own length, again and again.
+    """
+    step = local.theta - before.theta
+    pulled = local.information @ step
+    expected, met = float(step @ pulled), float(step @ (before.gradient - local.gradient))
+    more = min(max(met / expected, 1.0), STEEPEST) - 1.0 if expected > 0.0 else 0.0
+    return replace(local, information=local.information + more / max(expected, 1e-300) * np.outer(pulled, pulled))
 
 
 def _climbed(problem: Problem, local: Local, damping: float) -> Local | None:

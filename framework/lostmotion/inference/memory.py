@@ -36,7 +36,7 @@ NOTICED = 4.0
 def selected(
     nominal: Fit, candidates: Iterable[str], say: Progress, shapes: Shapes | None = None, promise: Promise | None = None
 ) -> Selection:
-    """Return the selection among `candidates`, made again with a memory of the measurement noise where it has one.
+    """Return the selection among `candidates`, gone over with a memory of the measurement noise where it has one.
 
     `shapes` are tried beyond the usual; `promise` tells what a learned curve would win.
     """
@@ -49,10 +49,11 @@ def selected(
     hung = remembering(chosen)
     if not believed(chosen, hung):
         return course
-    hung = hung if chosen is nominal else remembering(nominal)
-    if hung is None or hung.status == "diverged":
+    bare = hung if chosen is nominal else remembering(nominal)
+    if hung is None or bare is None or bare.status == "diverged":
         return course
-    return Selector(hung, keys, say, shapes, promise).run()
+    again = Selector(bare, keys, say, shapes, promise)
+    return again.resumed(hung) if chosen.problem.active else again.run()
 
 
 def remembering(fit: Fit) -> Fit | None:

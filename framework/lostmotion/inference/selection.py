@@ -125,6 +125,18 @@ class Selector:
             pass
         return self.course
 
+    def resumed(self, fit: Fit) -> Selection:
+        """Return the finished selection, begun at a set that was found where another noise was assumed.
+
+        Terms that stood in for that noise are dropped first; then the search goes on from what is left.
+        """
+        self.course.hints = {h.key: h for h in self._screened(self.course.nominal)}
+        self._visit(fit)
+        self.course.chosen = fit
+        while self._backward():
+            pass
+        return self.run()
+
     def _outshone(self) -> bool:
         """Return whether one learned curve wins so much more than the terms found that more of them will not do."""
         here = self.course.visits[self.course.chosen.problem.active]
@@ -214,8 +226,8 @@ class Selector:
         rivals = [v for v in rivals if v.weight - bottom > 0.5 * (here.weight - bottom)]
         return [here, *sorted(rivals, key=lambda v: -v.weight)[: BEAM - 1]]
 
-    def _additions(self, fit: Fit) -> None:
-        """Fit the terms whose score tests promise most on top of a fit, those first that promise most."""
+    def _screened(self, fit: Fit) -> list[Hint]:
+        """Return what score tests promise of the terms on top of a fit, of rich ones where a relative promises much."""
         slopes, single = slopes_of(fit), alone(fit)
         hints: list[Hint] = []
         untried = [k for k in self.candidates if not self._tried(fit, k)]
@@ -227,6 +239,11 @@ class Selector:
             if keys:
                 self.say(f"score tests of {', '.join(keys)}")
             hints += each(lambda key: screen(single, slopes, key, self.shapes.get(key, ())), keys, self.jobs)
+        return hints
+
+    def _additions(self, fit: Fit) -> None:
+        """Fit the terms whose score tests promise most on top of a fit, those first that promise most."""
+        hints, single = self._screened(fit), alone(fit)
         if not fit.problem.active:
             self.course.hints = {h.key: h for h in hints}
         good = sorted((h for h in hints if h.gain > PROMISING and h.distinct > SAME), key=lambda h: -h.gain)

@@ -140,14 +140,14 @@ class Curves:
         if chosen.problem.active:
             search.learn(before, 1)
         best = _best(search)
-        while best and len(_curves(best.problem)) < MOST_CURVES and significant_random_force(best) > 0.0:
+        if best is None or _takes_over(best, after):
+            return None
+        while len(_curves(best.problem)) < MOST_CURVES and significant_random_force(best) > 0.0:
             search.learn(best, 1)
-            further = _best(search)
-            if further is None or further.problem.active == best.problem.active:
+            further = _best(search) or best
+            if further.problem.active == best.problem.active:
                 break
             best = further
-        if best is None:
-            return None
         gain = search.visits[best.problem.active][1] - bar
         if gain < DECISIVE or not _worth(best, after) or _takes_over(best, after):
             return None

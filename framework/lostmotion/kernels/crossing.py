@@ -208,13 +208,17 @@ def attempted(derive, space, wires, work, u, which, begin, k, place, wide, nsub,
 
 @jit
 def accepted(work, o, place, wide, h, paced):  # type: ignore[no-untyped-def]
-    """Note which points take the step that was tried, where they wait, and how far they would go next.
+    """Note which points take the step that was tried, where they wait, and how far they would go next: twice as far.
 
+    They do not wish for a step of which it can be told now that it will be too long against the motion.
     `F` holds the square of the slopes `A`. Return a mask of the points that take it.
     """
     at = load(work, AT, o)
     waits = (at == place) & (load(work, WANT, o) == wide)
-    taken = waits
+    taken, wish = waits, 2.0 * wide + 0.0 * at
+    for a in range(N):
+        if not (paced >> a) & 1:
+            wish = select(4.0 * h * h * size(load(work, F + a * N + a, o)) <= LONG, wish, wide)
     if wide > 1:
         taken = waits & (load(work, HOPE, o) > 0.5)
         dead = load(work, ALIVE, o) < 0.5
@@ -229,7 +233,7 @@ def accepted(work, o, place, wide, h, paced):  # type: ignore[no-untyped-def]
             taken = taken & ((h * h * size(load(work, F + a * N + a, o)) <= limit) | dead)
     store(work, AT, o, select(taken, place + wide, at))
     store(work, WANT, o, select(waits, 0.5 * wide, load(work, WANT, o)))
-    store(work, WISH, o, select(taken, 2.0 * wide, load(work, WISH, o)))
+    store(work, WISH, o, select(taken, wish, load(work, WISH, o)))
     return taken
 
 

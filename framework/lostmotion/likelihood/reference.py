@@ -254,7 +254,7 @@ class _Run:
             while not self._taken(k, place, wide, reach):
                 wide //= 2
             across = self._step @ across
-            place, self.wish = place + wide, 2 * wide
+            place += wide
         if self.machine.dynamics.random == "held":
             across[self.machine.dynamics.states :] = 0.0
         self.steps.append(across)
@@ -300,7 +300,9 @@ class _Run:
             limits = np.where(machine.paced, PACED, LONG)
             if np.any(h * bent > borne) or np.any(h * h * np.abs(np.diag(square)) > limits):
                 return False
-        self.near = far
+        self.near, self.wish = far, 2 * wide
+        if np.any(4.0 * h * h * np.abs(np.diag(square))[~machine.paced] > LONG):
+            self.wish = wide
         third, fourth = square @ slopes, square @ square
         self._step = np.eye(len(y)) + h * (slopes + h / 2.0 * (square + h / 3.0 * (third + h / 4.0 * fourth)))
         mean = (k1 + 2.0 * k2 + 2.0 * k3 + k4) / 6.0
