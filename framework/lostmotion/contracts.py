@@ -390,10 +390,13 @@ class Engine(ABC):
         """Return filtered and smoothed states of one point, and their covariances."""
 
     @abstractmethod
-    def simulate(self, dynamics: Dynamics, points: Points, start: Array, steps: int) -> Array:
+    def simulate(
+        self, dynamics: Dynamics, points: Points, start: Array, steps: int, kicks: Array | None = None
+    ) -> Array:
         """Return the states (points, steps, n) of free runs from `start` (points, n), NaN where they leave all numbers.
 
-        Each begins at the sample `points.first`, (points,), of its drive.
+        Each begins at the sample `points.first`, (points,), of its drive. `kicks` (points, steps, n) are added to the
+        states at each sample but the first.
         """
 
 

@@ -56,8 +56,8 @@ class Causal(Lanes):
 class Punctual(Lanes):
     """Begins each free run at the first sample of the drive."""
 
-    def simulate(self, dynamics, points, start, steps):
-        return super().simulate(dynamics, replace(points, first=np.zeros_like(points.first)), start, steps)
+    def simulate(self, dynamics, points, start, steps, kicks=None):
+        return super().simulate(dynamics, replace(points, first=np.zeros_like(points.first)), start, steps, kicks)
 
 
 @dataclass(frozen=True)

@@ -85,6 +85,12 @@ class Selection:
         total = sum(raw.values())
         return {k: w / total for k, w in raw.items()}
 
+    def close(self) -> list[Fit]:
+        """Return the fits of the best sets but for the chosen one, as far as they are close to it."""
+        top = self.visits[self.chosen.problem.active].weight - CLOSE
+        good = [v for v in self.visits.values() if v.weight > top and v.fit is not self.chosen]
+        return [v.fit for v in sorted(good, key=lambda v: -v.weight)[:BEAM]]
+
     def inclusion(self, key: str) -> float:
         """Return the posterior probability that a term is at work."""
         return sum(p for terms, p in self.probabilities().items() if key in terms)
@@ -137,6 +143,25 @@ class Selector:
             pass
         return self.run()
 
+    def verified(self, found: Fit, rivals: Iterable[Fit]) -> Selection:
+        """Return the selection among a set that was found elsewhere, sets close to it, and one term more or less.
+
+        All of them are fits to the recordings of the nominal one, and begun where they need not be settled again.
+        """
+        self.course.hints = {h.key: h for h in self._screened(self.course.nominal)}
+        visits = [self._visit(fit) for fit in (found, *rivals)]
+        self.course.chosen = max(visits, key=lambda v: v.weight).fit
+        while self._backward():
+            pass
+        while len(self.course.chosen.problem.active) < MOST_TERMS:
+            here = self.course.visits[self.course.chosen.problem.active]
+            self._additions(here.fit)
+            if not self._better(here):
+                break
+        while self._backward():
+            pass
+        return self.course
+
     def _outshone(self) -> bool:
         """Return whether one learned curve wins so much more than the terms found that more of them will not do."""
         here = self.course.visits[self.course.chosen.problem.active]
@@ -164,6 +189,10 @@ class Selector:
         for visit in self._nearly(here):
             self._additions(visit.fit)
         self._settle()
+        return self._better(here)
+
+    def _better(self, here: Visit) -> bool:
+        """Take the best set visited in place of the chosen one, if it is decisively better and may be believed."""
         for visit in sorted(self.course.visits.values(), key=lambda v: -v.weight):
             needed = DECISIVE if visit.terms > here.terms else 0.0
             if visit.terms == here.terms or visit.weight < here.weight + needed:

@@ -110,7 +110,7 @@ class Curves:
     kept: list[tuple[Fit, Fit, Search]] = field(default_factory=list)
 
     def _begun(self, nominal: Fit) -> tuple[Fit, Search]:
-        """Return a nominal fit with every curve in its system, on samples on which curves are sought, and its search."""
+        """Return a nominal fit in a system with every curve, on samples that curves are sought on, and its search."""
         for fit, before, search in self.kept:
             if fit is nominal:
                 return before, search

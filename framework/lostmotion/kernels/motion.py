@@ -37,10 +37,11 @@ def slope(derive, space, wires, work, n, share, base, weight, lanes):  # type: i
 
 
 @whole
-def run(functions, blocks, wiring, inputs, drives, dt, nsub, states, reached, lanes):  # type: ignore[no-untyped-def]
+def run(functions, blocks, wiring, inputs, drives, dt, nsub, states, kicks, reached, lanes):  # type: ignore[no-untyped-def]
     """Write the states (lanes, steps, n) of free runs by RK4, `nsub` steps to a sample; return 0 unless a law raised.
 
-    They begin at what stands in `states` at the first sample. `blocks` are those of the model, of work (2 n rows),
+    They begin at what stands in `states` at the first sample; `kicks`, as large or with no steps at all, are added at
+    the others. `blocks` are those of the model, of work (2 n rows),
     and of the time of each lane at its first sample (1 row); `inputs` (rows, 4, inputs) holds a cubic for each
     sample, `drives` (lanes,) the row at which each lane begins. `reached` (lanes,) counts the samples with finite
     states.
@@ -59,6 +60,8 @@ def run(functions, blocks, wiring, inputs, drives, dt, nsub, states, reached, la
         for lane in range(count):
             good = reached[lane] == k
             for a in range(n):
+                if 0 < k < kicks.shape[1]:
+                    assign(work, a, lane, value(work, a, lane) + kicks[lane, k, a])
                 states[lane, k, a] = value(work, a, lane)
                 good = good and math.isfinite(states[lane, k, a])
             if good:

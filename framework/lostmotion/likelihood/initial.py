@@ -44,7 +44,7 @@ def _at_reading(
 ) -> None:
     """Let a position and the velocity behind it begin where a sensor shows them."""
     (mean, cov), (at, length) = begun, state
-    place, speed = observation.first(number)
+    place, speed = observation.first[number]
     mean[:, at] = (place - offset) / gain
     cov[at, at] = min((10.0 * observation.noises[number]) ** 2 + (1e-3 * length) ** 2, length**2)
     if at + 1 < cov.shape[0]:

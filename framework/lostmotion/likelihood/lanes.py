@@ -60,7 +60,9 @@ class Lanes(Engine):
         self._track(dynamics, observation, points.taken(slice(0, 1)), written, kept)
         return kept, Innovations.of(*written)
 
-    def simulate(self, dynamics: Dynamics, points: Points, start: Array, steps: int) -> Array:
+    def simulate(
+        self, dynamics: Dynamics, points: Points, start: Array, steps: int, kicks: Array | None = None
+    ) -> Array:
         """Return the states (points, steps, n) of free runs from `start` (points, n), NaN where they leave numbers."""
         states = np.empty((len(points), steps, dynamics.states))
         for number, drive in enumerate(points.drives):
@@ -69,7 +71,7 @@ class Lanes(Engine):
                 packed = dynamics.system.pack(points.params[rows], drive.dt / dynamics.nsub, drive.tone)
                 found = run(
                     dynamics.system, dynamics.active, packed, start[rows], drive, dynamics.nsub, points.first[rows],
-                    steps, compiled=self.compiled,
+                    steps, kicks=None if kicks is None else kicks[rows], compiled=self.compiled,
                 )  # fmt: skip
                 states[rows] = found[0]
         return states

@@ -77,18 +77,19 @@ def run(
     first: NDArray[np.int64],
     steps: int,
     *,
+    kicks: Array | None = None,
     compiled: bool = True,
 ) -> tuple[Array, NDArray[np.int64]]:
     """Return states (points, steps, n) of free runs, NaN where they left all numbers, and how far each one got.
 
     `packed` are the parameters (points, params) of all runs, or (1, params) where they share them. They start at the
-    samples `first` of the drive, from `start` (points, n).
+    samples `first` of the drive, from `start` (points, n); `kicks` (points, steps, n) are added at each later sample.
     """
     points, n = start.shape
     states, reached = np.full((points, steps, n), np.nan), np.zeros(points, dtype=np.int64)
     wires, made = model_wires(system, active), system.functions(compiled)
     wires[DRIVES] = 2  # each run reads the drive from a place of its own
-    kernel = motion_kernels(compiled)["run"]
+    kernel, pushed = motion_kernels(compiled)["run"], np.zeros((points, 0, n)) if kicks is None else kicks
     for begin in range(0, points, STRIDE):
         part = slice(begin, begin + STRIDE)
         states[part, 0] = start[part]
@@ -100,7 +101,7 @@ def run(
             spread(np.asarray(drive.begin + which[:, None] * drive.dt, dtype=float)),
         )
         both = (made.derive, made.observe)
-        told = (states[part], reached[part], lanes)
+        told = (states[part], np.ascontiguousarray(pushed[part]), reached[part], lanes)
         failed = kernel(both, blocks, wires, drive.cubics, which, drive.dt, nsub, *told)
         require_sound(failed, system, blocks[0], wires)
     for point, count in enumerate(reached):

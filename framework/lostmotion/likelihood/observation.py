@@ -129,12 +129,17 @@ class Observation:
         """The amplitude of the first input, for instance of a base motion: sqrt(2) times its standard deviation."""
         return math.sqrt(2.0) * float(np.std(self.inputs[:, 0]))
 
-    def first(self, sensor: int = 0) -> tuple[float, float]:
-        """Return the reading of a sensor and its time derivative at the first sample, from a parabola."""
-        z = self.readings[:9, sensor]
-        kept = np.flatnonzero(np.isfinite(z))
-        bend = np.polynomial.Polynomial.fit(kept * self.dt, z[kept], 2)
-        return float(bend(0.0)), float(bend.deriv()(0.0))
+    @cached_property
+    def first(self) -> tuple[tuple[float, float], ...]:
+        """The reading of each sensor and its time derivative at the first sample, from a parabola."""
+        return tuple(_begun(z, self.dt) for z in self.readings[:9].T)
+
+
+def _begun(z: Array, dt: float) -> tuple[float, float]:
+    """Return value and time derivative at the first of a few readings (samples,)."""
+    kept = np.flatnonzero(np.isfinite(z))
+    bend = np.polynomial.Polynomial.fit(kept * dt, z[kept], 2)
+    return float(bend(0.0)), float(bend.deriv()(0.0))
 
 
 def _noise(z: Array) -> float:

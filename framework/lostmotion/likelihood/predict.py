@@ -74,18 +74,27 @@ def free_runs(problem: Problem, theta: Array, states: Array, starts: Array, step
     return FreeRuns(np.asarray(np.arange(steps) * observation.dt, dtype=float), np.clip(error, -worst, worst))
 
 
-def _runs(problem: Problem, theta: Array, y0: Array, starts: Array, steps: int, index: int) -> Array:
+def _runs(
+    problem: Problem, theta: Array, y0: Array, starts: Array, steps: int, index: int, kicks: Array | None = None
+) -> Array:
     """Return the states (runs, steps, n) of free runs from `y0` (runs, n) at the sample numbers `starts`."""
     one = problem.points(theta[None], index).taken(np.zeros(len(starts), dtype=np.int64))
     begun = replace(one, first=np.asarray(starts, dtype=np.int64))
     dynamics = problem.dynamics
-    states: Array = problem.engine.simulate(dynamics, begun, np.ascontiguousarray(y0[:, : dynamics.states]), steps)
+    begin = np.ascontiguousarray(y0[:, : dynamics.states])
+    states: Array = problem.engine.simulate(dynamics, begun, begin, steps, kicks)
     return states
 
 
 def free_run(problem: Problem, theta: Array, y0: Array, start: int, steps: int, index: int = 0) -> Array:
     """Return the states (steps, n) of a free run that begins at sample `start` of a recording."""
     run: Array = _runs(problem, theta, y0[None], np.array([start]), steps, index)[0]
+    return run
+
+
+def kicked_run(problem: Problem, theta: Array, y0: Array, kicks: Array, index: int = 0) -> Array:
+    """Return the states (steps, n) of a run from the first sample, to which `kicks` (steps, n) are added."""
+    run: Array = _runs(problem, theta, y0[None], np.zeros(1, dtype=np.int64), len(kicks), index, kicks[None])[0]
     return run
 
 

@@ -52,13 +52,17 @@ class Reference(Engine):
         innovations = Innovations.of(run.errors[None], run.variances[None], reached)
         return Smoothed(filtered, covariance, np.array(states[::-1]), np.array(covs[::-1]), innovations)
 
-    def simulate(self, dynamics: Dynamics, points: Points, start: Array, steps: int) -> Array:
+    def simulate(
+        self, dynamics: Dynamics, points: Points, start: Array, steps: int, kicks: Array | None = None
+    ) -> Array:
         """Return the states (points, steps, n) of free runs by RK4, NaN where they leave all numbers."""
         states = np.full((len(points), steps, dynamics.states), np.nan)
         for i in range(len(points)):
             machine = _Machine.of(dynamics, points.taken(slice(i, i + 1)), dynamics.nsub)
             y, h = start[i].astype(float), machine.drive.dt / dynamics.nsub
             for k in range(steps):
+                if kicks is not None and k:
+                    y = y + kicks[i, k]
                 states[i, k] = y
                 if k == steps - 1 or not np.isfinite(y).all():
                     break

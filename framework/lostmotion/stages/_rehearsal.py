@@ -11,7 +11,7 @@ from scipy.signal import lfilter
 from lostmotion.contracts import Array
 from lostmotion.inference.fit import Fit, sensitivity, solved
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.predict import free_run, observed
+from lostmotion.likelihood.predict import kicked_run, observed
 from lostmotion.likelihood.problem import RANDOM, Problem
 from lostmotion.stages._excitations import Excitation
 
@@ -56,7 +56,7 @@ class Model:
             else f
             for f in problem.free
         ]
-        return replace(problem, observations=(observation,), free=tuple(frees))
+        return replace(problem, observations=(observation,), free=tuple(frees), jobs=1)
 
     def at(self, excitation: Excitation) -> Array:
         """Return the coordinates under an excitation."""
@@ -74,12 +74,10 @@ def simulated(model: Model, excitation: Excitation, rng: np.random.Generator) ->
     intensity, variance = problem.noise(theta)
     drive = problem.drive(0, theta)
     kick = math.sqrt(intensity * PIECE * drive.dt) / full[system.index[place.inertia]]
-    states = np.zeros((drive.samples, problem.dynamics.states))
-    states[0] = model.fit.problem.begun(model.fit.theta)
-    for start in range(0, drive.samples - 1, PIECE):
-        part = states[start : start + PIECE + 1]
-        part[:] = free_run(problem, theta, part[0], start, len(part))
-        part[-1, place.row] += kick * rng.standard_normal()
+    kicks = np.zeros((drive.samples, problem.dynamics.states))
+    kicked = [min(start + PIECE, drive.samples - 1) for start in range(0, drive.samples - 1, PIECE)]
+    kicks[kicked, place.row] = kick * rng.standard_normal(len(kicked))
+    states = kicked_run(problem, theta, model.fit.problem.begun(model.fit.theta), kicks)
     if not np.all(np.isfinite(states)):
         return None
     white = math.sqrt(variance) * rng.standard_normal(drive.samples)
@@ -143,27 +141,26 @@ class _Task:
     precision: Array
     share: float
 
-    def height(self, theta: Array) -> float:
-        away = theta - self.middle
-        told = self.problem.innovations(theta).log_likelihood
-        return self.share * told - 0.5 * float(away @ self.precision @ away) if math.isfinite(told) else -math.inf
+    def heights(self, thetas: Array) -> Array:
+        """Return the log posterior (points,) at coordinates (points, n)."""
+        away = thetas - self.middle
+        told = self.problem.log_likelihoods(thetas)
+        return np.asarray(self.share * told - 0.5 * np.einsum("pi,ij,pj->p", away, self.precision, away))
 
     def warmest(self) -> tuple[Array, float]:
         """Return where to begin: with as much random force as the recording asks for."""
         random = np.array([f.parameter == RANDOM for f in self.problem.free])
-        starts = [self.problem.clip(self.middle + by * random) for by in RAISED]
-        heights = [self.height(start) for start in starts]
+        starts = self.problem.clip(self.middle + np.outer(RAISED, random))
+        heights = self.heights(starts)
         best = int(np.argmax(heights))
-        return starts[best], heights[best]
+        return starts[best], float(heights[best])
 
     def climbed(self, point: Array, height: float, step: Array) -> tuple[Array, float] | None:
         """Return a higher point along a step, or None."""
-        for k in range(HALVINGS):
-            trial = self.problem.clip(point + 0.5**k * step)
-            reached = self.height(trial)
-            if reached > height:
-                return trial, reached
-        return None
+        trials = self.problem.clip(point + np.outer(0.5 ** np.arange(HALVINGS), step))
+        reached = self.heights(trials)
+        higher = np.flatnonzero(reached > height)
+        return (trials[higher[0]], float(reached[higher[0]])) if len(higher) else None
 
 
 def _log_ratio(a: Array, b: Array) -> float:

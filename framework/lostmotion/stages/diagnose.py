@@ -13,11 +13,11 @@ from lostmotion.errors import DataError
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.learned import Learned
 from lostmotion.inference.locate import Curve, covariates, curve, edges_of, further, summary
-from lostmotion.inference.memory import selected
 from lostmotion.inference.scout import scoutable, scouted
 from lostmotion.inference.selection import Selection, significant_random_force
 from lostmotion.inference.setup import polish, problem_of, search, split, stepped
 from lostmotion.inference.shares import Covariate, Share, shares_of, significant
+from lostmotion.inference.stretches import sought
 from lostmotion.inference.unexplained import Curves, Unknown
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.latent import Missing, missing_force
@@ -142,11 +142,11 @@ def diagnose(
     say("fit of the nominal model")
     nominal = search(problem_of(system, case, train, jobs=jobs), rng)
     curves = Curves(len(system.keys), say)
-    selection = selected(nominal, fitted_keys(system), say, promise=curves.promise)
+    selection = sought(nominal, fitted_keys(system), say, promise=curves.promise)
     if scoutable(selection.chosen.problem) and significant_random_force(selection.chosen) > SIGNIFICANT:
         say("shapes far from the usual")
         if shapes := scouted(selection.chosen):
-            selection = selected(nominal, fitted_keys(system), say, shapes, curves.promise)
+            selection = sought(nominal, fitted_keys(system), say, shapes, curves.promise)
     say("final estimates")
     before = polish(selection.nominal)
     after = polish(selection.chosen) if selection.chosen.problem.active else before

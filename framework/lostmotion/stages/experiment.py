@@ -8,7 +8,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from lostmotion.contracts import Array
 from lostmotion.inference.fit import Fit
+from lostmotion.kernels.threads import each
 from lostmotion.likelihood.observation import Observation
 from lostmotion.stages._excitations import Excitation, Limits, candidates_for, repeat_of, usual_limits
 from lostmotion.stages._rehearsal import Asked, Model, evidence, simulated
@@ -66,18 +68,17 @@ def propose(
     share = observation.samples / samples
     offered = candidates_for(observation, samples, limits or usual_limits(observation, natural), rng)
     weighed = _Weighed((Model.of(chosen), Model.of(rival)), share, rng)
-    rough = []
-    for number, excitation in enumerate(offered, start=1):
-        say(f"what another excitation would tell ({number} of {len(offered)})")
-        rough.append((excitation, weighed.ways(excitation, 0)))
+    say(f"what {len(offered)} other excitations would tell")
+    rough = weighed.ways(offered, 0)
     say("what the best ones and a repeat would tell")
-    good = [(e, weighed.ways(e, HALFWAY)) for e, _ in _best(rough, (0, 1), GOOD, max)]
+    good = weighed.ways([e for e, _ in _best(rough, (0, 1), GOOD, max)], HALFWAY)
     counted = _counted([ways for _, ways in good if ways])
-    fine = [(e, weighed.mean(e)) for e, _ in _best(good, counted, BEST, min)]
+    again = [e for e, _ in _best(good, counted, BEST, min)]
+    *fine, (_, repeat) = weighed.means([*again, repeat_of(observation, samples, natural)])
     found = _best(fine, counted, 1, min)
     if not found:
         return None
-    (best, ways), repeat = found[0], weighed.mean(repeat_of(observation, samples, natural))
+    best, ways = found[0]
     return Proposal(best, ways or (0.0, 0.0), repeat or (0.0, 0.0), counted)
 
 
@@ -103,17 +104,23 @@ class _Weighed:
     share: float
     rng: np.random.Generator
 
-    def mean(self, excitation: Excitation) -> Ways | None:
-        """Return the gains after whole fits, the mean of several recordings."""
-        drawn = [self.ways(excitation, ROUNDS) for _ in range(DRAWS)]
-        through = [ways for ways in drawn if ways]
-        return (float(np.mean([a for a, _ in through])), float(np.mean([b for _, b in through]))) if through else None
+    def means(self, excitations: Sequence[Excitation]) -> list[_Tried]:
+        """Return the gains of each excitation after whole fits, the mean of several recordings."""
+        drawn = self.ways([e for e in excitations for _ in range(DRAWS)], ROUNDS)
+        told = [[ways for _, ways in drawn[k : k + DRAWS] if ways] for k in range(0, len(drawn), DRAWS)]
+        means = [(float(np.mean([a for a, _ in t])), float(np.mean([b for _, b in t]))) if t else None for t in told]
+        return list(zip(excitations, means, strict=True))
 
-    def ways(self, excitation: Excitation, rounds: int) -> Ways | None:
-        """Return the gains of an excitation with each model true, or None where one does not get through."""
-        gains, asked = [], Asked(self.share, rounds)
-        for truth, other in (self.models, self.models[::-1]):
-            z = simulated(truth, excitation, self.rng)
+    def ways(self, excitations: Sequence[Excitation], rounds: int) -> list[_Tried]:
+        """Return the gains of each excitation with each model true, or None where one does not get through."""
+        drawn = [(e, [simulated(truth, e, self.rng) for truth in self.models]) for e in excitations]
+        jobs = self.models[0].fit.problem.jobs
+        found = each(lambda one: self._told(*one, Asked(self.share, rounds)), drawn, jobs)
+        return list(zip(excitations, found, strict=True))
+
+    def _told(self, excitation: Excitation, seen: Sequence[Array | None], asked: Asked) -> Ways | None:
+        gains = []
+        for z, truth, other in zip(seen, self.models, self.models[::-1], strict=True):
             gain = math.nan
             if z is not None:
                 gain = evidence(truth, excitation, z, asked) - evidence(other, excitation, z, asked)

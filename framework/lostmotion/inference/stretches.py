@@ -1,0 +1,55 @@
+"""Long recordings: what is missing is sought on stretches of them, and what is found is tried and fitted on all."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from lostmotion.inference.candidates import Shapes
+from lostmotion.inference.fit import Fit, maximise
+from lostmotion.inference.memory import selected
+from lostmotion.inference.selection import Progress, Promise, Selection, Selector
+from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.problem import Problem
+
+LONG = 32_000
+"""From so many samples on, of all recordings together, a search goes over stretches of them first."""
+STRETCHES, SOUGHT = 4, 16_000
+"""So many stretches of each recording, evenly spread over it, and so many samples of all stretches together."""
+
+
+def sought(
+    nominal: Fit, candidates: Iterable[str], say: Progress, shapes: Shapes | None = None, promise: Promise | None = None
+) -> Selection:
+    """Return the selection among `candidates`, on stretches first where the recordings are long.
+
+    Then every term that was found has to hold on all samples, and every other one is tried there once more: a small
+    effect may show in the whole alone.
+    """
+    keys, short = tuple(candidates), stretched(nominal.problem)
+    if short is nominal.problem:
+        return selected(nominal, keys, say, shapes, promise)
+    say(f"search on {sum(o.samples for o in short.observations)} samples in {len(short.observations)} stretches")
+    course = selected(maximise(short, nominal.theta), keys, say, shapes, promise)
+    say("what was found, on all samples")
+    whole = nominal.problem.observations
+    fits = (course.nominal, course.chosen, *course.close())
+    bare, chosen, *rivals = (maximise(f.problem.on(whole), f.theta) for f in fits)
+    if "diverged" in (bare.status, chosen.status):
+        return selected(nominal, keys, say, shapes, promise)
+    return Selector(bare, keys, say, shapes, promise).verified(chosen, [f for f in rivals if f.status != "diverged"])
+
+
+def stretched(problem: Problem) -> Problem:
+    """Return the problem on stretches of its recordings, or as it is where they are not long."""
+    samples = sum(observation.samples for observation in problem.observations)
+    if samples <= LONG:
+        return problem
+    parts = [part for o in problem.observations for part in _stretches(o, SOUGHT / samples)]
+    return problem.on(tuple(parts))
+
+
+def _stretches(observation: Observation, share: float) -> list[Observation]:
+    """Return stretches of a recording, the first and the last at its ends, which make up a share of it."""
+    long = max(round(share * observation.samples / STRETCHES), 1)
+    gap = (observation.samples - long) / (STRETCHES - 1)
+    return [observation.part(round(i * gap), round(i * gap) + long) for i in range(STRETCHES)]
