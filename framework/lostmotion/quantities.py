@@ -92,12 +92,15 @@ def si_factor(unit: str, quantity: str) -> tuple[float, str]:
     """
     if len(unit) > LONGEST or len(_POWER.findall(unit)) < len(_RAISED.findall(unit)):
         raise DataError(f"unit {unit[:LONGEST]!r} of the {quantity} is no unit: write for instance {SI[quantity]!r}")
+    targets = tuple(dict.fromkeys((SI[quantity], ANGULAR.get(quantity, SI[quantity]))))
+    if unit in targets:
+        return 1.0, unit
     registry = _registry()
     try:
         one = registry.Quantity(1.0, unit)
     except Exception as err:  # pint fails in every way there is
         raise DataError(f"unit {unit!r} of the {quantity} is not known: write for instance {SI[quantity]!r}") from err
-    for target in dict.fromkeys((SI[quantity], ANGULAR.get(quantity, SI[quantity]))):
+    for target in targets:
         if one.is_compatible_with(target) and _angular(unit) == ("rad" in target):
             return _positive(float(one.to(target).magnitude), unit, quantity), target
     raise DataError(f"unit {unit!r} does not measure {quantity}: wanted one like {SI[quantity]!r}{_hint(unit)}")

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.special import chdtrc
 
 from lostmotion.contracts import Array, Model
 from lostmotion.inference.shares import Covariate, Share, significant
@@ -146,9 +147,7 @@ def autocorrelation(errors: Array, variances: Array, lags: int = 40) -> Array:
 
 def whiteness(errors: Array, variances: Array, lags: int = 40) -> float:
     """Return the p-value of Ljung and Box (Biometrika 65 (1978) 297-303) for white innovations."""
-    from scipy.stats import chi2
-
     n = len(errors)
     rho = autocorrelation(errors, variances, lags)
     q = n * (n + 2.0) * float(np.sum(rho**2 / (n - np.arange(1, lags + 1))))
-    return float(chi2.sf(q, lags)) if math.isfinite(q) else 0.0
+    return float(chdtrc(lags, q)) if math.isfinite(q) else 0.0

@@ -216,9 +216,13 @@ class Selector:
         return sorted(good, key=lambda v: -v.weight)[: BEAM - 1]
 
     def _settle(self) -> None:
-        """Fit the best sets again from a raised random force: some of them may have stopped at a false maximum."""
+        """Fit the best sets again from a raised random force: some of them may have stopped at a false maximum.
+
+        One that leaves nothing over has not.
+        """
         best = max(v.weight for v in self.course.visits.values())
         close = [v for v in self.course.visits.values() if v.weight > best - CLOSE and v.terms not in self._settled]
+        close = [v for v in close if not quiet(v.fit)]
         if not close:
             return
         self.say(f"again with {', '.join(' and '.join(sorted(v.terms)) or 'nothing' for v in close)}")

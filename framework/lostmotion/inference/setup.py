@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-from scipy.stats import qmc
 
 from lostmotion.case import Case, Prior, Sensor
 from lostmotion.contracts import Array
@@ -200,7 +199,8 @@ def _tried(problem: Problem, beginning: Problem, rng: np.random.Generator, point
     starts = np.repeat(problem.start[None], points, axis=0)
     cube = np.full((points, len(names)), 0.5)
     if names:
-        cube[1:] = qmc.LatinHypercube(len(names), rng=rng).random(points - 1)
+        rows = rng.permuted(np.tile(np.arange(points - 1)[:, None], (1, len(names))), axis=0)
+        cube[1:] = (rows + rng.random(rows.shape)) / (points - 1)
         for i, f in enumerate(problem.free):
             if f.parameter in names:
                 starts[1:, i] = [f.quantile(float(share)) for share in cube[1:, names.index(f.parameter)]]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from scipy.stats import chi2, norm
+from scipy.special import chdtri, ndtr
 
 from lostmotion.contracts import Array
 from lostmotion.inference.candidates import sorted_slots
@@ -40,4 +40,4 @@ def _amplitudes(problem: Problem, key: str) -> list[list[int]]:
 def deviations(amplitudes: Array, covariance: Array) -> float:
     """Return how many standard deviations of one normal number are as rare as these amplitudes are if nothing is."""
     squared = float(amplitudes @ np.linalg.pinv(covariance) @ amplitudes)
-    return math.sqrt(squared * CERTAIN**2 / chi2.isf(2.0 * norm.sf(CERTAIN), len(amplitudes)))
+    return math.sqrt(squared * CERTAIN**2 / chdtri(len(amplitudes), 2.0 * ndtr(-CERTAIN)))

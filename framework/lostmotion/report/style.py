@@ -34,6 +34,7 @@ SHADE = "#e9eef3"
 
 WIDTH = 9.6
 LARGEST_SVG = 300_000
+DOT = 30
 RC: dict[Any, Any] = {
     "font.family": ["DejaVu Sans"],
     "font.size": 9.5,
@@ -133,10 +134,18 @@ def embedded(figure: Figure, name: str) -> Markup:
 
     Matplotlib escapes the words it draws, and `name` is one of ours.
     """
+    if _dotted(figure):
+        return Markup(_image(figure, name))  # noqa: S704
     drawing = io.StringIO()
     figure.savefig(drawing, format="svg", metadata={"Date": None, "Creator": None})
     text = drawing.getvalue()
     return Markup(_inline(text, name) if len(text) <= LARGEST_SVG else _image(figure, name))  # noqa: S704
+
+
+def _dotted(figure: Figure) -> bool:
+    """Return whether a figure has so many dots, at some `DOT` letters each, that its SVG would be too large."""
+    lines = [line for axes in figure.axes for line in axes.lines if line.get_linestyle() == "None"]
+    return DOT * sum(len(np.atleast_1d(line.get_xdata())) for line in lines) > LARGEST_SVG
 
 
 def save(figure: Figure, path: Path) -> Path:

@@ -7,8 +7,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import digamma
-from scipy.stats import t as student
+from scipy.special import digamma, stdtrit
 
 from lostmotion.contracts import Array, Quantifier, Series
 from lostmotion.kernels import neighbours
@@ -142,7 +141,7 @@ def _with_interval(
     size = len(pull) // blocks
     means = pull[: size * blocks].reshape(blocks, size).mean(axis=1)
     shifts = means[rng.integers(blocks, size=(400, blocks))].mean(axis=1) - means.mean()
-    wider = float(student.ppf(0.975, blocks - 1)) / 1.96 * np.sqrt(blocks / (blocks - 1))
+    wider = float(stdtrit(blocks - 1, 0.975)) / 1.96 * np.sqrt(blocks / (blocks - 1))
     low, high = np.quantile(shifts, [0.025, 0.975]) * wider
     status, says = "ok", ""
     if len(pull) < fewest * length:

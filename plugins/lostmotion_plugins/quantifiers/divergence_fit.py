@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.stats import t as student
+from scipy.special import stdtrit
 
 from lostmotion.contracts import Array
 from lostmotion_plugins.quantifiers._kernels_divergence import COUNT, FAR, LOG, NEAR
@@ -95,7 +95,7 @@ class Growth:
     def interval(self, embedding: float) -> tuple[float, float]:
         """Return the central 95 % interval; `embedding` is the standard error (1/s) of the choice of delay vectors."""
         floor = FLOOR * abs(self.rate)
-        wide = float(student.ppf(0.975, BLOCKS - 1)) * float(
+        wide = float(stdtrit(BLOCKS - 1, 0.975)) * float(
             np.sqrt(self.record**2 + max(self.windows, floor) ** 2 + embedding**2 + self.noise**2)
         )
         return self.rate - wide, self.rate + wide

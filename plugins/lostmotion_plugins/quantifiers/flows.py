@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import ClassVar
 
 import numpy as np
-from scipy import stats
+from scipy.special import stdtr, stdtrit
 
 from lostmotion.contracts import Array, Flow, Quantifier
 from lostmotion.results import Estimate
@@ -55,7 +55,7 @@ class _Mean:
     @property
     def reach(self) -> float:
         """Half the width of a 95 % interval, in standard errors."""
-        return float(stats.t.ppf(0.975, len(self.blocks) - 1))
+        return float(stdtrit(len(self.blocks) - 1, 0.975))
 
 
 @dataclass(frozen=True)
@@ -220,7 +220,7 @@ def _drift(blocks: Array, ends: float) -> tuple[float, bool]:
         parts = blocks[: math.ceil(until * many)], blocks[math.floor(begin * many) :]
         squares = [x.var(axis=0, ddof=1) / len(x) + (ends / len(x)) ** 2 for x in parts]
         apart = np.abs(parts[0].mean(axis=0) - parts[1].mean(axis=0))
-        chance = 2.0 * stats.t.sf(apart / np.sqrt(squares[0] + squares[1]), min(map(len, parts)) - 1)
+        chance = 2.0 * stdtr(min(map(len, parts)) - 1, -apart / np.sqrt(squares[0] + squares[1]))
         worst = int(np.argmin(chance))
         if chance[worst] < least:
             least, gap = float(chance[worst]), float(apart[worst])
