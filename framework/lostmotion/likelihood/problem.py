@@ -17,6 +17,7 @@ from lostmotion.likelihood.drive import Drive
 from lostmotion.likelihood.engine import Dynamics, Innovations, Points, Random, Smoothed
 from lostmotion.likelihood.initial import initial
 from lostmotion.likelihood.lanes import Lanes
+from lostmotion.likelihood.motion import lanes_for
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.sensors import AR1
 from lostmotion.likelihood.space import (
@@ -42,7 +43,7 @@ __all__ = [
 USUAL = 1e-3
 """The noise of a measured excitation as a share of the drive that is usual, and no mechanism left out."""
 TOGETHER = 16
-"""Points that are computed at once: fewer leave vector registers empty, more only wait for memory."""
+"""Points that are computed at once, where the cores have enough of them: more only wait for memory."""
 
 
 @dataclass(frozen=True)
@@ -178,7 +179,7 @@ class Problem:
         for index, route in enumerate(self.routes):
             rows, inverse = _distinct(thetas[:, route.used])
             places.append(inverse)
-            share = max(TOGETHER, -(-len(rows) // self.jobs))
+            share = min(lanes_for(-(-len(rows) // self.jobs)), TOGETHER)
             tasks += [(index, rows[k : k + share]) for k in range(0, len(rows), share)]
         done = self._each(tasks, thetas)
         found = []
