@@ -111,9 +111,11 @@ def _cut(keys, order, begin, end):  # type: ignore[no-untyped-def]
 
 @numba.njit(cache=True, nogil=True)
 def _roomier(array, rows):  # type: ignore[no-untyped-def]
-    """Return an array with the same rows and as many again."""
+    """Return an array with the same rows and as many again; copied one by one, for slices take seconds to compile."""
     grown = np.empty((2 * rows, *array.shape[1:]), array.dtype)
-    grown[:rows] = array[:rows]
+    old, new = array.reshape(-1), grown.reshape(-1)
+    for i in range(len(old)):
+        new[i] = old[i]
     return grown
 
 

@@ -2,20 +2,40 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numba
 import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+def smooth(seen_states: Array, seen_cov: Array, ahead_states: Array, ahead_cov: Array, steps: Array) -> Any:
+    """Return smoothed states (samples, n) and covariances (samples, n, n); Rauch, Tung, Striebel (1965).
+
+    The gains are solved for all samples at once by LAPACK; to compile a call of it would take longer.
+    """
+    states, cov, n = seen_states.copy(), seen_cov.copy(), seen_states.shape[1]
+    gains = np.linalg.solve(ahead_cov[1:] + 1e-300 * np.eye(n), steps[:-1] @ seen_cov[:-1])
+    _swept(states, cov, ahead_states, ahead_cov, gains, np.zeros((n, n)))
+    return states, cov
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
-def smooth(seen_states, seen_cov, ahead_states, ahead_cov, steps):  # type: ignore[no-untyped-def]
-    """Return smoothed states (samples, n) and covariances (samples, n, n); Rauch, Tung, Striebel (1965)."""
-    samples, n = seen_states.shape
-    states = seen_states.copy()
-    cov = seen_cov.copy()
+def _swept(states, cov, ahead_states, ahead_cov, gains, work):  # type: ignore[no-untyped-def]
+    """Correct what is known after each sample by all later ones; `gains` (samples - 1, n, n) are transposed."""
+    samples, n = states.shape
     for k in range(samples - 2, -1, -1):
-        ahead = ahead_cov[k + 1] + 1e-300 * np.eye(n)
-        gain = np.linalg.solve(ahead, np.ascontiguousarray(steps[k] @ seen_cov[k])).T
-        states[k] = seen_states[k] + gain @ (states[k + 1] - ahead_states[k + 1])
-        change = cov[k + 1] - ahead_cov[k + 1]
-        cov[k] = seen_cov[k] + gain @ change @ np.ascontiguousarray(gain.T)
-    return states, cov
+        for a in range(n):
+            for c in range(n):
+                states[k, a] += gains[k, c, a] * (states[k + 1, c] - ahead_states[k + 1, c])
+        for a in range(n):
+            for b in range(n):
+                work[a, b] = 0.0
+                for c in range(n):
+                    work[a, b] += gains[k, c, a] * (cov[k + 1, c, b] - ahead_cov[k + 1, c, b])
+        for a in range(n):
+            for b in range(n):
+                for c in range(n):
+                    cov[k, a, b] += work[a, c] * gains[k, c, b]

@@ -67,8 +67,12 @@ def scatter(codes, bins, lag):  # type: ignore[no-untyped-def]
     """Return the standard error (nats) of the mutual information at a lag, were the pairs independent draws."""
     counts = np.empty((2, bins * bins), np.int32)
     _count(codes, bins, lag, counts)
-    joint = (counts[0] + counts[1]).reshape(bins, bins).astype(np.float64) / (len(codes) - lag)
-    rows, columns = joint.sum(axis=1), joint.sum(axis=0)
+    joint, rows, columns = np.zeros((bins, bins)), np.zeros(bins), np.zeros(bins)
+    for a in range(bins):
+        for b in range(bins):
+            joint[a, b] = (counts[0, a * bins + b] + counts[1, a * bins + b]) / (len(codes) - lag)
+            rows[a] += joint[a, b]
+            columns[b] += joint[a, b]
     first, second = 0.0, 0.0
     for a in range(bins):
         for b in range(bins):
