@@ -144,9 +144,8 @@ class Term(ABC):
     `x`, `v` the relative motion at the interface `at`, `p` the own `params` followed by `needs`, `s` the own states.
     `physics` is a sentence with the parameters in braces; `formula` is the law in plain text. `resembles` names terms
     that tell a similar story, `equals` those that no recording of a machine that does not age can tell from this one. A
-    term that does the same at every place says so by `anywhere`, and is tried at the ground alone.
-
-    `force` and `rate` are static, or methods that read numbers among the fields of the term from `self`.
+    term that does the same at every place says so by `anywhere`, and is tried at the ground alone. `force` and `rate`
+    are static, or methods that read numbers among the fields of the term.
     """
 
     at: str
@@ -174,11 +173,7 @@ class Term(ABC):
         """Write the time derivative of the own states into `dsdt`; a term without states leaves this alone."""
 
     def prepared(self, p: Array) -> Array:
-        """Return what `force` and `rate` are handed as `p`, (points, count), for `params` and `needs` (points, count).
-
-        A law that says no other is handed these as they are. One may compute here, once for each point and not at each
-        step, all that depends on its parameters alone, such as a table; it cannot need `step`.
-        """
+        """Return what a law is handed for `params` and `needs` (points, count), once for each point, not at each step."""
         return p
 
     @staticmethod
@@ -198,13 +193,21 @@ class Term(ABC):
     def fits(self, model: Model) -> bool:
         """Return whether the term can act in `model`: the place, the kind of motion and the needs exist there."""
         try:
-            place_of(model, self)
+            return bool(place_of(model, self))
         except ContractError:
             return False
-        return True
 
 
-class DriveTerm(Term):
+class _Beside(Term):
+    """A term that acts beside the machine, and is no force."""
+
+    @staticmethod
+    def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
+        """Return no force."""
+        return 0.0
+
+
+class DriveTerm(_Beside):
     """Something between the recorded excitation and the one that acts: no force, but another input.
 
     `true` returns what acts at the times `t` (s from the start of the recording), or its time derivative (`order` 1,
@@ -214,17 +217,12 @@ class DriveTerm(Term):
     acts = "drive"
 
     @staticmethod
-    def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
-        """Return no force."""
-        return 0.0
-
-    @staticmethod
     @abstractmethod
     def true(u: Input, t: Array, p: Values, order: int) -> Array:
         """Return the input that acts at times `t`, as `t`, or its derivative."""
 
 
-class SensorTerm(Term):
+class SensorTerm(_Beside):
     """Something between the motion and its recording: no force.
 
     The sensor shows `gain(p)` times what is there, `delay(p)` seconds late, `rounded` at the end. One that leaves marks
@@ -232,11 +230,6 @@ class SensorTerm(Term):
     """
 
     acts = "sensor"
-
-    @staticmethod
-    def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
-        """Return no force."""
-        return 0.0
 
     @staticmethod
     def gain(p: Values) -> float:
@@ -304,11 +297,7 @@ def place_of(model: Model, term: Term) -> Interface:
     return place
 
 
-def _nowhere(y: Array, u: Array) -> tuple[float, float]:
-    return 0.0, 0.0
-
-
-_BESIDE = {name: Interface(name, -1, "", _nowhere) for name in ("drive", "sensor")}
+_BESIDE = {name: Interface(name, -1, "", lambda y, u: (0.0, 0.0)) for name in ("drive", "sensor")}
 """The places beside the machine, where terms act that are no force."""
 
 
@@ -374,8 +363,8 @@ class Denoiser(ABC):
 class Engine(ABC):
     """Filters, smooths and simulates a model with its terms at many parameter points at once.
 
-    What comes out for a point depends on neither the other points nor their order. A point at which the computation
-    leaves all numbers is told by how many samples it `reached`, and never raises. Calls may come from several threads.
+    What comes out for a point depends on neither the others nor their order. One that leaves all numbers is told by how
+    many samples it `reached`, and never raises. Calls may come from several threads.
     """
 
     name: ClassVar[str]
@@ -395,8 +384,7 @@ class Engine(ABC):
     ) -> Array:
         """Return the states (points, steps, n) of free runs from `start` (points, n), NaN where they leave all numbers.
 
-        Each begins at the sample `points.first`, (points,), of its drive. `kicks` (points, steps, n) are added to the
-        states at each sample but the first.
+        They begin at the samples `points.first` of their drives; `kicks` (points, steps, n) are added after the first.
         """
 
 

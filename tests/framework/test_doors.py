@@ -59,7 +59,7 @@ def test_the_doors_open_when_they_are_used():
 
 
 def test_identify_finds_the_damping_of_both_together(place, known):
-    done = lostmotion.identify(place / "case.toml", place / "posterior", registry=known, ess=50, max_steps=120, seed=1)
+    done = lostmotion.identify(place / "case.toml", place / "posterior", registry=known, ess=50, max_steps=400, seed=1)
     assert abs(done.content["parameters"]["c"]["median"] / 0.8 - 1.0) < 0.1
     assert (place / "posterior" / "report.html").exists()
 

@@ -124,7 +124,7 @@ def law_of(term: Term, place: int) -> Law:
     Where its functions are methods and not static ones, they are handed the numbers among the fields of the term.
     """
     cls, numbers = type(term), {f.name: getattr(term, f.name) for f in fields(term) if f.name != "at"}  # type: ignore[arg-type]
-    numbers = {name: value for name, value in numbers.items() if _number(value)}
+    numbers = {name: value for name, value in numbers.items() if numeric(value)}
     own = [name for name in ("force", "rate") if not isinstance(inspect.getattr_static(cls, name), staticmethod)]
     made = namedtuple("Fields", numbers)(**numbers) if own else None
     if own and not numbers:
@@ -139,7 +139,7 @@ def law_of(term: Term, place: int) -> Law:
     return Law(place, width, len(term.states), cls.force, cls.rate, steps, made, prepared)
 
 
-def _number(value: Any) -> bool:
+def numeric(value: Any) -> bool:
     """Return whether a field of a term can be handed to a compiled law: a number, or several."""
     return isinstance(value, bool | int | float) or (
         isinstance(value, tuple) and len(value) > 0 and all(isinstance(v, int | float) for v in value)
