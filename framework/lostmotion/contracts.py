@@ -173,7 +173,7 @@ class Term(ABC):
         """Write the time derivative of the own states into `dsdt`; a term without states leaves this alone."""
 
     def prepared(self, p: Array) -> Array:
-        """Return what a law is handed for `params` and `needs` (points, count), once for each point, not at each step."""
+        """Return what a law is handed for `params` and `needs` (points, count): once for each point, not each step."""
         return p
 
     @staticmethod
