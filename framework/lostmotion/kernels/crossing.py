@@ -3,8 +3,8 @@
 A sample is crossed in one step where the force is straight, and in halves of it, down to the fine grid, where it bends
 within sqrt(3) standard deviations of the way: while second differences of the force, along the way, in its middle and
 at its end, would move the state by more than `BENDS` times that width, or the step is long against the motion
-(h^2 |A^2| > `LONG`). The states of laws that bound their own pace by the step are borne to be off by a share of what
-they are, and a step is long for them beyond `PACED`. Each point halves by its
+(h^2 |A^2| > `LONG`). The states of laws that bound their own pace by the step may be off by `OWN` of that share of what
+they are (with all of it a posterior gets so rough that no chain mixes), and a step is long for them beyond `PACED`. Each point halves by its
 own tests alone and waits while others do, so that its result does not depend on them. The linearisation at hand makes
 RK4 one of fifth order; noise enters at two Gauss points.
 
@@ -36,7 +36,7 @@ from lostmotion.kernels.vector import (
 )  # fmt: skip
 
 N = 2
-BENDS, LONG, PACED = 0.0023, 0.05, 1.05
+BENDS, LONG, PACED, OWN = 0.0023, 0.05, 1.05, 0.1
 TINY = 1e-14
 SOON = 0.21132486540518712
 """The first of two Gauss points on a step of one."""
@@ -95,10 +95,10 @@ def beside(space, wires, work, slopes, side, lanes):  # type: ignore[no-untyped-
 
 @jit
 def borne(work, a, o, paced):  # type: ignore[no-untyped-def]
-    """Return how far off a state may be: a share of its reach, for a paced one of what it is beside its reach."""
+    """Return how far off a state may be: a share of its reach, and for a paced one of what it is."""
     reach = load(work, REACH + a, o)
     if (paced >> a) & 1:
-        reach = reach + size(load(work, Y + a, o))
+        reach = reach + OWN * size(load(work, Y + a, o))
     return BENDS * reach
 
 

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lostmotion.contracts import Array, Engine
-from lostmotion.kernels.crossing import BENDS, LONG, PACED, TINY
+from lostmotion.kernels.crossing import BENDS, LONG, OWN, PACED, TINY
 from lostmotion.kernels.filter import SILENT
 from lostmotion.likelihood.drive import Drive
 from lostmotion.likelihood.engine import Dynamics, Innovations, Points, Smoothed
@@ -252,7 +252,7 @@ class _Run:
         while place < self.nsub:
             wide = min(place & -place if place else self.nsub, self.wish)
             reach = np.sqrt(3.0 * np.diag(self.cov))
-            borne = BENDS * (reach + np.where(self.machine.paced, np.abs(self.y), 0.0))
+            borne = BENDS * (reach + OWN * np.where(self.machine.paced, np.abs(self.y), 0.0))
             while wide > 1 and np.any(wide * self._fine * self.near > borne):
                 wide //= 2
             while not self._taken(k, place, wide, reach):
@@ -300,7 +300,7 @@ class _Run:
             both = machine.slope(centre, early + late - middle, begin + h)
             kink = k1 + k4 - k2 - both - slopes @ (y + end - 2.0 * centre)
             bent = np.abs(kink) + self.near + far + 3.0 * np.abs(bend)
-            borne = BENDS * (reach + np.where(machine.paced, np.abs(y), 0.0))
+            borne = BENDS * (reach + OWN * np.where(machine.paced, np.abs(y), 0.0))
             limits = np.where(machine.paced, PACED, LONG)
             if np.any(h * bent > borne) or np.any(h * h * np.abs(np.diag(square)) > limits):
                 return False
