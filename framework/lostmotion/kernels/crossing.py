@@ -4,9 +4,9 @@ A sample is crossed in one step where the force is straight, and in halves of it
 within sqrt(3) standard deviations of the way: while second differences of the force, along the way, in its middle and
 at its end, would move the state by more than `BENDS` times that width, or the step is long against the motion
 (h^2 |A^2| > `LONG`). The states of laws that bound their own pace by the step may be off by `OWN` of that share of what
-they are (with all of it a posterior gets so rough that no chain mixes), and a step is long for them beyond `PACED`. Each point halves by its
-own tests alone and waits while others do, so that its result does not depend on them. The linearisation at hand makes
-RK4 one of fifth order; noise enters at two Gauss points.
+they are (with all of it a posterior gets so rough that no chain mixes), and a step is long for them beyond `PACED`.
+Each point halves by its own tests alone and waits while others do, so that its result does not depend on them. The
+linearisation at hand makes RK4 one of fifth order; noise enters at two Gauss points.
 
 A block is an array (rows, STRIDE), rows by the names below; the functions of a model read and write a block of their
 own (`space`), of which `wires` begins with the rows of time, states, derivatives, inputs and channels. Between two
