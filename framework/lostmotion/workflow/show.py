@@ -28,6 +28,8 @@ from lostmotion.workflow.show_words import said
 EMBEDDER, DIMENSION = "ami_cao", "correlation_dimension"
 PAIRS = 250_000
 """Pairs of points for a dimension: a few tenths of a second for 20,000 samples."""
+LONGEST = 50_000
+"""A dimension is estimated on so many samples at most: those at the beginning."""
 STUDENT = 2.262
 """What a mean of ten blocks may be off, in standard errors, at 95 %."""
 FEWEST = 50
@@ -109,7 +111,7 @@ def _estimate(estimate: Estimate) -> dict[str, Any]:
 def _dimensions(seen: Seen, rng: np.random.Generator) -> dict[str, Estimate]:
     """Return the correlation dimension of the recording, and of the free run of each model embedded as that is."""
     outcome, d = seen.outcome, seen.outcome.diagnosis
-    observation, period = d.shown, d.shown.period
+    observation, period = d.shown.part(0, min(d.shown.samples, LONGEST)), d.shown.period
     seconds = period * observation.dt if period else None
     finite = (
         observation.response[np.isfinite(observation.response)] if len(observation.response) else observation.response
@@ -126,7 +128,7 @@ def _dimensions(seen: Seen, rng: np.random.Generator) -> dict[str, Estimate]:
         if not exponents[name] > 0.0:
             found[name] = Estimate.refused("regular", "Near runs of the model do not part: no dimension is estimated.")
             continue
-        found[name] = _of_model(fit, observation, seen.motions[name], (recorded, seen.registry, rng))
+        found[name] = _of_model(fit, observation, seen.motions[name][:LONGEST], (recorded, seen.registry, rng))
     return found
 
 
