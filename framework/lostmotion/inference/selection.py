@@ -250,14 +250,13 @@ class Selector:
     def _beam(self, here: Visit) -> list[Visit]:
         """Return the sets to build on: the chosen one, and others of its size that explain at least half as much.
 
-        One term can stand in for two others until both are in. A relative of one that was taken is left to the swaps.
+        One term can stand in for two others until both are in.
         """
         if not here.terms:
             return [here]
         bottom = self.course.visits[frozenset()].weight
         rivals = [v for v in self.course.visits.values() if len(v.terms) == len(here.terms) and v.terms != here.terms]
         rivals = [v for v in rivals if v.weight - bottom > 0.5 * (here.weight - bottom)]
-        rivals = [v for v in rivals if not any(self._kin(here.fit, key) for key in v.terms - here.terms)]
         return [here, *sorted(rivals, key=lambda v: -v.weight)[: BEAM - 1]]
 
     def _screened(self, fit: Fit) -> list[Hint]:
