@@ -11,6 +11,7 @@ import numpy as np
 from lostmotion.contracts import Array, Param, Term, Values, place_of
 from lostmotion.errors import ContractError
 from lostmotion.inference.fit import Fit, Sensitivity, maximise, restarted, sensitivity, solved, warmed
+from lostmotion.likelihood.compose import handed
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import NOISE, RANDOM, Free, Problem, Scales
 from lostmotion.likelihood.system import Slot
@@ -259,7 +260,7 @@ def called_with(
     term: Term, observation: Observation, looks: int
 ) -> Iterator[tuple[float, float, float, Array, Values, Values]]:
     """Yield what the force of a term is told at about `looks` points of a recording, all its numbers one at rest."""
-    p = tuple(term.prepared(np.ones((1, len(term.params) + len(term.needs))))[0].tolist())
+    p = handed(term, np.ones(len(term.params) + len(term.needs)))
     s, u = (0.0,) * len(term.states), np.zeros(2)
     speed = np.gradient(observation.response, observation.dt)
     for k in range(0, observation.samples, max(1, observation.samples // looks)):

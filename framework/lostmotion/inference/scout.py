@@ -16,6 +16,7 @@ from lostmotion.contracts import Array, place_of
 from lostmotion.inference.candidates import screen, size_of, slopes_of, sorted_slots, term_of, tried_of
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.setup import stepped
+from lostmotion.likelihood.compose import handed
 from lostmotion.likelihood.latent import expected_force
 from lostmotion.likelihood.problem import Problem
 from lostmotion.likelihood.system import Slot
@@ -85,8 +86,7 @@ def _steady(problem: Problem, key: str, shape: Mapping[str, float], seen: Array,
     edges, u = np.linspace(0, len(lean), BLOCKS + 1).astype(int)[:-1], np.zeros(2)
     most = 0.0
     for one in amplitudes:
-        own = np.array([[shape.get(s.key, float(s.key == one.key)) for s in slots]])
-        p = tuple(term.prepared(own)[0].tolist())
+        p = handed(term, [shape.get(s.key, float(s.key == one.key)) for s in slots])
         law = np.array([term.force(t, x, v, u, p, ()) for t, x, v in seen.T.tolist()])
         if not np.all(np.isfinite(law)):
             return 0.0

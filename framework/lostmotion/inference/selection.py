@@ -123,44 +123,38 @@ class Selector:
 
     def run(self) -> Selection:
         """Return the finished selection."""
-        while len(self.course.chosen.problem.active) < MOST_TERMS and self._forward():
-            if self._outshone():
-                self.say("a learned curve explains far more than the terms that were found")
-                break
-        while self._backward():
-            pass
-        return self.course
+        return self._finished(lambda: self._forward() and not self._outshone())
 
     def resumed(self, fit: Fit) -> Selection:
-        """Return the finished selection, begun at a set that was found where another noise was assumed.
-
-        Terms that stood in for that noise are dropped first; then the search goes on from what is left.
-        """
-        self.course.hints = {h.key: h for h in self._screened(self.course.nominal)}
-        self._visit(fit)
-        self.course.chosen = fit
-        while self._backward():
-            pass
+        """Return the selection begun at a set that was found with another noise: what stood in for that is dropped."""
+        self._begun([fit])
         return self.run()
 
     def verified(self, found: Fit, rivals: Iterable[Fit]) -> Selection:
-        """Return the selection among a set that was found elsewhere, sets close to it, and one term more or less.
+        """Return the selection among a set that was found on other recordings, sets close to it, and a term more."""
+        self._begun([found, *rivals])
+        return self._finished(self._extended)
 
-        All of them are fits to the recordings of the nominal one, and begun where they need not be settled again.
-        """
-        self.course.hints = {h.key: h for h in self._screened(self.course.nominal)}
-        visits = [self._visit(fit) for fit in (found, *rivals)]
-        self.course.chosen = max(visits, key=lambda v: v.weight).fit
+    def _begun(self, fits: Iterable[Fit]) -> None:
+        """Choose the best of some sets, less what it can do without, after score tests on top of the nominal fit."""
+        self._screened(self.course.nominal)
+        self.course.chosen = max((self._visit(fit) for fit in fits), key=lambda v: v.weight).fit
         while self._backward():
             pass
-        while len(self.course.chosen.problem.active) < MOST_TERMS:
-            here = self.course.visits[self.course.chosen.problem.active]
-            self._additions(here.fit)
-            if not self._better(here):
-                break
+
+    def _finished(self, step: Callable[[], bool]) -> Selection:
+        """Return the selection after as many steps forward as lead on, and then backward."""
+        while len(self.course.chosen.problem.active) < MOST_TERMS and step():
+            pass
         while self._backward():
             pass
         return self.course
+
+    def _extended(self) -> bool:
+        """Take the best of what one more term leads to, if it is decisive."""
+        here = self.course.visits[self.course.chosen.problem.active]
+        self._additions(here.fit)
+        return self._better(here)
 
     def _outshone(self) -> bool:
         """Return whether one learned curve wins so much more than the terms found that more of them will not do."""
@@ -168,7 +162,10 @@ class Selector:
         if self.promise is None or quiet(here.fit):
             return False
         won = here.weight - self.course.visits[frozenset()].weight
-        return won < OUTSHONE * len(here.terms) * self.promise(self.course.nominal)
+        if not won < OUTSHONE * len(here.terms) * self.promise(self.course.nominal):
+            return False
+        self.say("a learned curve explains far more than the terms that were found")
+        return True
 
     def _visit(self, fit: Fit) -> Visit:
         """Note a fitted set, weighted by its evidence and the prices of its terms."""
@@ -260,7 +257,12 @@ class Selector:
         return [here, *sorted(rivals, key=lambda v: -v.weight)[: BEAM - 1]]
 
     def _screened(self, fit: Fit) -> list[Hint]:
-        """Return what score tests promise of the terms on top of a fit, of rich ones where a relative promises much."""
+        """Return what score tests promise of the terms on top of a fit, of rich ones where a relative promises much.
+
+        Those on top of the nominal fit are kept, and made once.
+        """
+        if self.course.hints and not fit.problem.active:
+            return [h for h in self.course.hints.values() if not self._tried(fit, h.key)]
         slopes, single = slopes_of(fit), alone(fit)
         hints: list[Hint] = []
         untried = [k for k in self.candidates if not self._tried(fit, k)]
@@ -272,13 +274,13 @@ class Selector:
             if keys:
                 self.say(f"score tests of {', '.join(keys)}")
             hints += each(lambda key: screen(single, slopes, key, self.shapes.get(key, ())), keys, self.jobs)
+        if not fit.problem.active:
+            self.course.hints = {h.key: h for h in hints}
         return hints
 
     def _additions(self, fit: Fit) -> None:
         """Fit the terms whose score tests promise most on top of a fit, those first that promise most."""
         hints, single = self._screened(fit), alone(fit)
-        if not fit.problem.active:
-            self.course.hints = {h.key: h for h in hints}
         good = sorted((h for h in hints if h.gain > PROMISING and h.distinct > SAME), key=lambda h: -h.gain)
         for size in sorted({len(h.start) for h in good[:MOST_FITTED]}):
             group = [h for h in good[:MOST_FITTED] if len(h.start) == size]

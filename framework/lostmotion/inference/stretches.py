@@ -28,7 +28,7 @@ def sought(
     keys, short = tuple(candidates), stretched(nominal.problem)
     if short is nominal.problem:
         return selected(nominal, keys, say, shapes, promise)
-    say(f"search on {sum(o.samples for o in short.observations)} samples in {len(short.observations)} stretches")
+    say(f"search on {short.samples} samples in {len(short.observations)} stretches")
     course = selected(maximise(short, nominal.theta), keys, say, shapes, promise)
     say("what was found, on all samples")
     whole = nominal.problem.observations
@@ -41,10 +41,9 @@ def sought(
 
 def stretched(problem: Problem) -> Problem:
     """Return the problem on stretches of its recordings, or as it is where they are not long."""
-    samples = sum(observation.samples for observation in problem.observations)
-    if samples <= LONG:
+    if problem.samples <= LONG:
         return problem
-    parts = [part for o in problem.observations for part in _stretches(o, SOUGHT / samples)]
+    parts = [part for o in problem.observations for part in _stretches(o, SOUGHT / problem.samples)]
     return problem.on(tuple(parts))
 
 

@@ -125,7 +125,7 @@ class Curves:
         before, search = self._begun(nominal)
         search.learn(before)
         most = max(weight for _, weight in search.visits.values()) - search.visits[before.problem.active][1]
-        return most * samples_of(nominal) / samples_of(before)
+        return most * nominal.problem.samples / before.problem.samples
 
     def unknown(self, nominal: Fit, chosen: Fit) -> Unknown | None:
         """Return the learned curves that explain decisively more than the terms of the library, or None.
@@ -152,21 +152,16 @@ class Curves:
         if gain < DECISIVE or not _worth(best, after) or _takes_over(best, after):
             return None
         alone = bool(chosen.problem.active) and best.problem.active == frozenset(_curves(best.problem))
-        if samples_of(chosen) > samples_of(best):
+        if chosen.problem.samples > best.problem.samples:
             self.say("learned curves on all of the recording")
             whole = best.problem.on(chosen.problem.observations)
             best = maximise(whole, best.theta, rounds=ROUNDS, tolerance=0.3)
         return Unknown(best, _curves(best.problem), gain, alone)
 
 
-def samples_of(fit: Fit) -> int:
-    """Return on how many samples a fit was made."""
-    return sum(observation.samples for observation in fit.problem.observations)
-
-
 def _shortened(fit: Fit) -> Fit:
     """Return the fit on the beginnings of its recordings where they are long: curves have dozens of coefficients."""
-    observations, share = fit.problem.observations, MOST_SAMPLES / samples_of(fit)
+    observations, share = fit.problem.observations, MOST_SAMPLES / fit.problem.samples
     if share >= 1.0:
         return fit
     parts = tuple(t.part(0, round(share * t.samples)) for t in observations)

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import inspect
 from collections import namedtuple
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields
 from functools import cached_property, lru_cache
 from typing import Any, NamedTuple
@@ -18,7 +18,7 @@ import numba
 import numpy as np
 from numba import types
 
-from lostmotion.contracts import Term
+from lostmotion.contracts import Array, Term, Values
 from lostmotion.errors import ContractError
 from lostmotion.kernels import plain, windows
 from lostmotion.kernels.vector import BARE, value
@@ -137,6 +137,11 @@ def law_of(term: Term, place: int) -> Law:
         raise ContractError(f"{term.name} prepares its numbers and needs `step`, which changes: let it do one of both")
     width = term.prepared(np.ones((1, len(term.params) + len(term.needs)))).shape[1]
     return Law(place, width, len(term.states), cls.force, cls.rate, steps, made, prepared)
+
+
+def handed(term: Term, own: Sequence[float] | Array) -> Values:
+    """Return what `force` and `rate` of a term get as `p` at one point, for its parameters and needs `own`."""
+    return tuple(term.prepared(np.array([own], dtype=float))[0].tolist())
 
 
 def numeric(value: Any) -> bool:

@@ -72,6 +72,11 @@ class Problem:
         return ParameterSpace(self.free)
 
     @property
+    def samples(self) -> int:
+        """The number of samples of all recordings."""
+        return sum(observation.samples for observation in self.observations)
+
+    @property
     def keys(self) -> tuple[str, ...]:
         """The keys of the free parameters."""
         return self.space.keys

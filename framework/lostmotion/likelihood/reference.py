@@ -252,8 +252,7 @@ class _Run:
         while place < self.nsub:
             wide = min(place & -place if place else self.nsub, self.wish)
             reach = np.sqrt(3.0 * np.diag(self.cov))
-            borne = BENDS * (reach + OWN * np.where(self.machine.paced, np.abs(self.y), 0.0))
-            while wide > 1 and np.any(wide * self._fine * self.near > borne):
+            while wide > 1 and np.any(wide * self._fine * self.near > self._borne(reach)):
                 wide //= 2
             while not self._taken(k, place, wide, reach):
                 wide //= 2
@@ -271,6 +270,10 @@ class _Run:
     @property
     def _fine(self) -> float:
         return self.observation.dt / self.nsub
+
+    def _borne(self, reach: Array) -> Array:
+        """Return how far off each state may be."""
+        return np.asarray(BENDS * (reach + OWN * np.where(self.machine.paced, np.abs(self.y), 0.0)))
 
     def _taken(self, k: int, place: int, wide: int, reach: Array) -> bool:
         """Try a step; go it, and return true, where the force is straight along it or it is a fine one."""
@@ -300,9 +303,8 @@ class _Run:
             both = machine.slope(centre, early + late - middle, begin + h)
             kink = k1 + k4 - k2 - both - slopes @ (y + end - 2.0 * centre)
             bent = np.abs(kink) + self.near + far + 3.0 * np.abs(bend)
-            borne = BENDS * (reach + OWN * np.where(machine.paced, np.abs(y), 0.0))
             limits = np.where(machine.paced, PACED, LONG)
-            if np.any(h * bent > borne) or np.any(h * h * np.abs(np.diag(square)) > limits):
+            if np.any(h * bent > self._borne(reach)) or np.any(h * h * np.abs(np.diag(square)) > limits):
                 return False
         self.near, self.wish = far, 2 * wide
         if np.any(4.0 * h * h * np.abs(np.diag(square))[~machine.paced] > LONG):

@@ -163,8 +163,8 @@ class System:
         """Return what a model and its forces are handed, (points, params): each force has what it needs behind its own.
 
         `fulls` is (points, parameters); `step` is that of the integration (s), of which a law that jumps at rest takes
-        `line` to pass its steep line. Behind the parameters of the model and
-        of the forces stand the pace of a latent force, zero, the step, and one over each inertia.
+        `line` to pass its steep line. Behind the parameters of the model and of the forces stand the pace of a latent
+        force, the step, and one over each inertia.
         """
         base = fulls[:, : len(self.model.params)]
         more = {"step": step, "omega": tone.omega, "amplitude": tone.amplitude, "none": 0.0}

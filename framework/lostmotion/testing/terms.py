@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from lostmotion.contracts import Array, DriveTerm, SensorTerm, Term
-from lostmotion.likelihood.compose import law_of
+from lostmotion.likelihood.compose import handed, law_of
 from lostmotion.testing.probes import STEP, Point, compiled, differ, of_term
 from lostmotion.testing.rules import SNAKE, listed, rule
 from lostmotion.testing.shared import repeated
@@ -35,8 +35,7 @@ def pace(term: Term, point: Point, function: Any = None, *, over: float = math.n
 
 
 def _told(term: Term, point: Point) -> tuple[Any, ...]:
-    p = tuple(term.prepared(np.array([point.p], dtype=float))[0].tolist())
-    return point.t, point.x, point.v, point.u, p, tuple(point.y)
+    return point.t, point.x, point.v, point.u, handed(term, point.p), tuple(point.y)
 
 
 def _fast(term: Term, name: str) -> Any:
