@@ -29,7 +29,7 @@ from lostmotion.workflow.source import Wanted, source_of
 
 STORED = ("diagnosis", "analysis", "chain", "map", "campaign")
 KINDS = (*TABLES, "case", "values", "plugin", *STORED)
-SPEC = RecordingSpec("run", "time", None, Channel("u", "force", "N"), Channel("x", "position", "m"))
+SPEC = RecordingSpec("run", "time", None, (Channel("u", "force", "N"),), (Channel("x", "position", "m"),))
 NASTY = [
     b"1e999", b"-1e308", b"nan", b"inf", b"0x1p-1080", b"9" * 400, b"0x" + b"f" * 5000, b"1" * 5000, b"", b"\x00",
     b"\xff\xfe", b"\xef\xbb\xbf", b"\n", b"\r", b",", b";", b"\t", b'"', b"'", b"#", b"[" * 3000, b"a." * 3000,
@@ -124,7 +124,7 @@ def _zipped(raw: bytes, rng) -> bytes:
 
 
 def _rest():
-    return SPEC.time, SPEC.rate, SPEC.excitation, SPEC.response
+    return SPEC.time, SPEC.rate, SPEC.inputs, SPEC.sensors
 
 
 def values(seeds, rng, folder, write_only):

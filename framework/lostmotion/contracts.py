@@ -225,16 +225,23 @@ class DriveTerm(_Beside):
 class SensorTerm(_Beside):
     """Something between the motion and its recording: no force.
 
-    The sensor shows `gain(p)` times what is there, `delay(p)` seconds late, `rounded` at the end. One that leaves marks
-    in the values themselves, as rounding does, says by `marks` what they tell; it is not fitted by likelihood.
+    The sensor shows `gain(p)` times what is there and `offset(p)` more, `delay(p)` seconds late, `rounded` at the end.
+    One that leaves marks in the values themselves, as rounding does, says by `marks` what they tell; it is not fitted
+    by likelihood. One that is `relative` is tried where there are several sensors: a force does the same to one alone.
     """
 
     acts = "sensor"
+    relative: ClassVar[bool] = False
 
     @staticmethod
     def gain(p: Values) -> float:
         """Return what the sensor shows of one unit."""
         return 1.0
+
+    @staticmethod
+    def offset(p: Values) -> float:
+        """Return what the sensor shows where nothing is."""
+        return 0.0
 
     @staticmethod
     def delay(p: Values) -> float:
@@ -283,7 +290,9 @@ class Assembly:
 
 def place_of(model: Model, term: Term) -> Interface:
     """Return the interface of `model` at which `term` acts, or raise a `ContractError` that says what is wanting."""
-    places = {i.name: i for i in (model.interfaces if term.acts == "motion" else (_BESIDE[term.acts],))}
+    beside = (term.acts, *(model.inputs if term.acts == "drive" else (term.at,)))
+    named = model.interfaces if term.acts == "motion" else tuple(replace(_BESIDE, name=name) for name in beside)
+    places = {i.name: i for i in named}
     if term.at not in places:
         raise ContractError(
             f"{term.name} acts at {term.at!r}, but {model.name} has {', '.join(places)}{nearest(term.at, places)}"
@@ -297,8 +306,8 @@ def place_of(model: Model, term: Term) -> Interface:
     return place
 
 
-_BESIDE = {name: Interface(name, -1, "", lambda y, u: (0.0, 0.0)) for name in ("drive", "sensor")}
-"""The places beside the machine, where terms act that are no force."""
+_BESIDE = Interface("", -1, "", lambda y, u: (0.0, 0.0))
+"""A place beside the machine, where terms act that are no force: an input, or a sensor by its name."""
 
 
 class Embedder(ABC):

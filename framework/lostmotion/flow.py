@@ -214,8 +214,10 @@ class Stepped:
             return np.zeros((3 * steps, max(len(names), 1)))
         t = (np.arange(steps)[:, None] * h + np.array([0.0, 0.5 * h, h])).ravel()
         columns = [self.beat.column(name) for name in names]
-        u = self.system.acting(lambda t, order: columns[order](t), self.full, self.system.everything, self._tone)
-        return np.ascontiguousarray(np.stack([u(t, order) for order in range(len(names))], axis=1))
+        keys = self.system.shaping(self.system.everything)
+        acting = self.system.acting(columns, self.full, keys, self._tone)
+        moved = [there or recorded for there, recorded in zip(acting, columns, strict=True)]
+        return np.ascontiguousarray(np.stack([u(t) for u in moved], axis=1))
 
     @property
     def _tone(self) -> Tone:

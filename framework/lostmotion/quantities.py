@@ -16,6 +16,7 @@ SI = {
     "velocity": "m/s",
     "acceleration": "m/s^2",
     "base_position": "m",
+    "base_acceleration": "m/s^2",
     "time": "s",
 }
 ANGULAR = {
@@ -23,9 +24,12 @@ ANGULAR = {
     "velocity": "rad/s",
     "acceleration": "rad/s^2",
     "base_position": "rad",
+    "base_acceleration": "rad/s^2",
     "force": "N m",
     "torque": "N m",
 }
+ROTATES = {unit: "translation" for unit in SI.values()} | {unit: "rotation" for unit in ANGULAR.values()}
+"""What motion a unit of a channel or an input belongs to."""
 _NAMED = {
     ("translation", 1, -1, 2): "kg",
     ("rotation", 1, -1, 2): "kg m^2",
@@ -78,6 +82,30 @@ STIFFNESS = Dimension(1, -1, 0)
 NUMBER = Dimension(0, 0, 0)
 
 
+KINDS = ("position", "velocity", "acceleration", "force")
+"""What channels and inputs of a model can be."""
+_PART = re.compile(r"[_.]")
+_GRAVITY = {"g": "g_0", "mg": "mg_0", "G": "g_0"}
+"""How accelerations are written by those who make accelerometers, where pint reads grams."""
+
+
+def quantity_of(name: str) -> str:
+    """Return of what kind a channel or an input of a model is: the last part of its name, behind `_` or a dot.
+
+    "second_position" is a position, "elbow.velocity" a velocity, and a torque the force of a rotation.
+    """
+    last = _PART.split(name)[-1]
+    found = "force" if last == "torque" else last
+    if found not in KINDS:
+        raise DataError(f"{name!r} ends in none of {', '.join(KINDS)}: name it by what it is, as 'second_position'")
+    return found
+
+
+def unit_of(name: str, motion: str) -> str:
+    """Return the SI unit of a channel or an input of a model, for instance rad/s^2 in rotation."""
+    return (SI if motion == "translation" else ANGULAR)[quantity_of(name)]
+
+
 @lru_cache(maxsize=1)
 def _registry() -> Any:
     import pint
@@ -96,6 +124,8 @@ def si_factor(unit: str, quantity: str) -> tuple[float, str]:
     if unit in targets:
         return 1.0, unit
     registry = _registry()
+    if quantity.endswith("acceleration"):
+        unit = _GRAVITY.get(unit, unit)
     try:
         one = registry.Quantity(1.0, unit)
     except Exception as err:  # pint fails in every way there is
@@ -108,7 +138,6 @@ def si_factor(unit: str, quantity: str) -> tuple[float, str]:
 
 def _hint(unit: str) -> str:
     return {
-        "g": "; 'g' is the gram, write 'g_0' for the acceleration of gravity",
         "V": "; volts need factor = (N, m, ... per volt) and the unit that comes of it",
     }.get(unit, "")
 

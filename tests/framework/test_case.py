@@ -65,7 +65,7 @@ def test_a_case_is_read(tmp_path: Path) -> None:
     assert got.estimate["c"] == Prior(0.8, 80.0, "log")
     assert got.estimate["x0"].scale == "linear"
     first, second = got.recordings
-    assert (first.time, first.rate, first.hold, first.t_start, first.excitation.factor) == ("time", None, "step", 1, 35)
+    assert (first.time, first.rate, first.hold, first.t_start, first.inputs[0].factor) == ("time", None, "step", 1, 35)
     assert (second.time, second.rate, second.hold, second.t_end) == (None, 1000.0, "smooth", None)
     assert [r.label for r in got.recordings] == ["recording", "recording 2"]
     assert re.fullmatch("[0-9a-f]{64}", got.digest)
@@ -75,7 +75,7 @@ def test_a_case_is_read(tmp_path: Path) -> None:
 def test_the_contract_is_read(shared: Path) -> None:
     got = load_case(shared / "contracts/case.toml")
     assert list(got.estimate) == ["c", "x0"]
-    assert got.recordings[0].response.column == "position"
+    assert got.recordings[0].sensors[0].column == "position"
 
 
 def test_a_minimal_case(tmp_path: Path) -> None:
@@ -198,8 +198,8 @@ def test_what_is_dumped_is_read_back(tmp_path: Path) -> None:
     }  # fmt: skip
     dump_case(content, tmp_path / "case.toml")
     got = load_case(tmp_path / "case.toml")
-    assert got.recordings[0].excitation.column == channel["column"]
-    assert got.recordings[0].excitation.factor == 2.0
+    assert got.recordings[0].inputs[0].column == channel["column"]
+    assert got.recordings[0].inputs[0].factor == 2.0
     assert got.known == {"k": 1e-7, "odd key": 3.0}
     assert got.estimate == {
         "c": Prior(1.0, 2.5, each=True), "d": Prior(1.0, 2.0, "log"), "k1": Prior(mean=0.0, sd=2.0),

@@ -17,7 +17,7 @@ from lostmotion_plugins.models.slider import BacklashSlider
 TIME = np.arange(400) / 100.0
 BASE, FORCE = np.sin(TIME), np.sign(np.cos(TIME)) + 0.1 * np.cos(7.0 * TIME)
 SPEC = RecordingSpec(
-    "a.npz", "t", None, Channel("x", "base_position", "inch"), Channel("F", "force", "kip"), t_end=3.99
+    "a.npz", "t", None, (Channel("x", "base_position", "inch"),), (Channel("F", "force", "kip"),), t_end=3.99
 )
 MODEL = BacklashSlider()
 VALUES = np.array([2.0, 0.0, 1000.0, 0.01])
@@ -34,7 +34,7 @@ def test_a_force_is_a_response_in_any_unit(tmp_path: Path) -> None:
     np.testing.assert_allclose(got.response, 4448.2216 * FORCE, rtol=1e-7)
     np.testing.assert_allclose(got.excitation, 0.0254 * BASE, rtol=1e-12)
     assert (got.response.attrs["units"], got.response.attrs["quantity"]) == ("N", "force")
-    pounds = replace(SPEC, response=Channel("F", "force", "lbf"))
+    pounds = replace(SPEC, sensors=(Channel("F", "force", "lbf"),))
     np.testing.assert_allclose(load_recording(pounds, tmp_path).data.response, 4.4482216 * FORCE, rtol=1e-7)
 
 
@@ -43,19 +43,19 @@ def test_samples_of_a_measured_force_may_be_lost_and_those_of_a_drive_may_not(tm
     spoilt[7] = np.nan
     write(tmp_path, F=spoilt)
     assert int(np.isnan(load_recording(SPEC, tmp_path).data.response).sum()) == 1
-    drive = replace(SPEC, excitation=Channel("F", "force", "kip"), response=Channel("x", "position", "inch"))
+    drive = replace(SPEC, inputs=(Channel("F", "force", "kip"),), sensors=(Channel("x", "position", "inch"),))
     with pytest.raises(DataError, match="NaN"):
         load_recording(drive, tmp_path)
 
 
 @pytest.mark.parametrize(("quantity", "unit"), [("force", "N"), ("torque", "N m")])
 def test_force_and_torque_are_the_channel_force(tmp_path: Path, quantity: str, unit: str) -> None:
-    spec = replace(SPEC, response=Channel("F", quantity, unit))
+    spec = replace(SPEC, sensors=(Channel("F", quantity, unit),))
     assert observation_of(load_recording(spec, write(tmp_path)), MODEL).channel == "force"
 
 
 def test_a_model_that_shows_no_force_is_refused(tmp_path: Path) -> None:
-    spec = replace(SPEC, excitation=Channel("x", "force", "N"))
+    spec = replace(SPEC, inputs=(Channel("x", "force", "N"),))
     with pytest.raises(CaseError, match="rigid_drive shows position, velocity, acceleration, but the response of a is"):
         observation_of(load_recording(spec, write(tmp_path)), RigidDrive())
 

@@ -105,7 +105,7 @@ def test_any_numbers_are_a_recording_or_refused(
     folder, n = tmp_path_factory.mktemp("numbers"), len(values)
     columns = {"t": np.arange(n) / 100.0, "u": np.sin(np.arange(n)), "x": np.cos(np.arange(n)), which: np.array(values)}
     np.savez(folder / "run.npz", **columns)
-    spec = RecordingSpec("run.npz", "t", None, Channel("u", "force", "N"), Channel("x", "position", "m"))
+    spec = RecordingSpec("run.npz", "t", None, (Channel("u", "force", "N"),), (Channel("x", "position", "m"),))
     refused(lambda: load_recording(spec, folder))
 
 

@@ -12,8 +12,8 @@ from lostmotion.recording import Channel, RecordingSpec, load_recording
 
 DT = 0.002
 TIME = DT * np.arange(10_000)
-SPEC = RecordingSpec("a.npz", "time", None, Channel("F", "force", "N"), Channel("x", "position", "m"))
-ANGLES = replace(SPEC, excitation=Channel("F", "base_position", "rad"), response=Channel("x", "position", "rad"))
+SPEC = RecordingSpec("a.npz", "time", None, (Channel("F", "force", "N"),), (Channel("x", "position", "m"),))
+ANGLES = replace(SPEC, inputs=(Channel("F", "base_position", "rad"),), sensors=(Channel("x", "position", "rad"),))
 
 
 def machine(seed: int = 0) -> dict[str, np.ndarray]:
@@ -45,7 +45,7 @@ def test_a_wrong_sign_is_noted_and_a_right_one_is_not(tmp_path: Path, quantity: 
     for _ in range(order):
         columns["x"] = np.gradient(columns["x"], DT)
     unit = ("m", "m/s", "m/s^2")[order]
-    spec = replace(SPEC, response=Channel("x", quantity, unit))
+    spec = replace(SPEC, sensors=(Channel("x", quantity, unit),))
     assert notes(tmp_path, columns, spec) == ()
     (note,) = notes(tmp_path, {**columns, "x": -columns["x"]}, spec)
     assert "one of the signs is wrong (factor = -1.0)" in note
@@ -61,7 +61,7 @@ def test_power_of_a_measured_force_under_a_moved_base(tmp_path: Path) -> None:
     """A damper: the force follows the speed of its base."""
     base = np.convolve(np.random.default_rng(2).normal(size=TIME.size + 199), np.hanning(200), "valid")
     columns = {"time": TIME, "F": base, "x": 30.0 * np.gradient(base, DT)}
-    spec = replace(SPEC, excitation=Channel("F", "base_position", "m"), response=Channel("x", "force", "N"))
+    spec = replace(SPEC, inputs=(Channel("F", "base_position", "m"),), sensors=(Channel("x", "force", "N"),))
     assert notes(tmp_path, columns, spec) == ()
     (note,) = notes(tmp_path, {**columns, "x": -columns["x"]}, spec)
     assert "signs" in note
@@ -74,7 +74,7 @@ def test_degrees_given_as_radians_are_noted(tmp_path: Path) -> None:
     (note,) = notes(tmp_path, {**columns, "x": np.degrees(swing)}, ANGLES)
     assert "more than half a turn" in note
     assert "unit = 'deg'" in note
-    mixed = replace(ANGLES, excitation=Channel("F", "base_position", "deg"))
+    mixed = replace(ANGLES, inputs=(Channel("F", "base_position", "deg"),))
     (note,) = notes(tmp_path, columns, mixed)
     assert "are both in one unit" in note
     assert notes(tmp_path, {**columns, "F": np.degrees(columns["F"])}, mixed) == ()
@@ -114,14 +114,13 @@ def test_islands_of_nan_are_counted(tmp_path: Path) -> None:
 @pytest.mark.real
 def test_no_real_recording_is_doubted(shared: Path) -> None:
     folder = shared / "data"
-    emps = replace(SPEC, file="DATA_EMPS.mat", time="t", excitation=Channel("vir", "force", "N", 35.15065),
-                   response=Channel("qm", "position", "m"))  # fmt: skip
-    box = RecordingSpec("SNLS80mV.npz", None, 610.35, Channel("V1", "force", "N"), Channel("V2", "position", "m"))
+    emps = replace(SPEC, file="DATA_EMPS.mat", time="t", inputs=(Channel("vir", "force", "N", 35.15065),),
+                   sensors=(Channel("qm", "position", "m"),))  # fmt: skip
+    box = RecordingSpec("SNLS80mV.npz", None, 610.35, (Channel("V1", "force", "N"),), (Channel("V2", "position", "m"),))
     assert load_recording(emps, folder / "emps").notes == ()
     assert load_recording(box, folder / "silverbox").notes == ()
     dampers = sorted((folder / "brfd_friction_backlash").glob("*.npz"))
     assert len(dampers) > 20
     for file in dampers:
-        damper = RecordingSpec(file.name, "data[0]", None, Channel("data[1]", "base_position", "inch"),
-                               Channel("data[2]", "force", "kip"))  # fmt: skip
+        damper = RecordingSpec(file.name, "data[0]", None, (Channel("data[1]", "base_position", "inch"),), (Channel("data[2]", "force", "kip"),))  # fmt: skip
         assert load_recording(damper, file.parent).notes == (), file.name

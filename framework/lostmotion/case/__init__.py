@@ -33,6 +33,7 @@ A prior in `[model.estimate]` is one of
 and with `each = true` each recording has a value of its own, where otherwise all share one.
 """
 
+from lostmotion.case.channels import check_alike
 from lostmotion.case.levels import Level, Measured
 from lostmotion.case.load import Case, Experiment, Sensor, load_case
 from lostmotion.case.prior import Prior
@@ -40,5 +41,6 @@ from lostmotion.case.write import dump_case
 from lostmotion.recording import Channel, RecordingSpec
 
 __all__ = [
-    "Case", "Channel", "Experiment", "Level", "Measured", "Prior", "RecordingSpec", "Sensor", "dump_case", "load_case",
+    "Case", "Channel", "Experiment", "Level", "Measured", "Prior", "RecordingSpec", "Sensor", "check_alike",
+    "dump_case", "load_case",
 ]  # fmt: skip

@@ -123,6 +123,14 @@ class Fields:
         for i, entry in enumerate(value):
             yield Fields(self.file, f"{self._below(key)}[{i}]", entry)
 
+    def entries(self, key: str) -> Iterator[Fields]:
+        """Yield the tables of a list that may be empty; the key must be there."""
+        value = self._get(key, "a list of tables")
+        if not isinstance(value, list) or not all(isinstance(v, dict) for v in value):
+            raise self.wrong(key, f"a list of tables, as {key} = [ {{ column = ... }} ]")
+        for i, entry in enumerate(value[:MOST]):
+            yield Fields(self.file, f"{self._below(key)}[{i}]", entry)
+
     def numbers(self) -> dict[str, float]:
         """Return the whole table as finite numbers."""
         return {key: self.number(key) for key in self.values}

@@ -9,19 +9,20 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Literal, cast, get_args
 
+from lostmotion.case.channels import inputs_of, sensors_of
 from lostmotion.case.fields import Fields
 from lostmotion.case.levels import Level, levels_of
 from lostmotion.case.prior import Prior, Scale
-from lostmotion.errors import CaseError, DataError
+from lostmotion.errors import CaseError
 from lostmotion.provenance import digest
-from lostmotion.quantities import si_factor
-from lostmotion.recording import Channel, Hold, RecordingSpec
-from lostmotion.recording.spec import EXCITATIONS, RESPONSES
+from lostmotion.recording import Hold, RecordingSpec
 
 TOP = ("title", "plugins", "recordings", "levels", "sensor", "experiment", "model", "truth")
-RECORDING = ("file", "time", "rate", "excitation", "response", "hold", "t_start", "t_end", "name")
-CHANNEL = ("column", "quantity", "unit", "factor")
-MODEL = ("name", "known", "estimate")
+RECORDING = (
+    "file", "time", "rate", "start", "excitation", "response", "inputs", "sensors", "hold", "t_start", "t_end", "name",
+)  # fmt: skip
+TIME = ("column", "unit")
+MODEL = ("name", "motion", "known", "estimate")
 SENSOR = ("noise", "offset")
 EXPERIMENT = ("max_level", "max_frequency")
 PRIOR = ("low", "high", "scale", "mean", "sd", "median", "sd_log", "half_sd")
@@ -31,6 +32,7 @@ LARGEST, DOTS = 2**20, 50
 """Bytes of a case file and dots in one line of it, at most."""
 
 Sharing = Literal["each", "shared"]
+Motion = Literal["translation", "rotation"]
 
 
 @dataclass(frozen=True)
@@ -76,6 +78,7 @@ class Case:
     sensor: Sensor = Sensor()
     levels: tuple[Level, ...] = ()
     experiment: Experiment = Experiment()
+    motion: Motion | None = None
 
 
 def load_case(path: Path) -> Case:
@@ -97,6 +100,7 @@ def load_case(path: Path) -> Case:
         sensor=_sensor(top),
         levels=levels_of(top),
         experiment=_experiment(top),
+        motion=cast(Motion, model.choice("motion", get_args(Motion))) if "motion" in model.values else None,
     )
 
 
@@ -144,17 +148,28 @@ def _recordings(top: Fields) -> tuple[RecordingSpec, ...]:
 def _recording(fields: Fields) -> RecordingSpec:
     fields.only(RECORDING)
     _check_span(fields)
+    column, unit = _time(fields)
     return RecordingSpec(
         file=fields.path("file"),
-        time=fields.maybe_text("time"),
+        time=column,
         rate=fields.positive("rate") if "rate" in fields.values else None,
-        excitation=_channel(fields.table("excitation"), EXCITATIONS),
-        response=_channel(fields.table("response"), RESPONSES),
+        inputs=inputs_of(fields),
+        sensors=sensors_of(fields),
         hold=cast(Hold, fields.choice("hold", ("smooth", "step")) if "hold" in fields.values else "smooth"),
         t_start=fields.maybe_number("t_start"),
         t_end=fields.maybe_number("t_end"),
         name=_name(fields),
+        time_unit=unit,
+        start=fields.maybe_text("start"),
     )
+
+
+def _time(fields: Fields) -> tuple[str | None, str | None]:
+    """Return the time column and its unit, as far as the case gives them."""
+    if not isinstance(fields.values.get("time"), dict):
+        return fields.maybe_text("time"), None
+    table = fields.table("time").only(TIME)
+    return table.text("column"), table.maybe_text("unit")
 
 
 def _name(fields: Fields) -> str | None:
@@ -168,28 +183,10 @@ def _name(fields: Fields) -> str | None:
 def _check_span(fields: Fields) -> None:
     if ("time" in fields.values) == ("rate" in fields.values):
         found = "both time and rate" if "time" in fields.values else "neither time nor rate"
-        raise fields.error(f"has {found}: give one, time = 'a column in seconds' or rate = 1000.0 (Hz)")
+        raise fields.error(f"has {found}: give one, time = 'a column' or rate = 1000.0 (Hz)")
     start, end = fields.maybe_number("t_start"), fields.maybe_number("t_end")
     if start is not None and end is not None and start >= end:
         raise fields.error(f"has t_start = {start:g} and t_end = {end:g}: t_start must lie before t_end")
-
-
-def _channel(fields: Fields, quantities: tuple[str, ...]) -> Channel:
-    fields.only(CHANNEL)
-    factor = fields.maybe_number("factor")
-    if factor == 0:
-        raise fields.wrong("factor", "a number other than zero")
-    channel = Channel(
-        column=fields.text("column"),
-        quantity=fields.choice("quantity", quantities),
-        unit=fields.text("unit"),
-        factor=1.0 if factor is None else factor,
-    )
-    try:
-        si_factor(channel.unit, channel.quantity)
-    except DataError as err:
-        raise fields.error(f"has a wrong unit: {err}") from err
-    return channel
 
 
 def _named_apart(specs: list[RecordingSpec]) -> Iterator[RecordingSpec]:

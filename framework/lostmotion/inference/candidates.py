@@ -13,9 +13,9 @@ from lostmotion.errors import ContractError
 from lostmotion.inference.fit import Fit, Sensitivity, maximise, restarted, sensitivity, solved, warmed
 from lostmotion.likelihood.compose import handed
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.problem import NOISE, RANDOM, Free, Problem, Scales
+from lostmotion.likelihood.problem import LATEST, NOISE, RANDOM, Free, Problem, Scales
 from lostmotion.likelihood.system import Slot
-from lostmotion.quantities import FORCE
+from lostmotion.quantities import FORCE, TIME
 
 CREEP, FINEST = 0.02, 32
 SHORT, CLEAR = 1500, 8.0
@@ -102,7 +102,8 @@ def screen(fit: Fit, slopes: Sensitivity, key: str, more: Sequence[Mapping[str, 
     grids = [tried_of(s.param, problem.scales) for s in shapes]
     usual = [dict(zip((s.key for s in shapes), values, strict=True)) for values in star(grids)]
     hints = _scored(fit, slopes, key, (*usual, *more))
-    if len(amplitudes) == 1 and amplitudes[0].param.far and not problem.active:
+    alone = term_of(problem, key)[0].acts != "sensor" or len(problem.observations[0].sensors) == 1
+    if len(amplitudes) == 1 and amplitudes[0].param.far and not problem.active and alone:
         hints.append(_afar(fit, amplitudes[0], key, hints[0].distinct))
     return max(hints, key=lambda h: h.gain)
 
@@ -150,7 +151,17 @@ def joined(problem: Problem, key: str, start: Mapping[str, float]) -> Problem:
     """Return a problem with one more term, begun at `start`, its choices held at what is said there."""
     _, slots = term_of(problem, key)
     choices = {s.key: start[s.key] for s in slots if s.param.choices and s.key in start}
-    return problem.knowing(choices).extended(frees_of(slots, problem.scales, start), {key})
+    return problem.knowing(choices).extended(frees_in(problem, key, slots, start), {key})
+
+
+def frees_in(problem: Problem, key: str, slots: list[Slot], start: Mapping[str, float]) -> tuple[Free, ...]:
+    """Return the free parameters of a term of a problem; one of several sensors is late by no more than is allowed."""
+    frees, (term, _) = frees_of(slots, problem.scales, start), term_of(problem, key)
+    if term.acts != "sensor" or len(problem.observations[0].sensors) == 1:
+        return frees
+    most = LATEST * problem.scales.time
+    late = {s.key for s in slots if s.param.dimension == TIME}
+    return tuple(replace(f, high=min(f.high, most), start=min(f.start, most)) if f.key in late else f for f in frees)
 
 
 def steps_for_sticking(problem: Problem, theta: Array, *, creep: float = CREEP) -> int:
@@ -172,7 +183,7 @@ def steps_for_sticking(problem: Problem, theta: Array, *, creep: float = CREEP) 
 def _scored(fit: Fit, slopes: Sensitivity, key: str, shapes: Sequence[Mapping[str, float]]) -> list[Hint]:
     """Return what a term promises at several shapes, all of them computed together."""
     amplitudes, fixed = sorted_slots(fit.problem, key)
-    frees = (*frees_of(amplitudes, fit.problem.scales, {}), *(_held(slot) for slot in fixed))
+    frees = (*frees_in(fit.problem, key, amplitudes, {}), *(_held(slot) for slot in fixed))
     wider = fit.problem.extended(frees, {key})
     sizes = np.array([size_of(s.param, fit.problem.scales) for s in amplitudes])
     zeros = [np.concatenate([slopes.theta, np.zeros(len(sizes)), [shape[s.key] for s in fixed]]) for shape in shapes]
@@ -261,7 +272,7 @@ def called_with(
 ) -> Iterator[tuple[float, float, float, Array, Values, Values]]:
     """Yield what the force of a term is told at about `looks` points of a recording, all its numbers one at rest."""
     p = handed(term, np.ones(len(term.params) + len(term.needs)))
-    s, u = (0.0,) * len(term.states), np.zeros(2)
+    s, u = (0.0,) * len(term.states), np.zeros(max(2, observation.inputs.shape[1]))
     speed = np.gradient(observation.response, observation.dt)
     for k in range(0, observation.samples, max(1, observation.samples // looks)):
         yield k * observation.dt, float(observation.response[k]), float(speed[k]), u, p, s
@@ -288,8 +299,8 @@ def calmed(fit: Fit) -> Fit:
     """Return the fit begun anew with what is missing taken for noise of the sensor, and not for a random force."""
     problem, theta = fit.problem, fit.theta.copy()
     for i, free in enumerate(problem.free):
-        if free.parameter == NOISE:
-            theta[i] = math.log(CALM * problem.observations[0].amplitude)
+        if free.level == NOISE:
+            theta[i] = math.log(CALM * problem.observations[0].amplitude_of(free.sensor))
         elif free.parameter == RANDOM:
             theta[i] = problem.scales.usual
     return maximise(problem, theta)

@@ -7,7 +7,7 @@ random force together imitate that, and so the machine gets the blame.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -16,14 +16,10 @@ from lostmotion.inference.candidates import Shapes
 from lostmotion.inference.fit import Fit, maximise, together
 from lostmotion.inference.selection import Progress, Promise, Selection, Selector, significant_random_force
 from lostmotion.kernels.threads import each
+from lostmotion.likelihood.levels import memory_frees
 from lostmotion.likelihood.problem import Problem
-from lostmotion.likelihood.space import FADE, NOISE, RANDOM, SLOW, Free
+from lostmotion.likelihood.space import FADE, NOISE, RANDOM, SLOW
 
-SHORTEST, LONGEST = 0.7, 0.5
-"""The memory lasts at least so many samples, and at most this share of the natural time of the motion: what is slower
-is a motion of the machine, or a zero that drifts."""
-LEAST = 3.0
-"""However coarsely it is sampled, a memory of so many samples is allowed."""
 WORTH = math.log(20.0) + 3.0
 """It is believed when it raises the log evidence by this: odds of twenty, and the price of two parameters."""
 GAIN = 8.0
@@ -47,27 +43,48 @@ def selected(
         return course
     say("measurement noise with a memory")
     hung = remembering(chosen)
-    if not believed(chosen, hung):
+    if hung is None or not believed(chosen, hung):
         return course
-    bare = hung if chosen is nominal else remembering(nominal)
-    if hung is None or bare is None or bare.status == "diverged":
+    while (more := remembering(hung)) is not None and believed(hung, more):
+        hung = more
+    bare = hung if chosen is nominal else _alike(nominal, hung)
+    if bare is None or bare.status == "diverged":
         return course
     again = Selector(bare, keys, say, shapes, promise)
     return again.resumed(hung) if chosen.problem.active else again.run()
 
 
-def remembering(fit: Fit) -> Fit | None:
-    """Return the fit with measurement noise that has a memory beside the white one, or None where it has one already.
+def _alike(nominal: Fit, hung: Fit) -> Fit | None:
+    """Return the nominal fit with a memory of the noise of those sensors that have one in another fit."""
+    first, found = nominal.problem.observations[0], nominal
+    for i in range(len(first.sensors)):
+        if first.level(SLOW, i) in hung.problem.keys and first.level(SLOW, i) not in nominal.problem.keys:
+            more = remembering(found, (i,))
+            if more is None or more.status == "diverged":
+                return None
+            found = more
+    return found
 
-    Begun at a few lengths of the memory, with the random force at what is usual, since it need not imitate any more.
+
+def remembering(fit: Fit, sensors: Sequence[int] | None = None) -> Fit | None:
+    """Return the fit with measurement noise that has a memory beside the white one, or None where all sensors have it.
+
+    Of several sensors (those numbered so, or all) it is the one whose memory is worth most. Begun at a few lengths of the memory, with the random
+    force at what is usual, since it need not imitate any more.
     """
-    problem = fit.problem
-    if SLOW in problem.keys:
+    problem, first = fit.problem, fit.problem.observations[0]
+    numbers = range(len(first.sensors)) if sensors is None else sensors
+    white = [i for i in numbers if first.level(SLOW, i) not in problem.keys]
+    asked = []
+    for sensor in white:
+        key = first.level(NOISE, sensor)
+        noise = float(np.mean([c for f, c in zip(problem.free, fit.theta, strict=True) if f.parameter == key]))
+        wider = replace(problem, free=(*problem.free, *memory_frees(first, sensor, noise, problem.scales)))
+        asked += [(replace(wider, jobs=1), _start(wider, fit, samples)) for samples in STARTS]
+    if not asked:
         return None
-    wider = replace(problem, free=(*problem.free, *_frees(problem, fit)))
-    single = replace(wider, jobs=1)
-    fits = each(lambda samples: maximise(single, _start(wider, fit, samples)), STARTS, wider.jobs)
-    return together(max(fits, key=lambda f: f.log_evidence), wider.jobs)
+    fits = each(lambda one: maximise(*one), asked, problem.jobs)
+    return together(max(fits, key=lambda f: f.log_evidence), problem.jobs)
 
 
 def believed(plain: Fit, hung: Fit | None) -> bool:
@@ -78,24 +95,13 @@ def believed(plain: Fit, hung: Fit | None) -> bool:
     return higher and hung.log_evidence > plain.log_evidence + WORTH
 
 
-def _frees(problem: Problem, fit: Fit) -> tuple[Free, Free]:
-    dt = problem.observations[0].dt
-    low, high = math.log(SHORTEST * dt), math.log(max(LONGEST * problem.scales.time, LEAST * dt))
-    noise = float(np.mean([c for f, c in zip(problem.free, fit.theta, strict=True) if f.parameter == NOISE]))
-    middle = min(math.log(3.0 * dt), high)
-    return (
-        Free(SLOW, "1", noise - 0.5, noise - 5.0, noise + 3.0),
-        Free(FADE, "1", middle, low, high, mean=middle, sd=1.0),
-    )
-
-
 def _start(wider: Problem, fit: Fit, samples: float) -> np.ndarray:
     theta = np.concatenate([fit.theta, wider.start[len(fit.theta) :]])
     for i, f in enumerate(wider.free):
-        if f.parameter == RANDOM:
+        if f.level == RANDOM:
             theta[i] = min(theta[i], f.mean)
-        if f.parameter == NOISE:
+        if f.level == NOISE:
             theta[i] -= 0.35
-        if f.parameter == FADE:
+        if f.level == FADE and i >= len(fit.theta):
             theta[i] = math.log(samples * wider.observations[0].dt)
     return wider.clip(theta)

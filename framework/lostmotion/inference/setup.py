@@ -17,10 +17,11 @@ from lostmotion.inference.modes import Tried, distinct
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.drive import substeps
 from lostmotion.likelihood.levels import LEVELS_TRIED, noise_frees, own_levels, random_level, usual_of
-from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.observation import Observation, filled
 from lostmotion.likelihood.problem import Problem, Scales
 from lostmotion.likelihood.space import LEVELS, NOISE, OFFSET, RANDOM, Free, keys_of
 from lostmotion.likelihood.system import Slot, System
+from lostmotion.quantities import quantity_of, unit_of
 
 HELD_OUT = 0.3
 SHARED = Sensor("shared")
@@ -33,6 +34,8 @@ WITHIN = 20.0
 SLACK = 30.0
 """Before the final fits a hill may be this much lower, in log posterior."""
 
+ORDERS = ("position", "velocity", "acceleration")
+"""What sensors of motion show, by how often it was differentiated."""
 COARSE, FINE = 0.06, 0.015
 """Final estimates take steps a quarter as long as those of the search: a kink makes RK4 first order."""
 
@@ -52,22 +55,43 @@ def scales_of(system: System, observations: Sequence[Observation], known: Array)
 
 
 def _sizes(system: System, observations: Sequence[Observation], known: Array) -> Scales:
-    rate = float(np.median([_rate(t) for t in observations]))
-    size = float(np.median([t.amplitude for t in observations]))
-    if observations[0].channel == "force":
+    sensor = telling(observations[0])
+    rate = float(np.median([_rate(t, sensor) for t in observations]))
+    size = math.sqrt(2.0) * float(np.median([np.nanstd(t.readings[:, sensor]) for t in observations]))
+    quantity = quantity_of(observations[0].sensors[sensor].channel)
+    if quantity == "force":
         return Scales(size, float(np.median([t.travel for t in observations])), 1.0 / rate)
-    length = size / rate ** {"position": 0, "velocity": 1, "acceleration": 2}[observations[0].channel]
-    if "force" in system.model.inputs:
-        force = math.sqrt(2.0) * float(np.sqrt(np.mean([np.var(t.inputs[:, 0]) for t in observations])))
-        force = force or float(np.mean([np.abs(t.inputs[:, 0]).max() for t in observations]))
-    else:
-        force = known[system.index[system.model.interfaces[0].inertia]] * length * rate**2
+    length = size / rate ** ORDERS.index(quantity)
+    inertia = known[system.index[system.model.interfaces[0].inertia]]
+    pushes = [_push(system, t, inertia) for t in observations]
+    force = float(np.sqrt(np.mean(np.square([varying for varying, _ in pushes]))))
+    force = force or float(np.mean([peak for _, peak in pushes])) or inertia * length * rate**2
     return Scales(force, length, 1.0 / rate)
 
 
-def _rate(observation: Observation) -> float:
-    """Return the rms angular frequency (rad/s) of the response above its noise floor."""
-    z = np.where(np.isfinite(observation.response), observation.response, np.nanmean(observation.response))
+def telling(observation: Observation) -> int:
+    """Return the number of the sensor that tells the size of the motion: a position, else the next best there is."""
+    order = (*ORDERS, "force")
+    kinds = [order.index(quantity_of(sensor.channel)) for sensor in observation.sensors]
+    return int(np.argmin(kinds))
+
+
+def _push(system: System, observation: Observation, inertia: float) -> tuple[float, float]:
+    """Return the amplitude (sqrt(2) times the standard deviation) of all forces that drive a machine, and their peak.
+
+    A base that is shaken pushes by its acceleration; one that moves through a joint pushes by an unknown force: zero.
+    """
+    squares, peak = 0.0, 0.0
+    for name, u in zip(system.model.inputs, observation.inputs.T, strict=True):
+        weight = inertia if name == "base_acceleration" else float(quantity_of(name) == "force")
+        squares += 2.0 * weight**2 * float(np.var(u))
+        peak = max(peak, weight * float(np.abs(u).max()))
+    return math.sqrt(squares), peak
+
+
+def _rate(observation: Observation, sensor: int) -> float:
+    """Return the rms angular frequency (rad/s) of the readings of a sensor above their noise floor."""
+    z = filled(observation.readings[:, sensor])
     power = np.abs(np.fft.rfft((z - z.mean()) * np.hanning(len(z)))) ** 2
     floor = 3.0 * float(np.median(power[-len(power) // 5 :]))
     power = np.maximum(power - floor, 0.0)
@@ -159,7 +183,7 @@ def rate_of(problem: Problem, theta: Array) -> float:
     states[:, 0] = np.repeat(grid, 3) * scales.length
     states[:, 1] = np.tile([-1.0, 0.03, 1.0], len(grid)) * scales.velocity
     middle = np.repeat(np.mean(observation.inputs, axis=0)[None], len(states), axis=0)
-    alike = all(f.recording is None or f.parameter in LEVELS for f in problem.free)
+    alike = all(f.recording is None or f.level in LEVELS for f in problem.free)
     fulls = [problem.full(theta, i) for i in range(1 if alike else len(problem.observations))]
     return max(1.0 / scales.time, *(system.stiffness(full, problem.active, states, middle) for full in fulls))
 
@@ -195,7 +219,7 @@ def _tried(problem: Problem, beginning: Problem, rng: np.random.Generator, point
 
     A parameter that each recording has for itself starts at the same value in all of them.
     """
-    names = list(dict.fromkeys(f.parameter for f in problem.free if f.parameter not in LEVELS))
+    names = list(dict.fromkeys(f.parameter for f in problem.free if f.level not in LEVELS))
     starts = np.repeat(problem.start[None], points, axis=0)
     cube = np.full((points, len(names)), 0.5)
     if names:
@@ -261,11 +285,11 @@ def separated(fit: Fit, sensor: Sensor) -> Fit:
     """
     problem = restarted(fit)
     own = sensor.noise == "each" and len(problem.observations) > 1 and RANDOM in problem.keys
-    zeros = () if any(f.parameter == OFFSET for f in problem.free) else _offsets(problem, sensor.offset)
+    zeros = () if any(f.level == OFFSET for f in problem.free) else _offsets(problem, sensor.offset)
     if not own and not zeros:
         return fit
-    kept = tuple(f for f in problem.free if f.parameter not in (RANDOM, NOISE))
-    levels = tuple(f for f in problem.free if f.parameter in (RANDOM, NOISE))
+    kept = tuple(f for f in problem.free if f.level not in (RANDOM, NOISE))
+    levels = tuple(f for f in problem.free if f.level in (RANDOM, NOISE))
     if own:
         levels = own_levels(problem, float(fit.theta[problem.keys.index(RANDOM)]))
     apart = replace(problem, free=(*kept, *zeros, *levels))
@@ -273,14 +297,16 @@ def separated(fit: Fit, sensor: Sensor) -> Fit:
 
 
 def _offsets(problem: Problem, prior: Prior | None) -> tuple[Free, ...]:
-    """Return the zero of the response sensor in each recording; none where it is known."""
+    """Return the zero of each sensor in each recording; none where it is known."""
     if prior is None:
         return ()
-    rotation, channel = problem.system.model.motion == "rotation", problem.observations[0].channel
-    per = {"position": "", "velocity": "/s", "acceleration": "/s^2"}
-    unit = ("N m" if rotation else "N") if channel == "force" else ("rad" if rotation else "m") + per[channel]
-    keys = keys_of(OFFSET, [observation.name for observation in problem.observations])
-    return tuple(_free(key, unit, prior, (-math.inf, math.inf)) for key in keys)
+    motion, first = problem.system.model.motion, problem.observations[0]
+    names = [observation.name for observation in problem.observations]
+    return tuple(
+        _free(key, unit_of(sensor.channel, motion), prior, (-math.inf, math.inf))
+        for i, sensor in enumerate(first.sensors)
+        for key in keys_of(first.level(OFFSET, i), names)
+    )
 
 
 def polish(fit: Fit) -> Fit:

@@ -32,8 +32,10 @@ from lostmotion.kernels.crossing import (
 )  # fmt: skip
 from lostmotion.kernels.inputs import (
     DRAWN,
+    INPUTS,
     SOURCES,
     STEP,
+    between,
     driven,
 )  # fmt: skip
 from lostmotion.kernels.vector import (
@@ -52,40 +54,84 @@ from lostmotion.kernels.vector import (
     whole,
 )  # fmt: skip
 
+LEVELS = 6
+"""Rows that tell of a sensor: variances of white and slow noise, how the slow one fades, gain, offset and lag (s)."""
 SILENT = 1.0 / (2.0 * math.pi)
 """The variance noted where nothing was read: with an error of zero it adds nothing to a log-likelihood."""
 
 
 @jit
-def linearised(derive, observe, space, wires, work, channel, step, lanes):  # type: ignore[no-untyped-def]
+def driven_late(space, wires, u, which, begin, k, levels, row, share, dt, lanes):  # type: ignore[no-untyped-def]
+    """Hand the inputs at a `share` of the lag of each point before sample `k`, and the time, to the model."""
+    for lane in range(lanes):
+        past = share * value(levels, row, lane)
+        sample = which[lane] + k
+        for i in range(wires[INPUTS]):
+            assign(space, wires[3] + i, lane, between(u, sample, wires[INPUTS], i, -past / dt))
+        assign(space, wires[0], lane, value(begin, 0, lane) + k * dt - past)
+
+
+@jit
+def rewound(derive, space, wires, work, inputs, lanes):  # type: ignore[no-untyped-def]
+    """Take the states in the block back by the lag of a sensor, a midpoint step against time; return a failure."""
+    u, which, begin, k, levels, row, dt, _ = inputs
+    driven_late(space, wires, u, which, begin, k, levels, row, 0.0, dt, lanes)
+    failed = call(derive, space, wires, lanes)
+    for o in range(0, lanes, WIDTH):
+        lag = load(levels, row, o)
+        for a in range(N):
+            y = load(space, wires[1] + a, o)
+            store(work, T + a, o, y)
+            store(space, wires[1] + a, o, y - 0.5 * lag * load(space, wires[2] + a, o))
+    driven_late(space, wires, u, which, begin, k, levels, row, 0.5, dt, lanes)
+    failed |= call(derive, space, wires, lanes)
+    for o in range(0, lanes, WIDTH):
+        lag = load(levels, row, o)
+        for a in range(N):
+            store(space, wires[1] + a, o, load(work, T + a, o) - lag * load(space, wires[2] + a, o))
+    driven_late(space, wires, u, which, begin, k, levels, row, 1.0, dt, lanes)
+    return failed
+
+
+@jit
+def shown_at(functions, space, wires, work, column, side, inputs, lanes):  # type: ignore[no-untyped-def]
+    """Let the model show its channels with state `column` a reach to one side (none if -1); return a failure."""
+    derive, observe = functions
+    for o in range(0, lanes, WIDTH):
+        for a in range(N):
+            y = load(work, Y + a, o)
+            if a == column:
+                y = y + side * (load(work, REACH + a, o) + TINY * (1.0 + size(y)))
+            store(space, wires[1] + a, o, y)
+    failed = False
+    if inputs[7]:
+        failed |= rewound(derive, space, wires, work, inputs, lanes)
+    return failed | call(derive, space, wires, lanes) | call(observe, space, wires, lanes)
+
+
+@jit
+def linearised(functions, space, wires, work, channel, step, inputs, lanes):  # type: ignore[no-untyped-def]
     """Write what a sensor should show, and its slopes over the states, into `EXPECTED` and `H`; return a failure."""
     row = wires[4] + channel
     for o in range(0, lanes, WIDTH):
         store(space, wires[STEP], o, step)
         for a in range(N):
-            store(space, wires[1] + a, o, load(work, Y + a, o))
             store(work, REACH + a, o, root(3.0 * load(work, P + a * N + a, o)))
-    failed = call(derive, space, wires, lanes) | call(observe, space, wires, lanes)
+    failed = shown_at(functions, space, wires, work, -1, 0.0, inputs, lanes)
     for o in range(0, lanes, WIDTH):
         store(work, SEEN, o, load(space, row, o))
         store(work, EXPECTED, o, load(space, row, o))
     for c in range(N):
         for side in range(2):
-            for o in range(0, lanes, WIDTH):
-                y = load(work, Y + c, o)
-                d = load(work, REACH + c, o) + TINY * (1.0 + size(y))
-                store(space, wires[1] + c, o, y + (1.0 - 2.0 * side) * d)
-            failed |= call(derive, space, wires, lanes) | call(observe, space, wires, lanes)
+            failed |= shown_at(functions, space, wires, work, c, 1.0 - 2.0 * side, inputs, lanes)
             for o in range(0, lanes, WIDTH):
                 store(work, UP + side, o, load(space, row, o))
         for o in range(0, lanes, WIDTH):
-            y = load(work, Y + c, o)
-            half = 0.5 / (load(work, REACH + c, o) + TINY * (1.0 + size(y)))
+            half = 0.5 / (load(work, REACH + c, o) + TINY * (1.0 + size(load(work, Y + c, o))))
             up, down = load(work, UP, o), load(work, UP + 1, o)
             store(work, H + c, o, (up - down) * half)
             share = 2.0 * load(work, P + c * N + c, o) * half * half
             store(work, EXPECTED, o, load(work, EXPECTED, o) + (up + down - 2.0 * load(work, SEEN, o)) * share)
-            store(space, wires[1] + c, o, y)
     return failed
 
 
@@ -116,11 +162,11 @@ def corrected(work, slow, levels, sensor, z, many, own, errors, variances, k, la
     """Correct the states by one reading of a sensor, of which `EXPECTED` and `H` tell what the model thinks.
 
     `levels` has for each sensor the variances of white and of slow noise, by how much the slow one fades in a sample,
-    its gain and its offset. `slow` holds for each of `many` sensors with slow noise the mean of that, its covariance
+    its gain, its offset and its lag. `slow` holds for each of `many` sensors with slow noise the mean of that, its covariance
     with the states (N rows) and with the slow noise of each sensor; `own` is the place of this sensor among them, or
     -1.
     """
-    first = 5 * sensor
+    first = LEVELS * sensor
     wide = 1 + N + many
     for o in range(0, lanes, WIDTH):
         gauge = load(levels, first + 3, o)
@@ -168,14 +214,14 @@ def faded(slow, levels, sensor, own, many, lanes):  # type: ignore[no-untyped-de
     """Let the slow noise of a sensor fade over one sample, and add what is new of it."""
     wide = 1 + N + many
     for o in range(0, lanes, WIDTH):
-        fade = load(levels, 5 * sensor + 2, o)
+        fade = load(levels, LEVELS * sensor + 2, o)
         for j in range(1 + N):
             store(slow, own * wide + j, o, fade * load(slow, own * wide + j, o))
         for i in range(many):
             store(slow, own * wide + 1 + N + i, o, fade * load(slow, own * wide + 1 + N + i, o))
         for i in range(many):
             store(slow, i * wide + 1 + N + own, o, fade * load(slow, i * wide + 1 + N + own, o))
-        fresh = (1.0 - fade * fade) * load(levels, 5 * sensor + 1, o)
+        fresh = (1.0 - fade * fade) * load(levels, LEVELS * sensor + 1, o)
         row = own * wide + 1 + N + own
         store(slow, row, o, load(slow, row, o) + fresh)
 
@@ -194,7 +240,7 @@ def begun(work, slow, start, noise, levels, sensors, sources, many, nsub, lanes)
         for s in range(sensors.shape[0]):
             own = sensors[s, 2]
             if own >= 0:
-                store(slow, own * wide + 1 + N + own, o, load(levels, 5 * s + 1, o))
+                store(slow, own * wide + 1 + N + own, o, load(levels, LEVELS * s + 1, o))
         store(work, ALIVE, o, 1.0)
         store(work, WISH, o, float(nsub))
         for a in range(N):
@@ -220,13 +266,13 @@ def filtered(functions, blocks, wiring, inputs, drives, z, sensors, dt, nsub, er
 
     `functions` are the addresses of what derives and what observes; `blocks` those of the model, of work, of slow
     noise, and what each point brings: its time at the first sample (1 row); for each sensor the variances of white
-    and of slow noise, by how much the slow one fades in a sample, gain and offset (5 rows each); for each source of
+    and of slow noise, by how much the slow one fades in a sample, gain, offset and lag (6 rows each); for each source of
     noise the number of the state that it enters and its intensity, then for each force that is drawn anew at each
     sample its state and variance (2 rows each); states and covariances to begin with (N + N * N rows). `wiring` holds
     the wires of the model, with the numbers of sources, of drawn forces, of inputs and of drives at `SOURCES` and
     behind. `inputs` (rows, 4, inputs) holds a cubic for each sample, and `drives` (lanes,) the first row of each
-    point. `sensors` (sensors, 3) holds the channel of each, the state that it shows directly or -1, and its place
-    among those with slow noise or -1. `errors` and `variances` are (lanes, samples, sensors); `reached` (lanes,)
+    point. `sensors` (sensors, 4) holds the channel of each, the state that it shows directly or -1, its place
+    among those with slow noise or -1, and whether it is late. `errors` and `variances` are (lanes, samples, sensors); `reached` (lanes,)
     counts the samples that were got through. `kept` is what a smoother needs of the first point: states and
     covariances after and before each sample and the steps between, empty if not wanted.
     """
@@ -254,15 +300,16 @@ def filtered(functions, blocks, wiring, inputs, drives, z, sensors, dt, nsub, er
                     errors[lane, k, s] = 0.0
                     variances[lane, k, s] = SILENT
                 continue
-            direct = sensors[s, 1]
-            if direct >= 0:
+            direct, lagging = sensors[s, 1], sensors[s, 3] > 0
+            if direct >= 0 and not lagging:
                 for o in range(0, lanes, WIDTH):
                     for a in range(N):
                         store(work, H + a, o, 1.0 if a == direct else 0.0)
                     store(work, EXPECTED, o, load(work, Y + direct, o))
             else:
                 driven(space, wires, u, which, begin, k, 0.0, dt, lanes)
-                failed |= linearised(derive, observe, space, wires, work, sensors[s, 0], dt / nsub, lanes)
+                given = (u, which, begin, k, levels, LEVELS * s + 5, dt, lagging)
+                failed |= linearised((derive, observe), space, wires, work, sensors[s, 0], dt / nsub, given, lanes)
             corrected(work, slow, levels, s, z[k, s], many, sensors[s, 2], errors, variances, k, lanes)
         living = False
         for lane in range(lanes):

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from lostmotion.contracts import Array, Input
+from lostmotion.contracts import Array
 
 QUARTERS = np.array([0.125, 0.375, 0.625, 0.875])
 """The middles of the quarters of a sample, where an input that is held is looked at as its mean over a quarter."""
@@ -66,17 +66,19 @@ class Drive:
         return cls(cubics, dt)
 
     @classmethod
-    def acting(cls, u: Input, grid: Drive, held: bool) -> Drive:
-        """Return the drive of an input with as many orders as another drive has inputs, on the samples of that.
+    def acting(cls, columns: Sequence[Callable[[Array], Array] | None], grid: Drive, held: bool) -> Drive:
+        """Return a drive on the samples of another: of functions of time (s), or where there is None of its own inputs.
 
         One that is `held` is a line over each sample, with the mean and the first moment of the input.
         """
         places = QUARTERS if held else _THIRDS
         t = grid.begin + ((np.arange(grid.samples)[:, None] + places) * grid.dt).ravel()
-        orders = range(grid.cubics.shape[2])
-        values = np.stack([np.asarray(u(t, order)).reshape(grid.samples, 4) for order in orders], axis=2)
-        cubics = np.zeros_like(grid.cubics)
-        cubics[:, : 2 if held else 4] = _fitted(_LINE if held else _CUBIC, values)
+        cubics = grid.cubics.copy()
+        for i, column in enumerate(columns):
+            if column is not None:
+                values = np.asarray(column(t), dtype=float).reshape(grid.samples, 4, 1)
+                cubics[:, :, i] = 0.0
+                cubics[:, : 2 if held else 4, i] = _fitted(_LINE if held else _CUBIC, values)[:, :, 0]
         return replace(grid, cubics=cubics)
 
 

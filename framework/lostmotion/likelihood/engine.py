@@ -49,7 +49,8 @@ class Points:
     `params` (points, parameters) are in the order of `System.slots`; `process` is the intensity (N^2 s, N^2 m^2 s) of
     the random force and `pace` (1/s) how fast a latent one fades; for each sensor, (points, sensors), `white` and
     `slow` are the variances of white noise and of noise with a memory, of which the share `fade` is left after a
-    sample, `gain` and `offset` what the sensor makes of its channel. The states of model and terms begin at `mean`
+    sample, `gain` and `offset` what the sensor makes of its channel, and `lag` (s) by how much it is late: a part of a
+    sample, either way. The states of model and terms begin at `mean`
     (points, n) with `covariance` (points, n, n). `drives` are what drives them, `which` (points,) of them each point,
     and `first` (points,) the sample of its drive at which a simulation begins.
     """
@@ -62,6 +63,7 @@ class Points:
     fade: Array
     gain: Array
     offset: Array
+    lag: Array
     mean: Array
     covariance: Array
     drives: tuple[Drive, ...]

@@ -25,11 +25,11 @@ def initial(problem: Problem, fulls: Array, gain: Array, offset: Array, index: i
     mean, cov = np.zeros((len(fulls), n)), np.zeros((n, n))
     for i, name in enumerate(model.states):
         cov[i, i] = (scales.velocity if i == 1 or "velocity" in name else scales.length) ** 2
-    if observation.channel == "force":
+    if all(sensor.channel.endswith("force") for sensor in observation.sensors):
         return _by_force(problem, fulls, offset[:, 0], (mean, cov), index)
     for number, sensor in enumerate(observation.sensors):
         state = model.states.index(sensor.channel) if sensor.channel in model.states else -1
-        if "position" in sensor.channel and state >= 0:
+        if "position" in sensor.channel and state >= 0 and not np.isnan(observation.first[number][0]):
             _at_reading(observation, number, (state, scales.length), (mean, cov), gain[:, number], offset[:, number])
     return mean, np.tile(cov, (len(fulls), 1, 1))
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
@@ -37,11 +38,11 @@ class Lanes(Engine):
         """Return one-step errors and their variances, (points, samples, sensors)."""
         shape = (len(points), observation.samples, len(observation.sensors))
         errors, variances, reached = np.zeros(shape), np.ones(shape), np.zeros(len(points), dtype=np.int64)
-        for begin in range(0, len(points), STRIDE):
-            part = slice(begin, begin + STRIDE)
-            self._track(
-                dynamics, observation, points.taken(part), (errors[part], variances[part], reached[part]), _NONE
-            )
+        for rows in _alike(points):
+            written = (errors[rows], variances[rows], reached[rows])
+            self._track(dynamics, observation, points.taken(rows), written, _NONE)
+            if not isinstance(rows, slice):
+                errors[rows], variances[rows], reached[rows] = written
         return Innovations.of(errors, variances, reached)
 
     def smooth(self, dynamics: Dynamics, observation: Observation, points: Points) -> Smoothed:
@@ -87,7 +88,7 @@ class Lanes(Engine):
         """Run the filter at up to `STRIDE` points, into the given arrays."""
         system, drives, n = dynamics.system, points.drives, dynamics.states + dynamics.forces
         tone, dt, nsub = drives[0].tone, observation.dt, fine_steps(dynamics.nsub)
-        numbers = _numbers_of(observation, dynamics)
+        numbers = _numbers_of(observation, dynamics, points)
         forces = tuple(dynamics.states + i for i in range(dynamics.forces))
         packed = system.pack(points.params, dt / nsub, tone)
         packed[:, system.blueprint.rows.pace - system.blueprint.rows.params] = points.pace
@@ -98,7 +99,7 @@ class Lanes(Engine):
         wires[DRIVES] = len(used)
         each = np.searchsorted(used, points.which) * observation.samples
         which = each[np.minimum(np.arange(STRIDE), len(points) - 1)].astype(np.int64)
-        levels = np.stack([points.white, points.slow, points.fade, points.gain, points.offset], axis=2)
+        levels = np.stack([points.white, points.slow, points.fade, points.gain, points.offset, points.lag], axis=2)
         mean, covariance = _begun(dynamics, points)
         kernels = filter_kernels(n, self.compiled)
         many = int(numbers[:, 2].max()) + 1
@@ -136,13 +137,28 @@ def fine_steps(steps: int) -> int:
     return int(1 << (max(steps, 1) - 1).bit_length())
 
 
-def _numbers_of(observation: Observation, dynamics: Dynamics) -> NDArray[np.int64]:
-    """Return channel, directly shown state, and place among those with slow noise, of each sensor, (sensors, 3)."""
+def _alike(points: Points) -> Iterator[slice | NDArray[np.intp]]:
+    """Yield which points are computed together: up to `STRIDE` of which the same sensors are late."""
+    late = points.lag != 0.0
+    if not late.any():
+        yield from (slice(begin, begin + STRIDE) for begin in range(0, len(points), STRIDE))
+        return
+    for pattern in np.unique(late, axis=0):
+        rows = np.flatnonzero(np.all(late == pattern, axis=1))
+        yield from (rows[begin : begin + STRIDE] for begin in range(0, len(rows), STRIDE))
+
+
+def _numbers_of(observation: Observation, dynamics: Dynamics, points: Points) -> NDArray[np.int64]:
+    """Return of each sensor channel, directly shown state, place among those with slow noise, and whether it is late.
+
+    The shape is (sensors, 4).
+    """
     slow = -1
     rows = []
-    for sensor in observation.sensors:
+    for number, sensor in enumerate(observation.sensors):
         slow += sensor.noise.kind == "ar1"
-        rows.append((*dynamics.system.channel(sensor.channel), slow if sensor.noise.kind == "ar1" else -1))
+        own, late = slow if sensor.noise.kind == "ar1" else -1, bool(points.lag[0, number])
+        rows.append((*dynamics.system.channel(sensor.channel), own, late))
     return np.array(rows, dtype=np.int64)
 
 

@@ -9,8 +9,13 @@ import numpy as np
 
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import USUAL, Problem, Scales
-from lostmotion.likelihood.space import NOISE, RANDOM, Free, keys_of
+from lostmotion.likelihood.space import FADE, NOISE, RANDOM, SLOW, Free, keys_of
 
+SHORTEST, LONGEST = 0.7, 0.5
+"""A memory of noise lasts at least so many samples, and at most this share of the natural time of the motion: what is
+slower is a motion of the machine, or a zero that drifts."""
+LASTING = 3.0
+"""However coarsely it is sampled, a memory of so many samples is allowed."""
 LEVELS_TRIED = (0.3, 0.05, 0.008)
 """Random forces, as shares of the drive, with which starting points are compared: a large one lets the filter follow
 whatever the parameters, a small one tells good parameters from bad ones."""
@@ -27,19 +32,19 @@ def usual_of(problem: Problem, rate: float) -> float:
     """
     system, observation = problem.system, problem.observations[0]
     size = USUAL * problem.scales.force
-    if "force" not in system.model.inputs:
+    if system.model.inputs[observation.lead] == "base_position":
         inertia = problem.known[system.index[system.model.interfaces[0].inertia]]
-        size = USUAL * math.sqrt(2.0) * float(np.std(observation.inputs[:, 0])) * inertia * rate**2
+        size = USUAL * math.sqrt(2.0) * float(np.std(observation.excitation)) * inertia * rate**2
     return math.log(max(size, 1e-300) ** 2 * observation.dt)
 
 
 def own_drive(problem: Problem, index: int) -> float:
     """Return the log intensity of the drive of one recording over that on which what is usual for all rests."""
     observation, first = problem.observations[index], problem.observations[0]
-    own = math.sqrt(2.0) * float(np.std(observation.inputs[:, 0])) or float(np.abs(observation.inputs[:, 0]).max())
+    own = math.sqrt(2.0) * float(np.std(observation.excitation)) or float(np.abs(observation.excitation).max())
     common = problem.scales.force
-    if "force" not in problem.system.model.inputs:
-        common = math.sqrt(2.0) * float(np.std(first.inputs[:, 0]))
+    if problem.system.model.inputs[first.lead] != "force":
+        common = math.sqrt(2.0) * float(np.std(first.excitation))
     return math.log(((own / common) ** 2 or 1.0) * observation.dt / first.dt) if common else 0.0
 
 
@@ -48,15 +53,33 @@ def random_level(observations: Sequence[Observation], scales: Scales, share: flo
     return math.log((share * scales.force) ** 2 * observations[0].dt)
 
 
-def noise_frees(observations: Sequence[Observation], scales: Scales) -> tuple[Free, Free]:
-    """Return the two noise levels: the intensity of a random force, and the measurement noise, as logarithms.
+def noise_frees(observations: Sequence[Observation], scales: Scales) -> tuple[Free, ...]:
+    """Return the noise levels: the intensity of a random force, and the noise of each sensor, as logarithms.
 
-    The random force has a broad normal prior about the usual noise of a measured excitation.
+    The random force has a broad normal prior about the usual noise of a measured excitation. A sensor that is said to
+    have noise with a memory has its size and length beside the white one.
     """
     usual = scales.usual
     start = max(random_level(observations, scales, LEVELS_TRIED[0]), usual + 2.0)
     random = Free(RANDOM, "1", start, usual + LEAST, start + 6.0, mean=usual, sd=4.0)
-    return random, _noise(NOISE, float(np.median([t.noise for t in observations])))
+    first, frees = observations[0], [random]
+    for i, sensor in enumerate(first.sensors):
+        size = float(np.median([t.noises[i] for t in observations]))
+        frees.append(_noise(first.level(NOISE, i), size))
+        if sensor.noise.kind == "ar1":
+            frees += memory_frees(first, i, math.log(size), scales)
+    return tuple(frees)
+
+
+def memory_frees(observation: Observation, sensor: int, noise: float, scales: Scales) -> tuple[Free, Free]:
+    """Return size and length (s) of noise with a memory of a sensor, both as logarithms; `noise` is that of the white."""
+    dt = observation.dt
+    low, high = math.log(SHORTEST * dt), math.log(max(LONGEST * scales.time, LASTING * dt))
+    middle = min(math.log(3.0 * dt), high)
+    return (
+        Free(observation.level(SLOW, sensor), "1", noise - 0.5, noise - 5.0, noise + 3.0),
+        Free(observation.level(FADE, sensor), "1", middle, low, high, mean=middle, sd=1.0),
+    )
 
 
 def own_levels(problem: Problem, random: float) -> tuple[Free, ...]:
@@ -69,14 +92,13 @@ def own_levels(problem: Problem, random: float) -> tuple[Free, ...]:
     names = [observation.name for observation in observations]
     most = max(random_level(observations, scales, LEVELS_TRIED[0]), scales.usual + 2.0) + 6.0
     frees: list[Free] = []
-    for i, (forced, noisy) in enumerate(zip(keys_of(RANDOM, names), keys_of(NOISE, names), strict=True)):
+    for i, forced in enumerate(keys_of(RANDOM, names)):
         more = own_drive(problem, i)
         usual, high = scales.usual + more, most + more
         start = min(max(random + more, usual + LEAST), high)
-        frees += [
-            Free(forced, "1", start, usual + LEAST, high, mean=usual, sd=4.0),
-            _noise(noisy, observations[i].noise),
-        ]
+        frees.append(Free(forced, "1", start, usual + LEAST, high, mean=usual, sd=4.0))
+        for sensor, size in enumerate(observations[i].noises):
+            frees.append(_noise(keys_of(observations[i].level(NOISE, sensor), names)[i], size))
     return tuple(frees)
 
 

@@ -3,20 +3,29 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
-from typing import Any
+from functools import cached_property, partial
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from scipy.interpolate import CubicSpline
 from scipy.optimize import brentq, minimize_scalar
 
 from lostmotion.contracts import Array, Interface, Model
-from lostmotion.errors import CaseError
+from lostmotion.errors import CaseError, nearest
 from lostmotion.likelihood.drive import SILENT, Drive, Tone
-from lostmotion.likelihood.sensors import Sensor
+from lostmotion.likelihood.sensors import NOISES, Sensor
+from lostmotion.likelihood.space import level_of
 from lostmotion.likelihood.splines import smoothing_spline
 from lostmotion.recording import Recording
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+FIRST = 9
+"""Readings of a sensor that tell where the motion begins."""
 
 
 @dataclass(frozen=True)
@@ -24,7 +33,9 @@ class Observation:
     """One recording as an engine sees it: `inputs` (samples, inputs) and `readings` (samples, sensors), every `dt` s.
 
     A reading that is NaN was not taken. `begin` is where it starts in the recording, in samples; `held` says that the
-    input is constant between the samples; `tone` is the drive of the whole recording.
+    inputs are constant between the samples; `tone` is the drive of the whole recording. `driven` are the inputs that
+    were recorded, by name, none where the machine is left to itself; `lead` is the column of the one that drives it
+    and `slope` that of its time derivative, where the model has this as an input of its own.
     """
 
     name: str
@@ -35,10 +46,14 @@ class Observation:
     held: bool = False
     begin: int = 0
     tone: Tone = SILENT
+    driven: tuple[str, ...] | None = None
+    lead: int = 0
+    slope: int | None = None
 
     @classmethod
     def of(cls, name: str, response: Array, inputs: Array, dt: float, channel: str, **more: Any) -> Observation:
         """Return the observation of one sensor with the readings `response` (samples,)."""
+        more = {"slope": 1 if inputs.shape[1] == 2 else None} | more
         return cls(name, np.asarray(response, dtype=float)[:, None], inputs, dt, (Sensor(channel),), **more)
 
     @property
@@ -50,6 +65,10 @@ class Observation:
     def channel(self) -> str:
         """The channel of the first sensor."""
         return self.sensors[0].channel
+
+    def level(self, name: str, sensor: int) -> str:
+        """Return the parameter for a level of a sensor: `log_noise`, or `log_noise:name` where there are several."""
+        return level_of(name, self.sensors[sensor].label, len(self.sensors) > 1)
 
     @property
     def samples(self) -> int:
@@ -87,27 +106,42 @@ class Observation:
     def _spline(self) -> CubicSpline:
         return CubicSpline(np.arange(self.samples) * self.dt, self.inputs)
 
-    def recorded(self, t: Array, order: int) -> Array:
-        """Return the recorded input of some order at times `t` (s, from the start of the recording), of any shape.
+    def recorded(self, column: int, t: Array) -> Array:
+        """Return a recorded input at times `t` (s, from the start of the recording), of any shape.
 
         Beyond its ends it stays what it is there. One that is held between the samples is the mean over a quarter of a
         sample.
         """
         start, last = self.begin * self.dt, (self.samples - 1) * self.dt
         if not self.held:
-            return np.asarray(self._spline(np.clip(t - start, 0.0, last))[..., order])
+            return np.asarray(self._spline(np.clip(t - start, 0.0, last))[..., column])
         half = 0.125 * self.dt
         edges = np.arange(self.samples + 1) * self.dt
-        sums = np.concatenate([[0.0], np.cumsum(self.inputs[:, order])]) * self.dt
+        sums = np.concatenate([[0.0], np.cumsum(self.inputs[:, column])]) * self.dt
         middle = np.clip(t - start, half, edges[-1] - half)
         return np.asarray(
             (np.interp(middle + half, edges, sums) - np.interp(middle - half, edges, sums)) / (2.0 * half)
         )
 
+    @property
+    def columns(self) -> tuple[Callable[[Array], Array], ...]:
+        """The recorded inputs as functions of time (s, from the start of the recording)."""
+        return tuple(partial(self.recorded, column) for column in range(self.inputs.shape[1]))
+
+    @property
+    def free(self) -> bool:
+        """Whether nothing drives the machine."""
+        return self.driven == ()
+
+    @cached_property
+    def excitation(self) -> Array:
+        """The input (samples,) that drives the machine."""
+        return self.inputs[:, self.lead]
+
     @cached_property
     def period(self) -> float | None:
         """The period of the drive in samples, or None where no line stands out of the spectrum of the input."""
-        return period_of(self.inputs[:, 0])
+        return period_of(self.excitation)
 
     @cached_property
     def noises(self) -> tuple[float, ...]:
@@ -124,28 +158,55 @@ class Observation:
         """The amplitude of the response: sqrt(2) times its standard deviation."""
         return math.sqrt(2.0) * float(np.nanstd(self.response))
 
+    def amplitude_of(self, label: str) -> float:
+        """Return the amplitude of the readings of a sensor, of the only one if `label` is empty."""
+        labels = [sensor.label for sensor in self.sensors]
+        return math.sqrt(2.0) * float(np.nanstd(self.readings[:, labels.index(label) if label else 0]))
+
     @cached_property
     def travel(self) -> float:
         """The amplitude of the first input, for instance of a base motion: sqrt(2) times its standard deviation."""
-        return math.sqrt(2.0) * float(np.std(self.inputs[:, 0]))
+        return math.sqrt(2.0) * float(np.std(self.excitation))
 
     @cached_property
     def first(self) -> tuple[tuple[float, float], ...]:
-        """The reading of each sensor and its time derivative at the first sample, from a parabola."""
-        return tuple(_begun(z, self.dt) for z in self.readings[:9].T)
+        """The reading of each sensor and its time derivative at the first sample, from a parabola.
+
+        NaN for a sensor that has fewer than three readings among the first samples.
+        """
+        return tuple(_begun(z, self.dt) for z in self.readings[: FIRST * self.sparsest].T)
+
+    @cached_property
+    def sparsest(self) -> int:
+        """The samples from one reading to the next of the slowest sensor; 1 where each sample has all of them."""
+        counts = np.count_nonzero(np.isfinite(self.readings), axis=0)
+        return max(1, round(self.samples / max(int(counts.min()), 1)))
+
+
+def shifted(observation: Observation, late: Sequence[int], most: int) -> Observation:
+    """Return an observation with each sensor moved ahead by the samples that it is `late`.
+
+    Of each sensor the first `most` readings are left out, so that as many remain whatever its delay is.
+    """
+    readings = np.full_like(observation.readings, np.nan)
+    for sensor, lag in enumerate(late):
+        stop = observation.samples - lag
+        readings[most - lag : stop, sensor] = observation.readings[most:, sensor]
+    return replace(observation, readings=readings)
 
 
 def _begun(z: Array, dt: float) -> tuple[float, float]:
     """Return value and time derivative at the first of a few readings (samples,)."""
-    kept = np.flatnonzero(np.isfinite(z))
+    kept = np.flatnonzero(np.isfinite(z))[:FIRST]
+    if len(kept) < 3:
+        return math.nan, math.nan
     bend = np.polynomial.Polynomial.fit(kept * dt, z[kept], 2)
     return float(bend(0.0)), float(bend.deriv()(0.0))
 
 
 def _noise(z: Array) -> float:
-    """Return the standard deviation of white noise in readings (samples,), from fourth differences."""
-    fourth = np.diff(z, 4)
-    fourth = fourth[np.isfinite(fourth)]
+    """Return the standard deviation of white noise in readings (samples,), from fourth differences of those taken."""
+    fourth = np.diff(z[np.isfinite(z)], 4)
     size = float(np.median(np.abs(fourth)) / 0.6745 / math.sqrt(70.0)) if len(fourth) else 0.0
     return max(size, 1e-7 * math.sqrt(2.0) * float(np.nanstd(z)))
 
@@ -179,23 +240,45 @@ def static_equilibrium(observation: Observation, model: Model, p: Array) -> tupl
 
 
 def observation_of(recording: Recording, model: Model, *, held: bool = False) -> Observation:
-    """Return the observation of a recording for `model`; the velocity of a measured base motion comes from a spline."""
-    excitation = recording.data["excitation"]
-    u = rounded(np.asarray(excitation.values, dtype=float))
-    offered = "base_position" if excitation.attrs.get("quantity") == "base_position" else "force"
-    if offered not in model.inputs:
+    """Return the observation of a recording for `model`; the velocity of a measured base motion comes from a spline.
+
+    An input of the model that was not recorded is zero. Raises `CaseError` for inputs and channels the model lacks.
+    """
+    inputs = np.zeros((recording.n, len(model.inputs)))
+    driven = tuple(str(array.attrs["of"]) for array in recording.inputs)
+    for name, array in zip(driven, recording.inputs, strict=True):
+        if name not in model.inputs:
+            raise CaseError(
+                f"{model.name} is driven by {' and '.join(model.inputs)}, but the excitation of {recording.name} is a"
+                f" {name}{nearest(name, model.inputs)}: choose another model or another column"
+            )
+        inputs[:, model.inputs.index(name)] = rounded(np.asarray(array.values, dtype=float))
+    if "base_position" in driven and "base_velocity" in model.inputs and "base_velocity" not in driven:
+        spline = smoothing_spline(inputs[:, model.inputs.index("base_position")], recording.dt)
+        inputs[:, model.inputs.index("base_velocity")] = spline.derivative()(np.arange(recording.n) * recording.dt)
+        inputs[:, model.inputs.index("base_position")] = spline(np.arange(recording.n) * recording.dt)
+    readings = np.stack([rounded(np.asarray(array.values, dtype=float)) for array in recording.sensors], axis=1)
+    sensors = tuple(_sensor(array, model, recording.name) for array in recording.sensors)
+    lead = model.inputs.index(driven[0]) if driven else 0
+    bare = Observation(recording.name, readings, inputs, recording.dt, sensors, held=held, driven=driven, lead=lead)
+    return replace(bare, slope=slope_of(model.inputs, lead), tone=tone_of(bare))
+
+
+def slope_of(inputs: Sequence[str], lead: int) -> int | None:
+    """Return the column of the time derivative of an input of a model; None where the model has no such input."""
+    moved = inputs[lead] == "base_position" and "base_velocity" in inputs
+    return list(inputs).index("base_velocity") if moved else None
+
+
+def _sensor(array: xr.DataArray, model: Model, recording: str) -> Sensor:
+    """Return the sensor behind an array of a recording; one of a channel that the model does not show is refused."""
+    channel, name = str(array.attrs["of"]), str(array.attrs["sensor"])
+    if channel not in model.channels:
         raise CaseError(
-            f"{model.name} is driven by {' and '.join(model.inputs)}, but the excitation of {recording.name} is a"
-            f" {excitation.attrs.get('quantity')}: choose another model or another column"
+            f"{model.name} shows {', '.join(model.channels)}, but {name or 'the response'} of {recording} is a"
+            f" {channel}{nearest(channel, model.channels)}: choose another model or another column"
         )
-    inputs = u[:, None]
-    if offered == "base_position":
-        spline = smoothing_spline(u, recording.dt)
-        t = np.arange(len(u)) * recording.dt
-        inputs = np.stack([spline(t), spline.derivative()(t)], axis=1)
-    z = rounded(np.asarray(recording.data["response"].values, dtype=float))
-    bare = Observation.of(recording.name, z, inputs, recording.dt, _channel(recording, model), held=held)
-    return replace(bare, tone=tone_of(bare))
+    return Sensor(channel, name, NOISES[str(array.attrs["noise"])]())
 
 
 def rounded(values: Array) -> Array:
@@ -217,16 +300,10 @@ def tone_of(observation: Observation) -> Tone:
     )
 
 
-def _channel(recording: Recording, model: Model) -> str:
-    """Return the channel of the model that the response of a recording shows; a torque is a force of a rotation."""
-    quantity = str(recording.data["response"].attrs["quantity"])
-    channel = "force" if quantity == "torque" else quantity
-    if channel not in model.channels:
-        raise CaseError(
-            f"{model.name} shows {', '.join(model.channels)}, but the response of {recording.name} is a {quantity}:"
-            " choose another model or another column"
-        )
-    return channel
+def filled(values: Array) -> Array:
+    """Return readings (samples,) with straight lines over those that were not taken."""
+    there = np.flatnonzero(np.isfinite(values))
+    return np.asarray(np.interp(np.arange(len(values)), there, values[there]), dtype=float)
 
 
 def period_of(signal: Array) -> float | None:

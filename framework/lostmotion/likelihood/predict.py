@@ -26,20 +26,22 @@ MANY = 2000
 
 @dataclass(frozen=True)
 class Filtered:
-    """A recording filtered at fixed parameters: states (samples, n), innovations, their variances."""
+    """A recording filtered at fixed parameters: states (samples, n), innovations and variances (samples, sensors)."""
 
     states: Array
     errors: Array
     variances: Array
 
     def log_score(self, held: slice) -> float:
-        """Return the mean log density per sample of one-step predictions over the held-out part."""
+        """Return the mean log density per sample of one-step predictions over the held-out part, of all sensors."""
         e, v = self.errors[held], self.variances[held]
-        return float(np.mean(-0.5 * (e * e / v + np.log(2.0 * np.pi * v))))
+        return float(np.mean(np.sum(-0.5 * (e * e / v + np.log(2.0 * np.pi * v)), axis=1)))
 
     def expected_score(self, held: slice) -> float:
         """Return what `log_score` would be if the errors were as large as their variances say."""
-        return float(np.mean(-0.5 * (1.0 + np.log(2.0 * np.pi * self.variances[held]))))
+        v = self.variances[held]
+        taken = np.log(2.0 * np.pi * v) != 0.0
+        return float(np.mean(np.sum(-0.5 * (taken + np.log(2.0 * np.pi * v)), axis=1)))
 
 
 @dataclass(frozen=True)
@@ -61,23 +63,32 @@ class FreeRuns:
 
 
 def filtered(problem: Problem, theta: Array) -> Filtered:
-    """Return the first recording of a problem, filtered at coordinates; errors are those of its first sensor."""
+    """Return the first recording of a problem, filtered at coordinates."""
     seen = problem.smooth(theta)
-    errors, variances = (a[0, :, 0] for a in (seen.innovations.errors, seen.innovations.variances))
+    errors, variances = (a[0] for a in (seen.innovations.errors, seen.innovations.variances))
     return Filtered(seen.filtered[:, : problem.dynamics.states], errors, variances)
 
 
-def free_runs(problem: Problem, theta: Array, states: Array, starts: Array, steps: int, index: int = 0) -> FreeRuns:
-    """Return free predictions of `steps` samples from the filtered `states` at the sample numbers `starts`."""
+def free_runs(
+    problem: Problem, theta: Array, states: Array, starts: Array, steps: int, *, index: int = 0
+) -> tuple[FreeRuns, ...]:
+    """Return free predictions of `steps` samples of a recording, for each sensor.
+
+    They begin at the filtered `states` at the sample numbers `starts`.
+    """
     observation = problem.observations[index]
     runs = _runs(problem, theta, states[starts], starts, steps, index)
-    error = np.full((len(starts), steps), np.nan)
-    for row, start in enumerate(starts):
-        seen = observed(problem, theta, runs[row], (int(start), index))
-        error[row] = seen - observation.response[start : start + steps]
-        error[row, ~np.isfinite(seen)] = math.inf
-    worst = WORST * float(np.nanstd(observation.response))
-    return FreeRuns(np.asarray(np.arange(steps) * observation.dt, dtype=float), np.clip(error, -worst, worst))
+    lead = np.asarray(np.arange(steps) * observation.dt, dtype=float)
+    found = []
+    for sensor, z in enumerate(observation.readings.T):
+        error = np.full((len(starts), steps), np.nan)
+        for row, start in enumerate(starts):
+            seen = observed(problem, theta, runs[row], (int(start), index), sensor)
+            error[row] = seen - z[start : start + steps]
+            error[row, ~np.isfinite(seen)] = math.inf
+        worst = WORST * float(np.nanstd(z))
+        found.append(FreeRuns(lead, np.clip(error, -worst, worst)))
+    return tuple(found)
 
 
 def _runs(
@@ -107,15 +118,20 @@ def kicked_run(problem: Problem, theta: Array, y0: Array, kicks: Array, index: i
 def observed(problem: Problem, theta: Array, states: Array, where: tuple[int, int] = (0, 0), sensor: int = 0) -> Array:
     """Return what a sensor would show of the `states` (steps, n), from sample `where[0]` of a recording."""
     system, (start, index) = problem.system, where
-    observation, gain, offset = problem.observations[index], problem.gain(theta, index), problem.offset(theta, index)
+    observation, (gain, offset, lag) = problem.observations[index], problem.gauge(theta, index, sensor)
     channel, direct = system.channel(observation.sensors[sensor].channel)
     if direct >= 0:
-        return gain * states[:, direct] + offset
-    drive = problem.drive(index, theta)
-    packed = system.pack(problem.full(theta, index)[None], drive.dt / problem.nsub, drive.tone)
-    times = drive.begin + (start + np.arange(len(states))) * drive.dt
-    _, seen = derivatives(system, problem.active, packed, states, drive.inputs[start : start + len(states)], times)
-    return gain * seen[:, channel] + offset
+        shown = states[:, direct]
+    else:
+        drive = problem.drive(index, theta)
+        packed = system.pack(problem.full(theta, index)[None], drive.dt / problem.nsub, drive.tone)
+        times = drive.begin + (start + np.arange(len(states))) * drive.dt
+        inputs = drive.inputs[start : start + len(states)]
+        shown = derivatives(system, problem.active, packed, states, inputs, times)[1][:, channel]
+    if lag:
+        at = np.arange(len(shown)) - lag / observation.dt
+        shown = np.interp(at, np.arange(len(shown)), shown, left=shown[0])
+    return np.asarray(gain * shown + offset)
 
 
 def growth_rates(problem: Problem, theta: Array, y0: Array, index: int = 0) -> Array:

@@ -18,7 +18,7 @@ from lostmotion.likelihood.engine import Dynamics, Innovations, Points, Random, 
 from lostmotion.likelihood.initial import initial
 from lostmotion.likelihood.lanes import Lanes
 from lostmotion.likelihood.motion import lanes_for
-from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.observation import Observation, shifted
 from lostmotion.likelihood.sensors import AR1
 from lostmotion.likelihood.space import (
     FADE,
@@ -32,7 +32,6 @@ from lostmotion.likelihood.space import (
     ParameterSpace,
     Route,
     Scales,
-    level_of,
 )  # fmt: skip
 from lostmotion.likelihood.system import System
 
@@ -42,6 +41,8 @@ __all__ = [
 
 USUAL = 1e-3
 """The noise of a measured excitation as a share of the drive that is usual, and no mechanism left out."""
+LATEST = 0.5
+"""Of several sensors, one may be late by so many natural times of the motion, a radian of it."""
 TOGETHER = 16
 """Points that are computed at once, where the cores have enough of them: more only wait for memory."""
 
@@ -96,22 +97,27 @@ class Problem:
         """Which coordinate stands for what in each recording."""
         return tuple(Route.of(self.keys, observation.name) for observation in self.observations)
 
-    @cached_property
-    def _seen(self) -> tuple[Observation, ...]:
-        """The observations, with noise that has a memory at those sensors of which such a level is free."""
-        return tuple(
-            replace(
-                o,
-                sensors=tuple(
-                    replace(s, noise=AR1()) if self._slow(o, i) in r.columns else s for i, s in enumerate(o.sensors)
-                ),
-            )
-            for o, r in zip(self.observations, self.routes, strict=True)
-        )
+    def _seen(self, index: int, late: tuple[int, ...] = ()) -> Observation:
+        """Return a recording as an engine sees it: with the noise that its sensors have, moved by whole samples.
 
-    @staticmethod
-    def _slow(observation: Observation, sensor: int) -> str:
-        return level_of(SLOW, observation.sensors[sensor].label, len(observation.sensors) > 1)
+        `late` says by how many samples each sensor is late. Where sensors may be late, the same first readings are
+        left out whatever `late` says, so that likelihoods can be compared.
+        """
+        observation, route = self.observations[index], self.routes[index]
+        sensors = tuple(
+            replace(s, noise=AR1()) if observation.level(SLOW, i) in route.columns else s
+            for i, s in enumerate(observation.sensors)
+        )
+        if not (most := self._latest(index)):
+            return replace(observation, sensors=sensors)
+        return shifted(replace(observation, sensors=sensors), late or (0,) * len(sensors), most)
+
+    def _latest(self, index: int) -> int:
+        """Return by how many samples a sensor can be late: where there are several, and terms that make one late."""
+        observation = self.observations[index]
+        if len(observation.sensors) == 1 or not self.system.delaying:
+            return 0
+        return min(math.ceil(LATEST * self.scales.time / observation.dt), observation.samples // 20)
 
     @cached_property
     def dynamics(self) -> Dynamics:
@@ -185,7 +191,12 @@ class Problem:
             rows, inverse = _distinct(thetas[:, route.used])
             places.append(inverse)
             share = min(lanes_for(-(-len(rows) // self.jobs)), TOGETHER)
-            tasks += [(index, rows[k : k + share]) for k in range(0, len(rows), share)]
+            alike = _grouped(rows, self.late(thetas[rows], index))
+            tasks += [(index, some[k : k + share]) for some in alike for k in range(0, len(some), share)]
+            if len(alike) > 1:  # the order of the tasks is another than that of the rows
+                place = np.empty(len(thetas), dtype=np.intp)
+                place[np.concatenate(alike)] = np.arange(len(rows))
+                places[-1] = place[rows if inverse is None else rows[inverse]]
         done = self._each(tasks, thetas)
         found = []
         for index, inverse in enumerate(places):
@@ -194,10 +205,31 @@ class Problem:
             found.append(whole if inverse is None else whole[inverse])
         return found
 
+    def late(self, thetas: Array, index: int = 0) -> list[tuple[int, ...]]:
+        """Return for each of some coordinates (points, n) by how many whole samples each sensor is late."""
+        dt = self.observations[index].dt
+        return [tuple(np.rint(row / dt).astype(int).tolist()) for row in self.lags(self.full(thetas, index), index)]
+
+    def lags(self, fulls: Array, index: int) -> Array:
+        """Return by how much (s) each sensor of a recording is late, (points, sensors); one alone never is.
+
+        What makes a sensor late that is alone delays the drive.
+        """
+        observation, most = self.observations[index], self._latest(index)
+        found = np.zeros((len(fulls), len(observation.sensors)))
+        if most and self.system.gauging(self.active):
+            for s, sensor in enumerate(observation.sensors):
+                for i, full in enumerate(fulls):
+                    terms = self.system.at_sensor(full, self.active, sensor.place)
+                    found[i, s] = sum(term.delay(p) for term, p in terms)
+        return np.clip(found, 0.0, most * observation.dt)
+
     def _each(self, tasks: Sequence[tuple[int, NDArray[np.intp]]], thetas: Array) -> list[Innovations]:
         def work(task: tuple[int, NDArray[np.intp]]) -> Innovations:
             index, rows = task
-            return self.engine.filter(self.dynamics, self._seen[index], self.points(thetas[rows], index))
+            late = self.late(thetas[rows[:1]], index)[0]
+            found = self.engine.filter(self.dynamics, self._seen(index, late), self.points(thetas[rows], index))
+            return _realigned(found, late) if any(late) else found
 
         return each(work, tasks, self.jobs)
 
@@ -210,20 +242,23 @@ class Problem:
         white, slow, fade, offset = (
             np.stack([np.broadcast_to(c[k], len(thetas)) for c in columns], axis=1) for k in range(4)
         )
-        gain = np.ones(shape) * self._gains(fulls)[:, None]
+        gain, more = self._gauged(fulls, index)
+        lag = self.lags(fulls, index)
+        lag = lag - np.rint(lag / observation.dt) * observation.dt
         drives, which = self._drives(fulls, index)
-        mean, covariance = initial(self, fulls, gain, offset, index)
+        mean, covariance = initial(self, fulls, gain, offset + more, index)
         process = np.exp(route.at(thetas, RANDOM))
         first = np.zeros(len(thetas), dtype=np.int64)
-        return Points(fulls, process, pace, white, slow, fade, gain, offset, mean, covariance, drives, which, first)
+        return Points(
+            fulls, process, pace, white, slow, fade, gain, offset + more, lag, mean, covariance, drives, which, first
+        )
 
     def _sensor(self, thetas: Array, index: int, sensor: int) -> tuple[Any, Any, Any, Any]:
         """Return the variances of white and of slow noise, the share of it that a sample leaves, and the zero."""
         observation, route = self.observations[index], self.routes[index]
-        several = len(observation.sensors) > 1
 
         def level(name: str) -> Any:
-            key = level_of(name, observation.sensors[sensor].label, several)
+            key = observation.level(name, sensor)
             return route.at(thetas, key) if key in route.columns else None
 
         noise, slow, fade, offset = (level(name) for name in (NOISE, SLOW, FADE, OFFSET))
@@ -232,15 +267,22 @@ class Problem:
         left = np.exp(-observation.dt / np.exp(fade))
         return np.exp(2.0 * noise), np.exp(2.0 * slow), left, 0.0 if offset is None else offset
 
-    def _gains(self, fulls: Array) -> Array:
-        """Return what the sensors show of one unit, (points,)."""
-        if not self.system.gauging(self.active):
-            return np.ones(len(fulls))
-        return np.array([self.system.gain(full, self.active) for full in fulls])
+    def _gauged(self, fulls: Array, index: int) -> tuple[Array, Array]:
+        """Return what each sensor shows of one unit, and of nothing, (points, sensors) each."""
+        sensors = self.observations[index].sensors
+        gain, offset = np.ones((len(fulls), len(sensors))), np.zeros((len(fulls), len(sensors)))
+        if self.system.gauging(self.active):
+            for s, sensor in enumerate(sensors):
+                for i, full in enumerate(fulls):
+                    terms = self.system.at_sensor(full, self.active, sensor.place)
+                    gain[i, s] = math.prod(term.gain(p) for term, p in terms)
+                    offset[i, s] = sum(term.offset(p) for term, p in terms)
+        return gain, offset
 
     def _drives(self, fulls: Array, index: int) -> tuple[tuple[Drive, ...], NDArray[np.int64]]:
         """Return the distinct inputs that act in a recording, and which of them acts at each point."""
-        observation, keys = self.observations[index], self.system.shaping(self.active)
+        observation = self.observations[index]
+        keys = self.system.shaping(self.active, alone=len(observation.sensors) == 1)
         if not keys:
             return (observation.drive,), np.zeros(len(fulls), dtype=np.int64)
         numbers: dict[Any, int] = {}
@@ -251,8 +293,10 @@ class Problem:
             values = tuple((key, self.system.values(full, key, observation.tone)) for key in acts)
             if values not in numbers:
                 numbers[values] = len(drives)
-                u = self.system.acting(observation.recorded, full, acts, observation.tone)
-                drives.append(Drive.acting(u, observation.drive, observation.held) if acts else observation.drive)
+                columns = self.system.acting(
+                    observation.columns, full, acts, observation.tone, lead=observation.lead
+                )
+                drives.append(Drive.acting(columns, observation.drive, observation.held) if acts else observation.drive)
             which.append(numbers[values])
         return tuple(drives), np.array(which, dtype=np.int64)
 
@@ -260,26 +304,25 @@ class Problem:
         """Return the input that acts in a recording at the coordinates `theta`."""
         return self._drives(self.full(theta, index)[None], index)[0][0]
 
-    def noise(self, theta: Array, index: int = 0) -> tuple[float, float]:
-        """Return the intensity of the random force (N^2 s) and the variance of the white noise of the first sensor."""
-        return math.exp(self.routes[index].at(theta, RANDOM)), float(self._sensor(theta, index, 0)[0])
+    def noise(self, theta: Array, index: int = 0, sensor: int = 0) -> tuple[float, float]:
+        """Return the intensity of the random force (N^2 s) and the variance of the white noise of a sensor."""
+        return math.exp(self.routes[index].at(theta, RANDOM)), float(self._sensor(theta, index, sensor)[0])
 
-    def slow(self, theta: Array, index: int = 0) -> tuple[float, float]:
-        """Return the variance of noise with a memory of the first sensor, and the share that is left after a sample."""
-        _, variance, left, _ = self._sensor(theta, index, 0)
+    def slow(self, theta: Array, index: int = 0, sensor: int = 0) -> tuple[float, float]:
+        """Return the variance of noise with a memory of a sensor, and the share that is left after a sample."""
+        _, variance, left, _ = self._sensor(theta, index, sensor)
         return float(variance), float(left)
 
-    def measurement(self, theta: Array, index: int = 0) -> float:
-        """Return the variance of all noise of the first sensor, the white and the slow."""
-        return self.noise(theta, index)[1] + self.slow(theta, index)[0]
+    def measurement(self, theta: Array, index: int = 0, sensor: int = 0) -> float:
+        """Return the variance of all noise of a sensor, the white and the slow."""
+        return self.noise(theta, index, sensor)[1] + self.slow(theta, index, sensor)[0]
 
-    def offset(self, theta: Array, index: int = 0) -> float:
-        """Return what the first sensor shows at zero, in the unit of the channel."""
-        return float(self._sensor(theta, index, 0)[3])
-
-    def gain(self, theta: Array, index: int = 0) -> float:
-        """Return what the sensors of a recording show of one unit."""
-        return float(self._gains(self.full(theta, index)[None])[0])
+    def gauge(self, theta: Array, index: int = 0, sensor: int = 0) -> tuple[float, float, float]:
+        """Return what a sensor shows of one unit, what it shows at zero (unit of the channel), and how late it is (s)."""
+        fulls = self.full(theta, index)[None]
+        gain, more = self._gauged(fulls, index)
+        zero = float(self._sensor(theta, index, sensor)[3])
+        return float(gain[0, sensor]), zero + float(more[0, sensor]), float(self.lags(fulls, index)[0, sensor])
 
     def begun(self, theta: Array, index: int = 0) -> Array:
         """Return the mean state (n,) of model and terms at the first sample of a recording."""
@@ -288,7 +331,8 @@ class Problem:
 
     def smooth(self, theta: Array, index: int = 0) -> Smoothed:
         """Return the filtered and the smoothed states of a recording at the coordinates `theta`."""
-        return self.engine.smooth(self.dynamics, self._seen[index], self.points(theta[None], index))
+        seen = self._seen(index, self.late(theta[None], index)[0])
+        return self.engine.smooth(self.dynamics, seen, self.points(theta[None], index))
 
     def extended(self, more: Iterable[Free], active: Iterable[str]) -> Problem:
         """Return the problem with further free parameters and terms."""
@@ -312,6 +356,23 @@ class Problem:
     def on(self, observations: tuple[Observation, ...]) -> Problem:
         """Return the same problem on other recordings, or on parts of them."""
         return replace(self, observations=observations)
+
+
+def _realigned(found: Innovations, late: Sequence[int]) -> Innovations:
+    """Return innovations in the order of the readings, of which those of sensor i came `late[i]` samples early."""
+    errors, variances = found.errors.copy(), found.variances.copy()
+    for sensor, lag in enumerate(late):
+        errors[..., sensor] = np.roll(errors[..., sensor], lag, axis=1)
+        variances[..., sensor] = np.roll(variances[..., sensor], lag, axis=1)
+    return replace(found, errors=errors, variances=variances)
+
+
+def _grouped(rows: NDArray[np.intp], late: Sequence[tuple[int, ...]]) -> list[NDArray[np.intp]]:
+    """Return the rows in groups of which the sensors are late by the same whole samples."""
+    groups: dict[tuple[int, ...], list[int]] = {}
+    for row, shift in zip(rows.tolist(), late, strict=True):
+        groups.setdefault(shift, []).append(row)
+    return [np.array(some, dtype=np.intp) for some in groups.values()]
 
 
 def _distinct(used: Array) -> tuple[NDArray[np.intp], NDArray[np.intp] | None]:

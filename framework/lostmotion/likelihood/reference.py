@@ -141,6 +141,14 @@ class _Machine:
         self.system.model.observe(t, y, self.slope(y, u, t), u, self.packed, shown)
         return float(shown[channel])
 
+    def seen_late(self, y: Array, k: int, lag: float, channel: int) -> float:
+        """Return what a channel showed a time `lag` (s) before sample `k`, where the states are `y`."""
+        dt, begin = self.drive.dt, self.drive.begin + k * self.drive.dt
+        if lag:
+            half = y - 0.5 * lag * self.slope(y, self.input(k, 0.0), begin)
+            y = y - lag * self.slope(half, self.input(k, -0.5 * lag / dt), begin - 0.5 * lag)
+        return self.seen(y, self.input(k, -lag / dt), begin - lag, channel)
+
     def stepped(self, y: Array, where: tuple[int, float, float], h: float) -> Array:
         """Return the state after a step of RK4; `where` is the sample, where in it the step begins, and its length."""
         k, share, width = where
@@ -216,13 +224,13 @@ class _Run:
     def _expected(self, k: int, sensor: int) -> tuple[float, Array]:
         """Return what a sensor should show of its channel, and the slopes of that over the states."""
         channel, direct = self.machine.system.channel(self.observation.sensors[sensor].channel)
-        if direct >= 0:
+        lag = float(self.points.lag[0, sensor])
+        if direct >= 0 and not lag:
             return float(self.y[direct]), np.eye(len(self.y))[direct]
-        u, t = self.machine.input(k, 0.0), self.machine.drive.begin + k * self.machine.drive.dt
         self.machine.going(self._fine)
-        centre = self.machine.seen(self.y, u, t, channel)
+        centre = self.machine.seen_late(self.y, k, lag, channel)
         reach = np.sqrt(3.0 * np.diag(self.cov)) + TINY * (1.0 + np.abs(self.y))
-        ends = [[self.machine.seen(self.y + s * row, u, t, channel) for row in np.diag(reach)] for s in (1.0, -1.0)]
+        ends = [[self.machine.seen_late(self.y + s * row, k, lag, channel) for row in np.diag(reach)] for s in (1, -1)]
         up, down = np.array(ends)
         bent = np.sum((up + down - 2.0 * centre) * np.diag(self.cov) / (2.0 * reach**2))
         return centre + float(bent), (up - down) / (2.0 * reach)

@@ -49,6 +49,11 @@ class Sensor:
     noise: Noise = White()
 
     @property
+    def place(self) -> str:
+        """Where terms of this sensor act: at its name, or at "sensor" where it is the only one and has none."""
+        return self.name or "sensor"
+
+    @property
     def label(self) -> str:
         """The name, or the channel where it has none."""
         return self.name or self.channel

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -22,6 +22,8 @@ from lostmotion.likelihood.motion import derivatives, run
 
 PIECE = 200_000
 """Steps of a long motion that are computed at a time."""
+Column = Callable[[Array], Array]
+"""An input as a function of time (s)."""
 NUMB = -1
 """The index of an observed channel that is no state and has to be linearised."""
 
@@ -196,25 +198,67 @@ class System:
         pairs = zip(self.keys, self.terms, strict=True)
         return {key: term for key, term in pairs if isinstance(term, DriveTerm | SensorTerm)}
 
-    def shaping(self, active: Iterable[str]) -> tuple[str, ...]:
-        """Return the keys of those terms that change the input which acts: of the drive, and delays of the sensor."""
-        return tuple(k for k, t in self.beside.items() if k in set(active) and not t.marked)
+    @cached_property
+    def groups(self) -> tuple[tuple[str, tuple[int, ...]], ...]:
+        """The inputs that are measured, by name, with the columns of value and derivative in the inputs of the model."""
+        names = self.model.inputs
+        pairs = {n: (names.index(n), *([names.index("base_velocity")] if "base_velocity" in names else [])) for n in names}
+        return tuple(
+            (n, pairs[n] if n == "base_position" else pairs[n][:1])
+            for n in names
+            if n != "base_velocity" or "base_position" not in names
+        )
+
+    def shaping(self, active: Iterable[str], *, alone: bool = True) -> tuple[str, ...]:
+        """Return the keys of those terms that change the input which acts: of the drive, and delays of the sensor.
+
+        A sensor that is `alone` is late as the drive is; of several, each has a delay of its own.
+        """
+        return tuple(
+            k
+            for k, t in self.beside.items()
+            if k in set(active) and not t.marked and (alone or isinstance(t, DriveTerm))
+        )
 
     def idle(self, full: Array, key: str) -> bool:
         """Return whether a term does nothing: all its parameters with a null are at it."""
         term = self.terms[self.keys.index(key)]
         return all(full[self.index[f"{key}.{name}"]] == null for name, null in term.null().items())
 
-    def acting(self, u: Input, full: Array, active: Iterable[str], tone: Tone) -> Input:
-        """Return the input that acts in place of the recorded `u`, in the time of what the sensor shows."""
-        for key in self.shaping(active):
-            u = _through(self.beside[key], u, self.values(full, key, tone))
-        return u
+    def acting(
+        self, columns: Sequence[Column], full: Array, keys: Iterable[str], tone: Tone, *, lead: int = 0
+    ) -> list[Column | None]:
+        """Return what acts in place of the recorded inputs, one function of time (s) for each; None where it is that.
 
-    def gain(self, full: Array, active: Iterable[str]) -> float:
-        """Return what the sensor shows of one unit of the channel."""
-        sensors = [(k, t) for k, t in self.beside.items() if isinstance(t, SensorTerm) and k in set(active)]
-        return math.prod(t.gain(self.values(full, key, SILENT)) for key, t in sensors)
+        `keys` are terms of the drive, which act on the input that drives (in column `lead`) unless they name another,
+        and delays of a sensor: one that is late sees what all inputs have done before.
+        """
+        made: list[Column | None] = [None] * len(columns)
+        for name, places in self.groups:
+            u: Input = _Recorded(tuple(columns[place] for place in places))
+            own = [key for key in keys if self._touches(key, name, lead in places)]
+            for key in own:
+                u = _through(self.beside[key], u, self.values(full, key, tone))
+            for order, place in enumerate(places if own else ()):
+                made[place] = partial(_of_order, u, order)
+        return made
+
+    def _touches(self, key: str, name: str, leads: bool) -> bool:
+        term = self.beside[key]
+        return isinstance(term, SensorTerm) or term.at == name or (term.at == "drive" and leads)
+
+    def gain(self, full: Array, active: Iterable[str], place: str = "sensor") -> float:
+        """Return what the sensor at a place shows of one unit of its channel."""
+        return math.prod(t.gain(p) for t, p in self.at_sensor(full, active, place))
+
+    def at_sensor(self, full: Array, active: Iterable[str], place: str) -> list[tuple[SensorTerm, tuple[float, ...]]]:
+        """Return the active terms of the sensor at a place, with what each is handed."""
+        chosen = set(active)
+        return [
+            (term, self.values(full, key, SILENT))
+            for key, term in self.beside.items()
+            if isinstance(term, SensorTerm) and key in chosen and term.at == place
+        ]
 
     @cached_property
     def _sources(self) -> Mapping[str, tuple[tuple[str, int], ...]]:
@@ -237,6 +281,11 @@ class System:
     def gauging(self, active: Iterable[str]) -> bool:
         """Return whether any sensor term is active."""
         return any(isinstance(self.beside[key], SensorTerm) for key in set(active) & set(self.beside))
+
+    @cached_property
+    def delaying(self) -> bool:
+        """Whether any of the terms makes a sensor late."""
+        return any(isinstance(t, SensorTerm) and type(t).delay is not SensorTerm.delay for t in self.terms)
 
     def feels(self, name: str) -> bool:
         """Return whether a channel shows the forces on a body at once, as an accelerometer does."""
@@ -315,6 +364,20 @@ class System:
         if not np.all(np.isfinite(jacobians)):
             return math.inf
         return float(np.abs(np.linalg.eigvals(jacobians)).max(initial=0.0))
+
+
+@dataclass(frozen=True)
+class _Recorded:
+    """A recorded input as terms see it: its value (order 0) and its derivative (order 1) at times (s)."""
+
+    columns: tuple[Column, ...]
+
+    def __call__(self, t: Array, order: int) -> Array:
+        return self.columns[order](t)
+
+
+def _of_order(u: Input, order: int, t: Array) -> Array:
+    return u(t, order)
 
 
 def _through(term: DriveTerm | SensorTerm, u: Input, p: tuple[float, ...]) -> Input:

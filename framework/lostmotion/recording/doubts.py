@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -46,15 +46,19 @@ class Signal(NamedTuple):
         return "force" if self.quantity == "torque" else self.quantity
 
 
-def doubts(excitation: Signal, response: Signal, dt: float) -> tuple[str, ...]:
-    """Return what looks wrong with two channels that were sampled together every `dt` s."""
-    each = (("excitation", excitation), ("response", response))
+def doubts(inputs: Sequence[Signal], sensors: Sequence[Signal], dt: float) -> tuple[str, ...]:
+    """Return what looks wrong with inputs and sensors that were sampled together every `dt` s.
+
+    Units and power are compared where there is one input: with several, each may take up the power of the other.
+    """
+    each = [*(("excitation", s) for s in inputs), *(("response", s) for s in sensors)]
+    pairs = [(inputs[0], sensors[0])] if len(inputs) == 1 else []
     return (
         *(note for role, signal in each for note in note_angle(signal, f"the {role} {signal.column!r}")),
-        *note_units(excitation, response),
-        *note_frozen(response.values, f"the response {response.column!r}", dt),
+        *(note for pair in pairs for note in note_units(*pair)),
+        *(note for s in sensors for note in note_frozen(s.values, f"the response {s.column!r}", dt)),
         *(note for role, s in each for note in note_far(s.values, f"the {role} {s.column!r}")),
-        *note_power(excitation, response, dt),
+        *(note for pair in pairs for note in note_power(*pair, dt)),
     )
 
 

@@ -119,9 +119,12 @@ def _made(
         rows = list(_waves(t, shape))
         band = (min(f for _, f, _ in shape), max(f for _, f, _ in shape))
     value, slope = (level * np.sum([row[k] for row in rows], axis=0) for k in (0, 1))
-    columns = [float(np.mean(observation.inputs[:, 0])) + value, slope][: observation.inputs.shape[1]]
+    inputs = np.tile(np.mean(observation.inputs, axis=0), (samples, 1))
+    inputs[:, observation.lead] += value
+    if observation.slope is not None:
+        inputs[:, observation.slope] = slope
     omega = 2.0 * math.pi * band[0] if waveform == HARMONIC else 0.0
-    return Excitation(waveform, level, band, np.stack(columns, axis=1), Tone(omega, level))
+    return Excitation(waveform, level, band, inputs, Tone(omega, level))
 
 
 def _waves(t: Array, wave: Wave) -> Iterator[tuple[Array, Array]]:

@@ -45,10 +45,9 @@ class Model:
     def under(self, excitation: Excitation, z: Array | None = None) -> Problem:
         """Return the problem of a new recording; the noise of the excitation grows with its level."""
         problem, old = self.fit.problem, self.fit.problem.observations[0]
-        seen = np.zeros(len(excitation.inputs)) if z is None else z
-        observation = Observation.of(
-            "experiment", seen, excitation.inputs, old.dt, old.channel, held=old.held, tone=excitation.tone
-        )
+        seen = np.zeros((len(excitation.inputs), len(old.sensors))) if z is None else z
+        bare = replace(old, name="experiment", begin=0, tone=excitation.tone)
+        observation = replace(bare, readings=seen, inputs=excitation.inputs)
         shift = self._louder(excitation)
         frees = [
             replace(f, start=f.start + shift, low=f.low + shift, high=f.high + shift, mean=f.mean + shift)
@@ -68,10 +67,10 @@ class Model:
 
 
 def simulated(model: Model, excitation: Excitation, rng: np.random.Generator) -> Array | None:
-    """Return what the sensor would show (samples,) of a model with its noise levels; None if it leaves all bounds."""
+    """Return what the sensors would show (samples, sensors) of a model with its noise levels; None if it diverges."""
     problem, theta = model.under(excitation), model.at(excitation)
     system, place, full = problem.system, problem.system.model.interfaces[0], problem.full(theta)
-    intensity, variance = problem.noise(theta)
+    intensity, _ = problem.noise(theta)
     drive = problem.drive(0, theta)
     kick = math.sqrt(intensity * PIECE * drive.dt) / full[system.index[place.inertia]]
     kicks = np.zeros((drive.samples, problem.dynamics.states))
@@ -80,13 +79,17 @@ def simulated(model: Model, excitation: Excitation, rng: np.random.Generator) ->
     states = kicked_run(problem, theta, model.fit.problem.begun(model.fit.theta), kicks)
     if not np.all(np.isfinite(states)):
         return None
-    white = math.sqrt(variance) * rng.standard_normal(drive.samples)
-    return observed(problem, theta, states) + white + _slow(problem, theta, rng)
+    shown = []
+    for sensor in range(len(problem.observations[0].sensors)):
+        white = math.sqrt(problem.noise(theta, 0, sensor)[1]) * rng.standard_normal(drive.samples)
+        seen = observed(problem, theta, states, sensor=sensor)
+        shown.append(seen + white + _slow(problem, theta, sensor, rng))
+    return np.stack(shown, axis=1)
 
 
-def _slow(problem: Problem, theta: Array, rng: np.random.Generator) -> Array:
-    """Return measurement noise with a memory (samples,), of a model that has any."""
-    variance, fade = problem.slow(theta)
+def _slow(problem: Problem, theta: Array, sensor: int, rng: np.random.Generator) -> Array:
+    """Return measurement noise with a memory (samples,) of a sensor that has any."""
+    variance, fade = problem.slow(theta, 0, sensor)
     fresh = math.sqrt(variance * (1.0 - fade**2)) * rng.standard_normal(problem.observations[0].samples)
     fresh[0] = math.sqrt(variance) * rng.standard_normal()
     return np.asarray(lfilter([1.0], [1.0, -fade], fresh), dtype=float)

@@ -13,7 +13,7 @@ from lostmotion.errors import DataError
 from lostmotion.inference.fit import Fit
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import NOISE, PACE, RANDOM, Free, Problem
-from lostmotion.quantities import ANGULAR, SI
+from lostmotion.quantities import unit_of
 from lostmotion.stages._cloud import Cloud
 from lostmotion.stages._sampling import Posterior
 
@@ -101,18 +101,19 @@ def mode_weights(log_evidence: Array) -> Array:
 
 def _shown(free: Free, problem: Problem) -> Shown:
     """Return how a parameter is told; a random force as the rms (N, N m) of one that is held from sample to sample."""
-    base, _, place = free.key.partition("[")
-    observation = _track(problem, place.removesuffix("]"))
-    rotation = problem.system.model.motion == "rotation"
-    channel = (ANGULAR if rotation else SI)[observation.channel]
-    if base == OFFSET:
-        return Shown(free.key, channel, 0.0)
-    if base not in NOISES:
+    observation = _track(problem, free.recording or "")
+    motion = problem.system.model.motion
+    if free.level not in (OFFSET, *NOISES):
         return Shown(free.key, free.unit, 1.0 if free.log else 0.0)
-    name = NOISES[base] + free.key[len(base) :]
-    if base == RANDOM:
-        return Shown(name, "N m" if rotation else "N", 0.5, observation.dt**-0.5)
-    return Shown(name, "1/s" if base == PACE else channel, 1.0)
+    if free.level == RANDOM:
+        return Shown(NOISES[RANDOM] + free.key[len(RANDOM) :], unit_of("force", motion), 0.5, observation.dt**-0.5)
+    if free.level == PACE:
+        return Shown(NOISES[PACE] + free.key[len(PACE) :], "1/s", 1.0)
+    labels = [sensor.label for sensor in observation.sensors]
+    channel = observation.sensors[labels.index(free.sensor) if free.sensor else 0].channel
+    if free.level == OFFSET:
+        return Shown(free.key, unit_of(channel, motion), 0.0)
+    return Shown(NOISES[NOISE] + free.key[len(NOISE) :], unit_of(channel, motion), 1.0)
 
 
 def _track(problem: Problem, name: str) -> Observation:

@@ -13,6 +13,8 @@ from lostmotion.inference.fit import Fit
 from lostmotion.inference.locate import autocorrelation, whiteness
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.predict import (
+    Filtered,
+    FreeRuns,
     Horizon,
     filtered,
     free_run,
@@ -22,6 +24,9 @@ from lostmotion.likelihood.predict import (
     observed,
 )
 from lostmotion.likelihood.problem import Problem
+
+SILENT = 0.5 / math.pi
+"""The variance that an engine notes where nothing was read."""
 
 STARTS = 150
 REACH = 8.0
@@ -39,20 +44,23 @@ class Piece:
 
 @dataclass(frozen=True)
 class Prediction:
-    """How one model predicts held-out data: scores, error growth (steps,), a forecast, the innovations.
+    """How one model predicts held-out data: scores, error growth (steps,), forecasts (samples, sensors), innovations.
 
-    `expected_score` is the log score of a recording that the model itself had made.
+    `nrmse` is the mean over the sensors, `by_sensor` that of each, over the
+    standard deviations `scales` of what was held out; error growth is that of the first. `expected_score` is the log score of a recording that the model itself had made.
     """
 
     log_score: float
     expected_score: float
     nrmse: float
+    by_sensor: tuple[float, ...]
+    scales: tuple[float, ...]
     exponent: float
     rates: Array
     lead: Array
     growth: Array
     valid_time: float
-    forecast: Array
+    forecasts: Array
     restarts: Array
     acf: Array
     white: float
@@ -83,7 +91,6 @@ def exponent_blocks(rates: Array, blocks: int = 10) -> Array:
 
 def predict(fit: Fit, pieces: Sequence[Piece], horizon: Horizon, rates: Array) -> Prediction:
     """Return the predictions of one model on the held-out pieces, judged over a horizon; `rates`: see `rates_of`."""
-    scale = float(np.nanstd(np.concatenate([p.observation.response[p.begin :] for p in pieces])))
     problems = [fit.problem.on((piece.observation,)) for piece in pieces]
     tracked = [filtered(problem, fit.theta) for problem in problems]
     runs, scores, lengths = [], [], [p.observation.samples - p.begin for p in pieces]
@@ -91,39 +98,68 @@ def predict(fit: Fit, pieces: Sequence[Piece], horizon: Horizon, rates: Array) -
         held = slice(piece.begin, None)
         scores.append((seen.log_score(held), seen.expected_score(held)))
         runs.append(_runs(problem, fit, seen.states, piece, horizon))
-    shortest = min(r.error.shape[1] for r in runs)
-    joint = replace(runs[0], lead=runs[0].lead[:shortest], error=np.vstack([r.error[:, :shortest] for r in runs]))
-    judged = joint.error[:, : horizon.steps + 1]
-    first = tracked[0]
-    forecast, restarts = _forecast(problems[0], fit, first.states, pieces[0], horizon)
+    joint = [_joined([r[sensor] for r in runs]) for sensor in range(len(runs[0]))]
+    scales = [deviation(pieces, sensor) for sensor in range(len(joint))]
+    nrmse = [_nrmse(one, horizon, scale) for one, scale in zip(joint, scales, strict=True)]
+    first, main = tracked[0], joint[0]
+    forecasts, restarts = _forecast(problems[0], fit, first.states, pieces[0], horizon)
     tail = slice(pieces[0].begin, None)
+    acf = [autocorrelation(*_taken(first, tail, sensor)) for sensor in range(len(joint))]
     return Prediction(
         log_score=float(np.average([s for s, _ in scores], weights=lengths)),
         expected_score=float(np.average([s for _, s in scores], weights=lengths)),
-        nrmse=float(np.sqrt(np.nanmean(judged**2)) / scale),
+        nrmse=float(np.mean(nrmse)),
+        by_sensor=tuple(nrmse),
+        scales=tuple(scales),
         exponent=exponent_of(rates),
         rates=rates,
-        lead=joint.lead,
-        growth=joint.growth(scale),
-        valid_time=joint.valid_time(own_motion(fit, pieces)),
-        forecast=forecast,
+        lead=main.lead,
+        growth=main.growth(scales[0]),
+        valid_time=main.valid_time(own_motion(fit, pieces)),
+        forecasts=forecasts,
         restarts=restarts,
-        acf=autocorrelation(first.errors[tail], first.variances[tail]),
-        white=whiteness(first.errors[tail], first.variances[tail]),
+        acf=acf[0],
+        white=_white([whiteness(*_taken(first, tail, sensor)) for sensor in range(len(joint))]),
     )
+
+
+def deviation(pieces: Sequence[Piece], sensor: int) -> float:
+    """Return the standard deviation of the held-out readings of a sensor."""
+    return float(np.nanstd(np.concatenate([p.observation.readings[p.begin :, sensor] for p in pieces])))
+
+
+def _taken(seen: Filtered, held: slice, sensor: int) -> tuple[Array, Array]:
+    """Return errors and variances of those held-out readings of a sensor that were taken."""
+    errors, variances = seen.errors[held, sensor], seen.variances[held, sensor]
+    there = np.abs(variances - SILENT) > 1e-12
+    return errors[there], variances[there]
+
+
+def _white(told: Sequence[float]) -> float:
+    """Return the least of several p-values, corrected for their number (Bonferroni)."""
+    return min(1.0, len(told) * min(told))
+
+
+def _joined(runs: Sequence[FreeRuns]) -> FreeRuns:
+    """Return the free runs of all pieces, cut to the shortest."""
+    shortest = min(r.error.shape[1] for r in runs)
+    return replace(runs[0], lead=runs[0].lead[:shortest], error=np.vstack([r.error[:, :shortest] for r in runs]))
+
+
+def _nrmse(runs: FreeRuns, horizon: Horizon, scale: float) -> float:
+    return float(np.sqrt(np.nanmean(runs.error[:, : horizon.steps + 1] ** 2)) / scale)
 
 
 def own_motion(fit: Fit, pieces: Sequence[Piece]) -> float:
     """Return the standard deviation of the motion of the machine itself: relative to its base where that moves."""
-    relative = fit.problem.system.model.inputs[0] == "base_position" and pieces[0].observation.channel == "position"
-    parts = [
-        p.observation.response[p.begin :] - (p.observation.inputs[p.begin :, 0] if relative else 0.0) for p in pieces
-    ]
+    first = pieces[0].observation
+    relative = fit.problem.system.model.inputs[first.lead] == "base_position" and first.channel == "position"
+    parts = [p.observation.response[p.begin :] - (p.observation.excitation[p.begin :] * relative) for p in pieces]
     return float(np.nanstd(np.concatenate(parts)))
 
 
-def _runs(problem: Problem, fit: Fit, states: Array, piece: Piece, horizon: Horizon):  # type: ignore[no-untyped-def]
-    """Return free runs from starts that are spread over a held-out piece."""
+def _runs(problem: Problem, fit: Fit, states: Array, piece: Piece, horizon: Horizon) -> tuple[FreeRuns, ...]:
+    """Return free runs of each sensor from starts that are spread over a held-out piece."""
     observation = piece.observation
     left = observation.samples - piece.begin
     steps = int(min(max(REACH * horizon.unit_time / observation.dt, horizon.steps + 1), left // 2))
@@ -133,14 +169,15 @@ def _runs(problem: Problem, fit: Fit, states: Array, piece: Piece, horizon: Hori
 
 
 def _forecast(problem: Problem, fit: Fit, states: Array, piece: Piece, horizon: Horizon) -> tuple[Array, Array]:
-    """Return a free-running prediction (samples,) over a piece, begun anew every few units of time, and where."""
+    """Return free-running predictions (samples, sensors) over a piece, begun anew every few units of time, and where."""
     observation = piece.observation
     length = max(int(SEGMENT * horizon.unit_time / observation.dt), horizon.steps, 2)
-    forecast, restarts = np.full(observation.samples, np.nan), np.zeros(observation.samples)
+    forecast, restarts = np.full(observation.readings.shape, np.nan), np.zeros(observation.samples)
     for start in range(piece.begin, observation.samples - 1, length):
         steps = min(length, observation.samples - start)
         run = free_run(problem, fit.theta, states[start], start, steps)
-        forecast[start : start + steps] = observed(problem, fit.theta, run, (start, 0))
+        for sensor in range(len(observation.sensors)):
+            forecast[start : start + steps, sensor] = observed(problem, fit.theta, run, (start, 0), sensor)
         restarts[start] = 1.0
     return forecast, restarts
 

@@ -23,7 +23,8 @@ from lostmotion.kernels.threads import each
 from lostmotion.likelihood.latent import Missing, missing_force
 from lostmotion.likelihood.motion import derivatives
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.problem import LEVELS, Problem
+from lostmotion.likelihood.problem import Problem
+from lostmotion.likelihood.space import is_level
 from lostmotion.likelihood.system import System
 
 SIGNIFICANT = 8.0
@@ -121,11 +122,29 @@ def candidates_of(
         for term in terms
         if term.acts == "motion" and (not term.anywhere or place.name == "ground" or len(model.interfaces) == 1)
     ]
-    tried += [term(at=term.acts) for term in terms if term.acts != "motion"]  # type: ignore[call-arg]
+    tried += [
+        term(at=at)  # type: ignore[call-arg]
+        for term in terms
+        if term.acts != "motion"
+        for at in _beside(term, observations)
+    ]
     driven = all(observation.tone.omega > 0.0 for observation in observations)
     tried = [term for term in tried if term.fits(model) and (driven or "omega" not in term.needs)]
     names = [term.name for term in tried]
-    return tuple(t for i, t in enumerate(tried) if not set(t.equals) & set(names[:i]))
+    several = any(len(observation.sensors) > 1 for observation in observations)
+    return tuple(t for i, t in enumerate(tried) if several or not set(t.equals) & set(names[:i]))
+
+
+def _beside(term: type[Term], observations: Sequence[Observation]) -> tuple[str, ...]:
+    """Return where a term of the drive or of a sensor may act: at each input that was recorded, or at each sensor."""
+    if not observations:
+        return (term.acts,)
+    first = observations[0]
+    if term.acts == "drive":
+        driven = ("drive",) if first.driven is None or len(first.driven) == 1 else first.driven
+        return driven
+    alone = len(first.sensors) == 1
+    return () if alone and getattr(term, "relative", False) else tuple(sensor.place for sensor in first.sensors)
 
 
 def diagnose(
@@ -171,12 +190,15 @@ def diagnose(
 def marks_of(fit: Fit) -> dict[str, tuple[Values, Values]]:
     """Return the sensor terms that the stored values betray and that make up a share of the noise, by key."""
     observations, found = fit.problem.observations, {}
-    noise = max(fit.problem.measurement(fit.theta, i) for i in range(len(observations)))
     for key, term in fit.problem.system.beside.items():
-        if isinstance(term, SensorTerm) and term.marked:
-            seen = [term.marks(observation.response) for observation in observations]
-            if all(p for p, _ in seen) and term.scatter(seen[0][0]) ** 2 > MARKED * noise:
-                found[key] = seen[0]
+        if not isinstance(term, SensorTerm) or not term.marked:
+            continue
+        for i, sensor in enumerate(observations[0].sensors):
+            if sensor.place == term.at and sensor.noise.kind != "quantised":
+                noise = max(fit.problem.measurement(fit.theta, k, i) for k in range(len(observations)))
+                seen = [term.marks(observation.readings[:, i]) for observation in observations]
+                if all(p for p, _ in seen) and term.scatter(seen[0][0]) ** 2 > MARKED * noise:
+                    found[key] = seen[0]
     return found
 
 
@@ -264,4 +286,4 @@ def base_keys(fit: Fit) -> list[str]:
     """Return the keys of the physical parameters of a fit, noise levels and coefficients of learned curves left out."""
     system = fit.problem.system
     curves = tuple(f"{k}." for k, t in zip(system.keys, system.terms, strict=True) if isinstance(t, Learned))
-    return [k for k in fit.problem.keys if k not in LEVELS and not (curves and k.startswith(curves))]
+    return [k for k in fit.problem.keys if not is_level(k) and not (curves and k.startswith(curves))]

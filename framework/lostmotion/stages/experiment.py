@@ -92,7 +92,7 @@ def news(chosen: Fit, rival: Fit, observation: Observation) -> float:
     natural = natural_of(chosen)
     whole = repeat_of(observation, observation.samples, natural)
     asked = Asked(1.0, 3 * ROUNDS)
-    told = [evidence(Model.of(fit), whole, observation.response, asked) for fit in (chosen, rival)]
+    told = [evidence(Model.of(fit), whole, observation.readings, asked) for fit in (chosen, rival)]
     return told[0] - told[1]
 
 

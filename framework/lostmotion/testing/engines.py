@@ -134,8 +134,11 @@ def _system() -> System:
     return System(Rig(), (Stick(), Creep()))
 
 
-def asked(sensors: tuple[Sensor, ...], random: Random = "white", count: int = 2) -> Asked:
-    """Return what an engine is handed: readings of a wandering rig, with gaps, and points near what made them."""
+def asked(sensors: tuple[Sensor, ...], random: Random = "white", count: int = 2, lag: float = 0.0) -> Asked:
+    """Return what an engine is handed: readings of a wandering rig, with gaps, and points near what made them.
+
+    The sensors are late by `lag` samples.
+    """
     system, rng = _system(), np.random.default_rng(3)
     full, t = system.vector(VALUES), DT * np.arange(SAMPLES)
     drive = Drive.smooth([lambda t: 12.0 * np.cos(9.0 * t)], DT, SAMPLES)
@@ -152,6 +155,7 @@ def asked(sensors: tuple[Sensor, ...], random: Random = "white", count: int = 2)
     points = Points(
         near, np.full(count, 1e-2), np.full(count, 15.0), (0.03 * scale) ** 2, (0.05 * scale) ** 2,
         np.full(scale.shape, 0.7), 1.0 + 0.1 * rng.standard_normal(scale.shape), 0.01 * scale,
+        lag * DT * np.ones(scale.shape),
         np.tile([x[0], 0.5, 0.0], (count, 1)), np.tile(np.diag([1e-4, 1e-2, 1e-5]), (count, 1, 1)),
         (drive,), zero, zero,
     )  # fmt: skip
@@ -161,6 +165,8 @@ def asked(sensors: tuple[Sensor, ...], random: Random = "white", count: int = 2)
 def _every() -> Iterator[tuple[str, Asked]]:
     for (what, sensors), random in itertools.product(SENSORS.items(), RANDOM):
         yield f"{what}, with a random force that is {random}", asked(sensors, random)
+    for (what, sensors), lag in itertools.product(SENSORS.items(), (0.4, -0.3)):
+        yield f"{what}, late by {lag} samples", asked(sensors, "held", lag=lag)
 
 
 def _off(found: Innovations, wanted: Innovations) -> float:

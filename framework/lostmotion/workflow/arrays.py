@@ -7,18 +7,20 @@ from collections.abc import Mapping
 import numpy as np
 
 from lostmotion.contracts import Array
+from lostmotion.quantities import unit_of
 from lostmotion.stages.diagnose import Diagnosis, Located, base_keys
 from lostmotion.storage import Column
 from lostmotion.workflow.attractors import section
 from lostmotion.workflow.findings import Outcome
 
 PORTRAIT = 3000
+PREDICTED = "free-running prediction of the"
 
 
 def arrays_of(outcome: Outcome, motions: Mapping[str, Array]) -> tuple[dict[str, Column], dict[str, Column]]:
     """Return the variables and the coordinates of `arrays.nc`; `motions` are those of `motions_of`."""
     d = outcome.diagnosis
-    variables = {**_series(outcome), **_curves(d), **_portraits(d, motions), **_growth(outcome), **_draws(outcome)}
+    variables = {**_series(outcome), **_further(outcome), **_curves(d), **_portraits(d, motions), **_growth(outcome), **_draws(outcome)}
     coords = {
         "time": Column(("time",), d.shown.time, "s", "time from the start of the recording"),
         "covariate": Column(("covariate",), list(d.located.curves)),
@@ -40,22 +42,24 @@ def units_of(d: Diagnosis) -> dict[str, str]:
 def _series(outcome: Outcome) -> dict[str, Column]:
     d, units = outcome.diagnosis, units_of(outcome.diagnosis)
     shown, missing = d.shown, d.located.missing
-    drive = "force" if "force" in d.after.problem.system.model.inputs else "position"
-    seen = units[shown.channel]
+    model = d.after.problem.system.model
+    seen = unit_of(shown.channel, model.motion)
     heldout = np.ones(shown.samples)
     if shown.samples > d.held[0].samples:
         heldout[: shown.samples - d.held[0].samples] = 0.0
     time = ("time",)
     table = {
-        "excitation": Column(time, shown.inputs[:, 0], units[drive], "measured input"),
-        "response": Column(time, shown.response, seen, f"recorded {shown.channel}"),
+        "excitation": Column(
+            time, shown.excitation, unit_of(model.inputs[shown.lead], model.motion), "measured input"
+        ),
+        "response": Column(time, shown.response, seen, f"recorded {shown.sensors[0].label}"),
         "heldout": Column(time, heldout, "1", "1 where no fit has seen the data"),
         "record": Column(time, np.zeros(shown.samples), "1", "number of the recording"),
         "position": Column(time, missing.position, units["position"], "smoothed position"),
         "velocity": Column(time, missing.velocity, units["velocity"], "smoothed velocity"),
         "missing_force": Column(time, missing.force, units["force"], "missing force, found terms taken out"),
         "missing_force_sd": Column(time, missing.sd, units["force"], "standard deviation of the missing force"),
-        "forecast_before": Column(time, outcome.before.forecast, seen, "free-running prediction of the nominal model"),
+        "forecast_before": Column(time, outcome.before.forecasts[:, 0], seen, f"{PREDICTED} nominal model"),
         "restart": Column(time, outcome.before.restarts, "1", "1 where a free run begins"),
     }
     if d.left is not None:
@@ -63,9 +67,21 @@ def _series(outcome: Outcome) -> dict[str, Column]:
         table["left_force"] = Column(time, left.force, units["force"], "force left unexplained")
         table["left_force_sd"] = Column(time, left.sd, units["force"], "standard deviation of the force left")
         table["law"] = Column(time, d.law, units["force"], "force of the found terms")
-        table["forecast_after"] = Column(
-            time, outcome.after.forecast, seen, "free-running prediction of the augmented model"
-        )
+        table["forecast_after"] = Column(time, outcome.after.forecasts[:, 0], seen, f"{PREDICTED} augmented model")
+    return table
+
+
+def _further(outcome: Outcome) -> dict[str, Column]:
+    """Return readings and predictions of the sensors behind the first: `response_2`, `forecast_before_2`, ..."""
+    d, time, table = outcome.diagnosis, ("time",), {}
+    motion = d.after.problem.system.model.motion
+    for i, sensor in enumerate(d.shown.sensors[1:], start=1):
+        unit = unit_of(sensor.channel, motion)
+        table[f"response_{i + 1}"] = Column(time, d.shown.readings[:, i], unit, f"recorded {sensor.label}")
+        before, after = outcome.before.forecasts[:, i], outcome.after.forecasts[:, i]
+        table[f"forecast_before_{i + 1}"] = Column(time, before, unit, f"{PREDICTED} nominal model")
+        if d.found:
+            table[f"forecast_after_{i + 1}"] = Column(time, after, unit, f"{PREDICTED} augmented model")
     return table
 
 

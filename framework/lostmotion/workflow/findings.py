@@ -13,7 +13,7 @@ from lostmotion.inference.candidates import term_of
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.mixture import draws
 from lostmotion.likelihood.predict import Horizon
-from lostmotion.quantities import ANGULAR, SI
+from lostmotion.quantities import unit_of
 from lostmotion.results import Interval
 from lostmotion.stages.compare import Prediction
 from lostmotion.stages.diagnose import Diagnosis, base_keys
@@ -90,7 +90,8 @@ def _mark(d: Diagnosis, key: str) -> dict[str, Any]:
     """Return the entry of a term that the stored values themselves betray."""
     term, slots = term_of(d.selection.nominal.problem, key)
     rows = zip(slots, *d.marks[key], strict=True)
-    unit = (SI if d.after.problem.system.model.motion == "translation" else ANGULAR)[d.shown.channel]
+    channel = next((s.channel for s in d.shown.sensors if s.place == term.at), d.shown.channel)
+    unit = unit_of(channel, d.after.problem.system.model.motion)
     own = {s.param.name: Interval(v, v - 1.96 * sd, v + 1.96 * sd, unit) for s, v, sd in rows}
     sentence = term.physics.format(**{name: f"{i.median:.3g} {i.unit}" for name, i in own.items()})
     return {

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from lostmotion.inference.fit import Fit
-from lostmotion.likelihood.problem import LEVELS
+from lostmotion.likelihood.space import is_level
 from lostmotion.stages.diagnose import Diagnosis
 from lostmotion.workflow.findings import Outcome
 
@@ -42,16 +42,19 @@ def fleeting(fit: Fit) -> list[str]:
 
 
 def _slow(d: Diagnosis) -> list[str]:
-    """Return a note where the measurement noise has a memory, which white noise and a random force would imitate."""
-    problem, theta = d.after.problem, d.after.theta
-    slow, fade = problem.slow(theta)
-    if not slow:
-        return []
-    lasts = -problem.observations[0].dt / np.log(fade)
-    share = slow / problem.measurement(theta)
-    return [
-        f"{share:.0%} of the variance of the measurement noise has a memory of {lasts:.2g} s; the fit allows for it."
-    ]
+    """Return a note for each sensor whose noise has a memory, which white noise and a random force would imitate."""
+    problem, theta, notes = d.after.problem, d.after.theta, []
+    for i, sensor in enumerate(d.shown.sensors):
+        slow, fade = problem.slow(theta, 0, i)
+        if slow:
+            lasts = -problem.observations[0].dt / np.log(fade)
+            share = slow / problem.measurement(theta, 0, i)
+            whose = f" of {sensor.label}" if len(d.shown.sensors) > 1 else ""
+            notes.append(
+                f"{share:.0%} of the variance of the measurement noise{whose} has a memory of {lasts:.2g} s; the fit"
+                " allows for it."
+            )
+    return notes
 
 
 def _declined(d: Diagnosis) -> list[str]:
@@ -69,7 +72,7 @@ def _on_the_edge(d: Diagnosis) -> list[str]:
     notes = []
     for f, at in zip(d.after.problem.free, d.after.theta, strict=True):
         reach = EDGE * (f.high - f.low)
-        if f.key not in LEVELS and "." not in f.key and not f.low + reach < at < f.high - reach:
+        if not is_level(f.key) and "." not in f.parameter and not f.low + reach < at < f.high - reach:
             notes.append(
                 f"{f.key} lies on the bound {f.value(at):.4g} {f.unit} of its prior: widen the prior, or doubt what is"
                 " known; what was found may stand in for it."
@@ -79,8 +82,9 @@ def _on_the_edge(d: Diagnosis) -> list[str]:
 
 def _far_off(outcome: Outcome) -> list[str]:
     d = outcome.diagnosis
-    noise = d.after.problem.measurement(d.after.theta) ** 0.5
-    far = outcome.after.nrmse * float(np.nanstd(d.shown.response)) / noise
+    noises = [d.after.problem.measurement(d.after.theta, 0, i) ** 0.5 for i in range(len(d.shown.sensors))]
+    errors = zip(outcome.after.by_sensor, outcome.after.scales, noises, strict=True)
+    far = min(error * scale / noise for error, scale, noise in errors)
     if far < FAR:
         return []
     return [
@@ -90,7 +94,7 @@ def _far_off(outcome: Outcome) -> list[str]:
 
 
 def _drifting(d: Diagnosis) -> list[str]:
-    if d.shown.channel != "acceleration":
+    if any(not sensor.channel.endswith("acceleration") for sensor in d.shown.sensors):
         return []
     return [
         "The recording shows acceleration only: position drifts, and intervals and terms of position are less certain"

@@ -129,7 +129,7 @@ def _begun(problem: Problem, machine: Row) -> Problem:
     """Return the problem with the true values, and the usual noise, as its start."""
     free = []
     for f in problem.free:
-        if f.parameter == NOISE:
+        if f.level == NOISE:
             free.append(replace(f, start=_within(math.log(machine["measurement_noise"]), f.low, f.high)))
         elif f.parameter == RANDOM:
             free.append(replace(f, start=_within(problem.scales.usual, f.low, f.high)))

@@ -6,10 +6,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from lostmotion.case import Case, load_case
+from lostmotion.case import Case, check_alike, load_case
 from lostmotion.contracts import Model, Term
-from lostmotion.errors import CaseError
+from lostmotion.errors import CaseError, ContractError
 from lostmotion.likelihood.observation import Observation, observation_of
+from lostmotion.quantities import ROTATES
 from lostmotion.recording import Recording, load_recording
 from lostmotion.registry import Registry
 from lostmotion.stages.diagnose import candidates_of
@@ -61,20 +62,38 @@ def prepared_of(case: Case, registry: Registry) -> Prepared:
     """Return a case with its recordings, its model and its terms."""
     if not case.recordings:
         raise CaseError("the case has no [[recordings]]: add one, with file, time or rate, excitation and response")
-    model: Model = sound(registry, "model", case.model)
     recordings = tuple(load_recording(spec, case.folder) for spec in case.recordings)
+    model = moving(sound(registry, "model", case.model), case, recordings)
+    check_alike(tuple(spec.sensors for spec in case.recordings))
     observations = tuple(observation_of(r, model, held=r.hold == "step") for r in recordings)
-    _alike(recordings)
     known, aside = usable_terms(registry)
     return Prepared(
         case, recordings, observations, model, candidates_of(model, known, observations), registry.origins(), aside
     )
 
 
-def _alike(recordings: Sequence[Recording]) -> None:
-    """Refuse recordings of different quantities."""
-    kinds = {str(r.data["response"].attrs["quantity"]) for r in recordings}
-    if len(kinds) > 1:
+def moving(model: Model, case: Case, recordings: Sequence[Recording]) -> Model:
+    """Return the model in translation or in rotation, as the case says or as the units of the recordings show.
+
+    Raises `CaseError` where units do not fit each other, or the model.
+    """
+    shown = {}
+    for recording in recordings:
+        for array in (*recording.inputs, *recording.sensors):
+            shown[ROTATES[str(array.attrs["units"])]] = f"{array.attrs['long_name']} in {array.attrs['units']}"
+    if len(shown) > 1:
         raise CaseError(
-            f"the recordings show {' and '.join(sorted(kinds))}: put recordings of one quantity into a case"
+            f"the units mix translation and rotation ({' and '.join(shown.values())}): a torque goes with angles, a"
+            " force with lengths; correct a unit, or give factor"
         )
+    found = next(iter(shown))
+    if case.motion and case.motion != found:
+        raise CaseError(
+            f"[model] says motion = {case.motion!r}, but {shown[found]} is of a {found}: correct one of the two"
+        )
+    if found == model.motion:
+        return model
+    try:
+        return model.turned(found)
+    except ContractError as err:
+        raise CaseError(f"{shown[found]} does not fit: {err}") from err

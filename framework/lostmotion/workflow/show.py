@@ -72,7 +72,7 @@ def shown(seen: Seen, rng: np.random.Generator) -> dict[str, Any]:
     noise = math.sqrt(last[1].problem.measurement(last[1].theta))
     table["noise_floor"] = {
         "heldout_log_score": last[0].expected_score,
-        "free_run_error": noise / float(np.nanstd(d.shown.response)),
+        "free_run_error": noise / last[0].scales[0],
         "attractor_distance": _distance(apart["noise_floor"]),
         "d2": _estimate(dimensions["recorded"]),
     }

@@ -199,14 +199,9 @@ def _acting(
     The tone is what a diagnosis would read off the recorded samples.
     """
     tone = tone_of(Observation.of("drive", np.zeros(len(inputs)), inputs, dt, ""))
-    if not system.shaping(system.everything):
-        return [signal.value for signal in signals], tone
-    acting = system.acting(lambda t, order: signals[order].value(t), full, system.everything, tone)
-    return [functools.partial(_of_order, acting, order) for order in range(len(signals))], tone
-
-
-def _of_order(u: Input, order: int, t: Array) -> Array:
-    return u(t, order)
+    columns = [signal.value for signal in signals]
+    acting = system.acting(columns, full, system.shaping(system.everything), tone)
+    return [there or recorded for there, recorded in zip(acting, columns, strict=True)], tone
 
 
 def _shown(system: System, full: Array, channels: Mapping[str, Array], plan: Plan) -> dict[str, Array]:

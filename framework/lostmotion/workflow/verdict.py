@@ -10,6 +10,7 @@ import numpy as np
 from lostmotion.inference.candidates import term_of
 from lostmotion.inference.fit import Fit
 from lostmotion.likelihood.system import key_of
+from lostmotion.quantities import quantity_of, unit_of
 from lostmotion.stages.compare import Prediction
 from lostmotion.stages.diagnose import Diagnosis
 from lostmotion.workflow.findings import Outcome, found_in, intervals
@@ -62,7 +63,8 @@ def _setting(outcome: Outcome) -> dict[str, Any]:
             "frequency": 1.0 / (period * d.shown.dt) if period else None,
         },
         "units": {"position": units[0], "velocity": units[1], "force": units[2], "time": "s"},
-        "response": {"quantity": d.shown.channel},
+        "response": {"quantity": quantity_of(d.shown.channel)},
+        "sensors": _sensors(d),
         "lyapunov": {**{k: p.exponent for k, p in predictions.items()}, "unit": "1/s"},
         "valid_prediction_time": {
             **{k: p.valid_time for k, p in predictions.items()},
@@ -84,17 +86,43 @@ def _white(p: float) -> str:
     return f"One-step errors cannot be told from white noise (Ljung-Box p = {p:.2g})."
 
 
+def _sensors(d: Diagnosis) -> list[dict[str, Any]]:
+    """Return name, channel, unit, standard deviation and kind of noise of each sensor."""
+    motion = d.after.problem.system.model.motion
+    rows = []
+    for i, (sensor, name, noise) in enumerate(zip(d.shown.sensors, names_of(d), noises_of(d), strict=True)):
+        unit, kind = unit_of(sensor.channel, motion), sensor.noise.kind
+        if d.after.problem.slow(d.after.theta, 0, i)[0]:
+            kind = "ar1"
+        elif any(term_of(d.after.problem, key)[0].at == sensor.place for key in d.marks):
+            kind = "quantised"
+        rows.append({"name": name, "channel": sensor.channel, "unit": unit, "noise_sd": noise, "kind": kind})
+    return rows
+
+
+def names_of(d: Diagnosis) -> list[str]:
+    """Return the names of the sensors: the channel of one that was given none."""
+    return [sensor.label for sensor in d.shown.sensors]
+
+
+def noises_of(d: Diagnosis) -> list[float]:
+    """Return the standard deviation of all measurement noise of each sensor, after."""
+    fit = d.after
+    return [math.sqrt(fit.problem.measurement(fit.theta, 0, i)) for i in range(len(d.shown.sensors))]
+
+
 def _fit(outcome: Outcome) -> dict[str, Any]:
+    d = outcome.diagnosis
+
     def entry(p: Prediction) -> dict[str, Any]:
         return {
             "heldout_log_score": p.log_score,
             "heldout_nrmse": p.nrmse,
+            "heldout_nrmse_by_sensor": dict(zip(names_of(d), p.by_sensor, strict=True)),
             "horizon": outcome.horizon.number,
         }
 
-    d = outcome.diagnosis
-    noise = math.sqrt(d.after.problem.measurement(d.after.theta))
-    floor = noise / float(np.nanstd(d.shown.response))
+    floor = float(np.mean([noise / scale for noise, scale in zip(noises_of(d), outcome.after.scales, strict=True)]))
     unit = {"horizon_unit": outcome.horizon.unit, "horizon_unit_time": outcome.horizon.unit_time}
     return {"before": entry(outcome.before), "after": entry(outcome.after), "noise_floor_nrmse": floor, **unit}
 
