@@ -41,6 +41,26 @@ _POWER = re.compile(r"[^\W\d_]\s*(?:\*\*|\^)\s*\(?\s*[+-]?\d(?:\.\d+)?(?![\d.])"
 """A unit to the power of one digit: pint would work out 9 ** 9 ** 9 as well, for hours."""
 
 
+QUANTITIES = ("position", "velocity", "acceleration", "force")
+"""What channels and inputs of a model can be."""
+
+
+def quantity_of(name: str) -> str:
+    """Return what a channel or an input is, by the last part of its name: "second_position" is a position.
+
+    Parts are divided by `_` or `.`, and a torque is the force of a rotation. Any other name raises `DataError`.
+    """
+    last = re.split(r"[_.]", name)[-1]
+    if (quantity := "force" if last == "torque" else last) in QUANTITIES:
+        return quantity
+    raise DataError(f"{name!r} ends in none of {', '.join(QUANTITIES)}: name it so, for instance 'second_position'")
+
+
+def unit_of(name: str, motion: str) -> str:
+    """Return the SI unit of a channel or an input in a kind of motion: "rad/s^2" of an acceleration in rotation."""
+    return (SI if motion == "translation" else ANGULAR)[quantity_of(name)]
+
+
 class Dimension(NamedTuple):
     """Powers of generalised force, length and time: `Dimension(1, -1, 1)` is a damping coefficient."""
 

@@ -57,7 +57,7 @@ def _sizes(system: System, observations: Sequence[Observation], known: Array) ->
     if observations[0].channel == "force":
         return Scales(size, float(np.median([t.travel for t in observations])), 1.0 / rate)
     length = size / rate ** {"position": 0, "velocity": 1, "acceleration": 2}[observations[0].channel]
-    if "force" in system.model.inputs:
+    if system.model.inputs[0] != "base_position":
         force = math.sqrt(2.0) * float(np.sqrt(np.mean([np.var(t.inputs[:, 0]) for t in observations])))
         force = force or float(np.mean([np.abs(t.inputs[:, 0]).max() for t in observations]))
     else:

@@ -27,7 +27,7 @@ def usual_of(problem: Problem, rate: float) -> float:
     """
     system, observation = problem.system, problem.observations[0]
     size = USUAL * problem.scales.force
-    if "force" not in system.model.inputs:
+    if system.model.inputs[0] == "base_position":
         inertia = problem.known[system.index[system.model.interfaces[0].inertia]]
         size = USUAL * math.sqrt(2.0) * float(np.std(observation.inputs[:, 0])) * inertia * rate**2
     return math.log(max(size, 1e-300) ** 2 * observation.dt)
@@ -38,7 +38,7 @@ def own_drive(problem: Problem, index: int) -> float:
     observation, first = problem.observations[index], problem.observations[0]
     own = math.sqrt(2.0) * float(np.std(observation.inputs[:, 0])) or float(np.abs(observation.inputs[:, 0]).max())
     common = problem.scales.force
-    if "force" not in problem.system.model.inputs:
+    if problem.system.model.inputs[0] == "base_position":
         common = math.sqrt(2.0) * float(np.std(first.inputs[:, 0]))
     return math.log(((own / common) ** 2 or 1.0) * observation.dt / first.dt) if common else 0.0
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from lostmotion.contracts import Array, Engine
 from lostmotion.kernels.threads import each
-from lostmotion.likelihood.drive import Drive
+from lostmotion.likelihood.drive import Drive, widened
 from lostmotion.likelihood.engine import Dynamics, Innovations, Points, Random, Smoothed
 from lostmotion.likelihood.initial import initial
 from lostmotion.likelihood.lanes import Lanes
@@ -65,6 +65,14 @@ class Problem:
     nsub: int = 3
     jobs: int = 2
     engine: Engine = field(default_factory=Lanes)
+
+    def __post_init__(self) -> None:
+        """Set the inputs to zero that a recording lacks."""
+        count = len(self.system.model.inputs)
+        whole = [
+            replace(o, inputs=widened(o.inputs, count)) if o.inputs.shape[1] < count else o for o in self.observations
+        ]
+        object.__setattr__(self, "observations", tuple(whole))
 
     @cached_property
     def space(self) -> ParameterSpace:

@@ -40,7 +40,7 @@ def units_of(d: Diagnosis) -> dict[str, str]:
 def _series(outcome: Outcome) -> dict[str, Column]:
     d, units = outcome.diagnosis, units_of(outcome.diagnosis)
     shown, missing = d.shown, d.located.missing
-    drive = "force" if "force" in d.after.problem.system.model.inputs else "position"
+    drive = "position" if d.after.problem.system.model.inputs[0] == "base_position" else "force"
     seen = units[shown.channel]
     heldout = np.ones(shown.samples)
     if shown.samples > d.held[0].samples:
