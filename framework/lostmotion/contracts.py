@@ -1,8 +1,7 @@
 """The seven kinds of plugin, in one file: subclass one once, as a frozen dataclass.
 
-`rhs`, `observe`, `force` and `rate` are plain scalar Python on NumPy arrays. The host compiles them with
-numba into one kernel, so they may use `math`, arithmetic, branches and other such functions, and nothing else;
-run uncompiled they are the slow twin of that kernel. What is *estimated* is never a field: it is an entry of `p`.
+`rhs`, `observe`, `force` and `rate` are plain scalar Python on NumPy arrays. The host compiles them with numba into one
+kernel: they may use `math`, arithmetic, branches and such functions only. What is *estimated* is no field, but in `p`.
 """
 
 from __future__ import annotations
@@ -11,7 +10,7 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, ClassVar, Generic, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar, Generic, Literal, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,9 +26,8 @@ if TYPE_CHECKING:
 
 __all__ = [
     "KINDS", "PSEUDO_NEEDS", "Array", "Assembly", "Data", "Denoiser", "Drive", "DriveTerm", "Embedder", "Engine",
-    "Flow", "Group", "Input", "Interface", "Model", "Orbit", "Param", "Quantifier", "SensorTerm", "Series",
-    "Surrogate", "Term", "Values", "place_of",
-]  # fmt: skip
+    "Flow", "Group", "Input", "Interface", "Model", "Motion", "Orbit", "Param", "Quantifier", "SensorTerm", "Series",
+    "Surrogate", "Term", "Values", "place_of"]  # fmt: skip
 
 Array = NDArray[np.float64]
 Input = Callable[[Array, int], Array]
@@ -37,23 +35,21 @@ Input = Callable[[Array, int], Array]
 Values = tuple[float, ...]
 """What a term is handed for its parameters and states: numbers to be indexed, nothing to be written."""
 Drive = tuple[float, float, float]
+Motion = Literal["translation", "rotation"]
 PSEUDO_NEEDS = ("step", "mobility", "omega", "amplitude", "stiffness", "play")
-"""What a term may need that is no parameter of that name: `step`, the integration step in s, and `mobility`, step /
-inertia: the velocity that a unit force gives the body in one step. A law that jumps at zero velocity is as wide as
-`force * mobility`, so that it sticks without turning the integration stiff. `omega` is the angular frequency of the
-drive (rad/s) and `amplitude` its size (sqrt(2) of its rms); `stiffness` and `play` are those of the contact at the
-place, the play 0 where nothing is loose."""
+"""What a term may need that is no parameter of that name: the integration `step` (s), and `mobility`, step / inertia:
+the velocity that a unit force gives the body in a step. A law that jumps at zero velocity is as wide as `force *
+mobility`, so that it sticks without turning the integration stiff. `omega` is the angular frequency of the drive
+(rad/s), `amplitude` sqrt(2) of its rms; `stiffness` and `play` those of the contact at the place, 0 where none."""
 
 
 @dataclass(frozen=True)
 class Param:
     """A number that may be known or estimated: `low` and `high` are physical bounds, not a prior.
 
-    `null` (terms only) is the value at which the whole term does nothing. `typical` is the prior width of a term's
-    parameter in natural scales of the recording (drive force, rms position and velocity); `scale="log"` says that
-    the parameter is positive and known by order of magnitude. One with `choices` is one of these numbers, tried in turn
-    and then held. Of one that is `lasting` the natural time is the length of the recording, not that of the motion.
-    `far` lists multiples of the typical size at which an amplitude is tried, where its effect does not grow steadily.
+    Of a term: `null` is where all of it does nothing; `typical` the prior width in natural scales of the recording
+    (drive force, rms position and velocity; its length if `lasting`); `choices` are tried in turn and held; `far` lists
+    multiples of `typical` tried as well. `scale="log"` says that it is positive and known by order of magnitude.
     """
 
     name: str
@@ -75,17 +71,19 @@ class Interface:
     """A place where a force can act: `motion(y, u)` gives relative position and velocity there.
 
     The force over parameter `inertia` is added to `dydt[row]`, and taken off at `against`, row and inertia of a second
-    body. Terms that need what a place `holds`, such as the gap, or its contact (`stiffness`, `play`), act nowhere else.
+    body, times the parameter `lever` (a gear ratio), whose value then goes to `motion(y, u, lever)` too. Terms that
+    need what a place `holds`, such as the gap, or its contact (`stiffness`, `play`), act nowhere else.
     """
 
     name: str
     row: int
     inertia: str
-    motion: Callable[[Array, Array], tuple[float, float]]
+    motion: Callable[..., tuple[float, float]]
     holds: tuple[str, ...] = ()
     stiffness: str | None = None
     play: str | None = None
     against: tuple[int, str] | None = None
+    lever: str | None = None
 
 
 class Group(NamedTuple):
@@ -104,13 +102,16 @@ class Group(NamedTuple):
 class Model(ABC):
     """A machine as a system of first-order equations, driven by what was *measured* going in.
 
-    Class variables: `states` names the entries of `y`; `inputs` those of `u` ("force", or "base_position" and
-    "base_velocity"); `channels` what `observe` writes; `motion` is "translation" (N, m) or "rotation" (N m, rad).
+    `states` names the entries of `y`; `inputs` those of `u`, zero where nothing drives them: "force", "second_force",
+    "base_position" with "base_velocity", "base_acceleration" (motion is then relative, but for what accelerometers
+    show). `channels` names by quantity what `observe` writes. `motion` is "translation" (N, m) or "rotation"
+    (N m, rad); where it is a field, `motions` lists what it can be.
     """
 
     name: ClassVar[str]
     paper: ClassVar[str]
-    motion: ClassVar[Literal["translation", "rotation"]]
+    motion: Motion
+    motions: ClassVar[tuple[str, ...]] = ()
     states: ClassVar[tuple[str, ...]]
     inputs: ClassVar[tuple[str, ...]]
     channels: ClassVar[tuple[str, ...]]
@@ -133,6 +134,18 @@ class Model(ABC):
         """Return the flow under a drive (amplitude, omega, phase) where it is known in closed form, or None."""
         return None
 
+    @property
+    def driven(self) -> tuple[str, ...]:
+        """The inputs that a single drive moves: the first one, and with a base position its velocity."""
+        return self.inputs[: 2 if self.inputs[0] == "base_position" else 1]
+
+    def turned(self, motion: str) -> Self:
+        """Return the model in that motion, or raise a `ContractError` where it cannot be in it."""
+        if motion not in (known := self.motions or (self.motion,)):
+            words = " or ".join(known)
+            raise ContractError(f"{self.name} is a model of {words}, not of {motion}: ask for {words}, or another one")
+        return self if motion == self.motion else replace(self, motion=motion)  # type: ignore[type-var]
+
     def __add__(self, term: Term) -> Assembly:
         return Assembly(self) + term
 
@@ -142,10 +155,10 @@ class Term(ABC):
 
     `force` returns the generalised force on the body in positive direction (friction is negative for v > 0), with
     `x`, `v` the relative motion at the interface `at`, `p` the own `params` followed by `needs`, `s` the own states.
-    `physics` is a sentence with the parameters in braces; `formula` is the law in plain text. `resembles` names terms
-    that tell a similar story, `equals` those that no recording of a machine that does not age can tell from this one. A
-    term that does the same at every place says so by `anywhere`, and is tried at the ground alone. `force` and `rate`
-    are static, or methods that read numbers among the fields of the term.
+    `physics` is a sentence with the parameters in braces; `formula` the law in plain text. `resembles` names terms that
+    tell a similar story, `equals` those that no recording of a machine that does not age can tell from it. One that
+    does the same `anywhere` is tried at the ground alone. `force` and `rate` are static, or methods that read numbers
+    among the fields of the term.
     """
 
     at: str
@@ -210,8 +223,8 @@ class _Beside(Term):
 class DriveTerm(_Beside):
     """Something between the recorded excitation and the one that acts: no force, but another input.
 
-    `true` returns what acts at the times `t` (s from the start of the recording), or its time derivative (`order` 1,
-    for a model that is driven by a base velocity), of the recorded input `u`; `p` is as for `Term.force`.
+    `true` returns what acts of the recorded input `u` at times `t` (s from the start of the recording), or its time
+    derivative (`order` 1, for a base velocity); `p` is as for `Term.force`.
     """
 
     acts = "drive"
@@ -225,9 +238,8 @@ class DriveTerm(_Beside):
 class SensorTerm(_Beside):
     """Something between the motion and its recording: no force.
 
-    The sensor shows `gain(p)` times what is there and `offset(p)` more, `delay(p)` seconds late, `rounded` at the end.
-    One that leaves marks in the values themselves, as rounding does, says by `marks` what they tell; it is not fitted
-    by likelihood. One that is `relative` is tried where there are several sensors: a force does the same to one alone.
+    It shows `gain(p)` times what is there and `offset(p)` more, `delay(p)` s late, `rounded`. What leaves `marks` in
+    values is not fitted. One that is `relative` is tried where there are several sensors.
     """
 
     acts = "sensor"
@@ -291,8 +303,8 @@ class Assembly:
 def place_of(model: Model, term: Term) -> Interface:
     """Return the interface of `model` at which `term` acts, or raise a `ContractError` that says what is wanting."""
     beside = (term.acts, *(model.inputs if term.acts == "drive" else (term.at,)))
-    named = model.interfaces if term.acts == "motion" else tuple(replace(_BESIDE, name=name) for name in beside)
-    places = {i.name: i for i in named}
+    named = {name: replace(_BESIDE, name=name) for name in beside}
+    places = {i.name: i for i in model.interfaces} if term.acts == "motion" else named
     if term.at not in places:
         raise ContractError(
             f"{term.name} acts at {term.at!r}, but {model.name} has {', '.join(places)}{nearest(term.at, places)}"
@@ -307,7 +319,6 @@ def place_of(model: Model, term: Term) -> Interface:
 
 
 _BESIDE = Interface("", -1, "", lambda y, u: (0.0, 0.0))
-"""A place beside the machine, where terms act that are no force: an input, or a sensor by its name."""
 
 
 class Embedder(ABC):
@@ -322,10 +333,7 @@ class Embedder(ABC):
 
 
 class Quantifier(ABC, Generic[Data]):
-    """Measures one number with its interval, curve and status: of a recording, or of a model.
-
-    Subclass `Quantifier[Series]`, or `Quantifier[Flow]` with `reads = "flow"`. `unit` is that of the value.
-    """
+    """Measures one number, in `unit`: `Quantifier[Series]` of a recording, `Quantifier[Flow]` with `reads = "flow"`."""
 
     name: ClassVar[str]
     paper: ClassVar[str]
@@ -370,10 +378,9 @@ class Denoiser(ABC):
 
 
 class Engine(ABC):
-    """Filters, smooths and simulates a model with its terms at many parameter points at once.
+    """Filters, smooths and simulates a model with its terms at many parameter points at once, from several threads.
 
-    What comes out for a point depends on neither the others nor their order. One that leaves all numbers is told by how
-    many samples it `reached`, and never raises. Calls may come from several threads.
+    A point depends on neither the others nor their order. One that leaves all numbers tells by `reached`, not raises.
     """
 
     name: ClassVar[str]
@@ -391,18 +398,12 @@ class Engine(ABC):
     def simulate(
         self, dynamics: Dynamics, points: Points, start: Array, steps: int, kicks: Array | None = None
     ) -> Array:
-        """Return the states (points, steps, n) of free runs from `start` (points, n), NaN where they leave all numbers.
+        """Return the states (points, steps, n) of free runs from `start` (points, n), NaN behind the last finite one.
 
         They begin at the samples `points.first` of their drives; `kicks` (points, steps, n) are added after the first.
         """
 
 
 KINDS: Mapping[str, type[Any]] = {
-    "model": Model,
-    "term": Term,
-    "embedder": Embedder,
-    "quantifier": Quantifier,
-    "surrogate": Surrogate,
-    "denoiser": Denoiser,
-    "engine": Engine,
+    kind.__name__.lower(): kind for kind in (Model, Term, Embedder, Quantifier, Surrogate, Denoiser, Engine)
 }

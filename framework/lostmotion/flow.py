@@ -24,7 +24,7 @@ import numpy as np
 
 from lostmotion.contracts import Array, Assembly, Flow, Model, Orbit
 from lostmotion.errors import ContractError
-from lostmotion.likelihood.drive import SILENT, Tone
+from lostmotion.likelihood.drive import SILENT, Tone, widened
 from lostmotion.likelihood.stroboscopic import stroboscopic_map
 from lostmotion.likelihood.system import System
 
@@ -45,7 +45,7 @@ COARSE, PROBES = 40, 100
 
 @dataclass(frozen=True)
 class Harmonic:
-    """A force, or a base position, of amplitude * cos(omega t + phase); `omega` in rad/s."""
+    """The first input of a model (a force, a base position) as amplitude * cos(omega t + phase); `omega` in rad/s."""
 
     amplitude: float
     omega: float
@@ -57,12 +57,10 @@ class Harmonic:
         return 2.0 * math.pi / self.omega
 
     def column(self, name: str) -> Callable[[Array], Array]:
-        """Return the input called `name` as a function of time; a base velocity is the slope of the base position."""
-        if name in ("force", "base_position"):
-            return lambda t: self.amplitude * np.cos(self.omega * t + self.phase)
+        """Return the driven input called `name` as a function of time; a base velocity is the slope of the position."""
         if name == "base_velocity":
             return lambda t: -self.amplitude * self.omega * np.sin(self.omega * t + self.phase)
-        raise ContractError(f"a harmonic drive cannot make the input {name!r}: it makes force or base motion")
+        return lambda t: self.amplitude * np.cos(self.omega * t + self.phase)
 
 
 def flow_of(
@@ -209,15 +207,15 @@ class Stepped:
 
     def _inputs(self, steps: int, h: float) -> Array:
         """Return the inputs of one period (3 * steps, inputs): start, middle and end of each step."""
-        names = self.system.model.inputs
+        names, count = self.system.model.driven, len(self.system.model.inputs)
         if self.beat is None:
-            return np.zeros((3 * steps, max(len(names), 1)))
+            return np.zeros((3 * steps, count))
         t = (np.arange(steps)[:, None] * h + np.array([0.0, 0.5 * h, h])).ravel()
         columns = [self.beat.column(name) for name in names]
         keys = self.system.shaping(self.system.everything)
         acting = self.system.acting(columns, self.full, keys, self._tone)
         moved = [there or recorded for there, recorded in zip(acting, columns, strict=True)]
-        return np.ascontiguousarray(np.stack([u(t) for u in moved], axis=1))
+        return np.ascontiguousarray(widened(np.stack([u(t) for u in moved], axis=1), count))
 
     @property
     def _tone(self) -> Tone:

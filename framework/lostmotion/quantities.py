@@ -28,7 +28,7 @@ ANGULAR = {
     "force": "N m",
     "torque": "N m",
 }
-ROTATES = {unit: "translation" for unit in SI.values()} | {unit: "rotation" for unit in ANGULAR.values()}
+ROTATES = dict.fromkeys(SI.values(), "translation") | dict.fromkeys(ANGULAR.values(), "rotation")
 """What motion a unit of a channel or an input belongs to."""
 _NAMED = {
     ("translation", 1, -1, 2): "kg",
@@ -43,6 +43,26 @@ LONGEST = 60
 _RAISED = re.compile(r"\*\*|\^")
 _POWER = re.compile(r"[^\W\d_]\s*(?:\*\*|\^)\s*\(?\s*[+-]?\d(?:\.\d+)?(?![\d.])")
 """A unit to the power of one digit: pint would work out 9 ** 9 ** 9 as well, for hours."""
+
+
+QUANTITIES = ("position", "velocity", "acceleration", "force")
+"""What channels and inputs of a model can be."""
+
+
+def quantity_of(name: str) -> str:
+    """Return what a channel or an input is, by the last part of its name: "second_position" is a position.
+
+    Parts are divided by `_` or `.`, and a torque is the force of a rotation. Any other name raises `DataError`.
+    """
+    last = re.split(r"[_.]", name)[-1]
+    if (quantity := "force" if last == "torque" else last) in QUANTITIES:
+        return quantity
+    raise DataError(f"{name!r} ends in none of {', '.join(QUANTITIES)}: name it so, for instance 'second_position'")
+
+
+def unit_of(name: str, motion: str) -> str:
+    """Return the SI unit of a channel or an input in a kind of motion: "rad/s^2" of an acceleration in rotation."""
+    return (SI if motion == "translation" else ANGULAR)[quantity_of(name)]
 
 
 class Dimension(NamedTuple):
@@ -82,28 +102,8 @@ STIFFNESS = Dimension(1, -1, 0)
 NUMBER = Dimension(0, 0, 0)
 
 
-KINDS = ("position", "velocity", "acceleration", "force")
-"""What channels and inputs of a model can be."""
-_PART = re.compile(r"[_.]")
 _GRAVITY = {"g": "g_0", "mg": "mg_0", "G": "g_0"}
 """How accelerations are written by those who make accelerometers, where pint reads grams."""
-
-
-def quantity_of(name: str) -> str:
-    """Return of what kind a channel or an input of a model is: the last part of its name, behind `_` or a dot.
-
-    "second_position" is a position, "elbow.velocity" a velocity, and a torque the force of a rotation.
-    """
-    last = _PART.split(name)[-1]
-    found = "force" if last == "torque" else last
-    if found not in KINDS:
-        raise DataError(f"{name!r} ends in none of {', '.join(KINDS)}: name it by what it is, as 'second_position'")
-    return found
-
-
-def unit_of(name: str, motion: str) -> str:
-    """Return the SI unit of a channel or an input of a model, for instance rad/s^2 in rotation."""
-    return (SI if motion == "translation" else ANGULAR)[quantity_of(name)]
 
 
 @lru_cache(maxsize=1)

@@ -12,6 +12,7 @@ def lostmotion_models() -> dict[str, str]:
         "backlash_slider": f"{_HERE}.models.slider:BacklashSlider",
         "clearance_chain": f"{_HERE}.models.clearance_chain:ClearanceChain",
         "duffing": f"{_HERE}.models.duffing:Duffing",
+        "gear_mesh": f"{_HERE}.models.gear_mesh:GearMesh",
         "gear_pair": f"{_HERE}.models.gear_pair:GearPair",
         "impact_oscillator": f"{_HERE}.models.impact_oscillator:ImpactOscillator",
         "lin_backlash": f"{_HERE}.models.lin:LinBacklash",

@@ -25,7 +25,7 @@ class Cart(Model):
     motion = "translation"
     states = ("position", "velocity")
     inputs = ("force",)
-    channels = ("position",)
+    channels = ("position", "velocity")
     params = (
         Param("m", "mass", INERTIA, low=0.0, scale="log"),
         Param("c", "damping", DAMPING, low=0.0, scale="log"),
@@ -41,6 +41,7 @@ class Cart(Model):
     @staticmethod
     def observe(t, y, dydt, u, p, seen):
         seen[0] = y[0]
+        seen[1] = y[1]
 
 
 @dataclass(frozen=True)

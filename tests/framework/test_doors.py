@@ -43,7 +43,7 @@ def place(tmp_path_factory, known):
         drives=["harmonic:amplitude=1,omega=5", "harmonic:amplitude=1,omega=8"], noise=0.01, registry=known,
         out=folder / "recording.csv",
     )  # fmt: skip
-    assert list(table.columns) == ["time", "force", "position"]
+    assert list(table.columns) == ["time", "force", "position", "velocity"]
     (folder / "case.toml").write_text(CASE, encoding="utf-8")
     return folder
 

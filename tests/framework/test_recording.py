@@ -159,8 +159,8 @@ def test_heavy_readers_are_not_loaded_with_the_module() -> None:
 
 @pytest.mark.real
 def test_emps(shared: Path) -> None:
-    channels = Channel("vir", "force", "N", 35.15065), Channel("qm", "position", "m")
-    got = load_recording(RecordingSpec("DATA_EMPS.mat", "t", None, channels[:1], channels[1:], "step"), shared / "data/emps")
+    pair = (Channel("vir", "force", "N", 35.15065),), (Channel("qm", "position", "m"),)
+    got = load_recording(RecordingSpec("DATA_EMPS.mat", "t", None, *pair, "step"), shared / "data/emps")
     assert (got.n, got.hold) == (24841, "step")
     assert got.dt == pytest.approx(1e-3, rel=1e-6)
     assert not [note for note in got.notes if "time" in note]
@@ -177,9 +177,10 @@ def test_every_real_archive_is_read(shared: Path) -> None:
 
 @pytest.mark.real
 def test_friction_damper(shared: Path) -> None:
-    channels = Channel("data[2]", "force", "N", 4448.22), Channel("data[1]", "position", "inch")
+    pair = (Channel("data[2]", "force", "N", 4448.22),), (Channel("data[1]", "position", "inch"),)
     got = load_recording(
-        RecordingSpec("d2_1Hz_30lb_1in.npz", "data[0]", None, channels[:1], channels[1:]), shared / "data/brfd_friction_backlash"
+        RecordingSpec("d2_1Hz_30lb_1in.npz", "data[0]", None, *pair),
+        shared / "data/brfd_friction_backlash",
     )
     assert got.rate == pytest.approx(1024, rel=1e-6)
     assert 0.02 < float(got.data.response.max()) < 0.03
@@ -187,5 +188,5 @@ def test_friction_damper(shared: Path) -> None:
 
 @pytest.mark.real
 def test_silverbox_by_rate(shared: Path) -> None:
-    channels = Channel("V1", "force", "N"), Channel("V2", "position", "m")
-    assert load_recording(RecordingSpec("SNLS80mV.npz", None, 610.35, channels[:1], channels[1:]), shared / "data/silverbox").n == 131072
+    pair = (Channel("V1", "force", "N"),), (Channel("V2", "position", "m"),)
+    assert load_recording(RecordingSpec("SNLS80mV.npz", None, 610.35, *pair), shared / "data/silverbox").n == 131072

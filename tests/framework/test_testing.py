@@ -8,7 +8,7 @@ from typing import ClassVar
 import pytest
 
 from lostmotion import testing
-from lostmotion.contracts import Denoiser, DriveTerm, Interface, Model, Param, SensorTerm, Term
+from lostmotion.contracts import Denoiser, DriveTerm, Interface, Model, Motion, Param, SensorTerm, Term
 from lostmotion.errors import ContractError
 from lostmotion.quantities import DAMPING, INERTIA, NUMBER, TIME
 
@@ -98,7 +98,15 @@ def here(y, u):
 
 
 def elsewhere(y, u):
-    return y[0], 2.0 * y[1]
+    return 0.5 * y[0], y[1]
+
+
+def backwards(y, u):
+    return -y[0], -y[1]
+
+
+def geared(y, u, lever):
+    return y[0] - lever * y[2], y[1] - lever * y[3]
 
 
 @dataclass(frozen=True)
@@ -123,6 +131,57 @@ class Cart(Model):
     def observe(t, y, dydt, u, p, seen):
         seen[0] = y[0]
         seen[1] = y[1]
+
+
+@dataclass(frozen=True)
+class Wheels(Model):
+    """A good model of two wheels on a table, in translation or rotation."""
+
+    name: ClassVar[str] = "wheels"
+    paper: ClassVar[str] = "Newton (1687)"
+    motion: Motion = "rotation"
+    motions: ClassVar[tuple[str, ...]] = ("translation", "rotation")
+    states = ("position", "velocity", "second_position", "second_velocity")
+    inputs = ("force", "second_force", "base_acceleration")
+    channels = ("position", "velocity", "second_position", "second_velocity", "second_acceleration")
+    params = (MASS, Param("ratio", "ratio of the gears", NUMBER, low=0.0, scale="log"))
+    interfaces = (Interface("mesh", row=1, inertia="m", motion=geared, against=(3, "m"), lever="ratio"),)
+
+    @staticmethod
+    def rhs(t, y, u, p, dydt):
+        push = y[0] - p[1] * y[2]
+        dydt[0] = y[1]
+        dydt[1] = (u[0] - push) / p[0] - u[2]
+        dydt[2] = y[3]
+        dydt[3] = (u[1] + p[1] * push) / p[0] - u[2]
+
+    @staticmethod
+    def observe(t, y, dydt, u, p, seen):
+        seen[0] = y[0]
+        seen[1] = y[1]
+        seen[2] = y[2]
+        seen[3] = y[3]
+        seen[4] = dydt[3] + u[2]
+
+
+def sees_relative_acceleration(t, y, dydt, u, p, seen):
+    seen[0] = y[0]
+    seen[1] = y[1]
+    seen[2] = y[2]
+    seen[3] = y[3]
+    seen[4] = dydt[3]
+
+
+def sees_the_first_wheel_twice(t, y, dydt, u, p, seen):
+    seen[0] = y[0]
+    seen[1] = y[1]
+    seen[2] = y[0]
+    seen[3] = y[1]
+    seen[4] = dydt[1] + u[2]
+
+
+def stays(self, motion):
+    return self
 
 
 def adds_up(t, y, u, p, dydt):
@@ -199,6 +258,10 @@ def ground(**changes):
     return (replace(Cart.interfaces[0], **changes),)
 
 
+def mesh(**changes):
+    return (replace(Wheels.interfaces[0], **changes),)
+
+
 RANDOM = {"compiles_to_the_same_numbers"}
 
 
@@ -224,7 +287,7 @@ BAD = [
     ("has_docstring", Drag, {"__doc__": None}, set()),
     ("known_failures_are_named", Drag, {"known_failures": ["has_a_null"]}, set()),
     ("known_failures_are_named", Drag, {"known_failures": {"has_no_null": "a reason"}}, set()),
-    ("attributes_are_complete", Cart, {"channels": "abc"}, set()),
+    ("attributes_are_complete", Cart, {"channels": "abc"}, {"channels_are_named_by_quantity", "bodies_are_shown"}),
     ("methods_have_the_arguments_of_the_contract", Drag, {"force": staticmethod(forgets_an_argument)}, None),
     ("params_are_unique", Cart, {"params": (MASS, replace(MASS, name="mass", aliases=("m",)))}, set()),
     ("bounds_are_ordered", Drag, {"params": (replace(DRAG, high=0.0),)}, set()),
@@ -234,9 +297,21 @@ BAD = [
     ("states_are_named", Memory, {"states": ("held force",)}, set()),
     ("can_be_pickled", Drag, {}, set()),
     ("motion_is_known", Cart, {"motion": "sideways"}, set()),
+    ("motion_is_known", Cart, {"motions": ("rotation",)}, set()),
+    ("motion_is_known", Wheels, {"turned": stays}, set()),
     ("inputs_and_channels_are_named", Cart, {"inputs": ("voltage",)}, set()),
+    ("inputs_and_channels_are_named", Cart, {"inputs": ("base_position", "force", "base_velocity")}, set()),
+    ("inputs_and_channels_are_named", Cart, {"inputs": ("base_position",)}, set()),
+    ("channels_are_named_by_quantity", Cart, {"channels": ("position", "velocity", "heat")}, set()),
+    ("bodies_are_shown", Cart, {"channels": ("position",), "observe": staticmethod(sees_half)}, set()),
+    ("channels_of_states_show_them", Wheels, {"observe": staticmethod(sees_the_first_wheel_twice)}, set()),
+    ("channels_are_rates_of_each_other", Wheels, {"observe": staticmethod(sees_relative_acceleration)}, set()),
     ("interfaces_name_rows_and_params", Cart, {"interfaces": ground(row=2)}, set()),
     ("interfaces_name_rows_and_params", Cart, {"interfaces": ground(holds=("x0",))}, set()),
+    ("levers_are_numbers", Wheels, {"interfaces": mesh(lever="m")}, set()),
+    ("levers_are_numbers", Wheels, {"interfaces": mesh(against=None)}, set()),
+    ("interface_force_acts_along_its_motion", Cart, {"interfaces": ground(motion=backwards)}, set()),
+    ("interface_force_acts_along_its_motion", Wheels, {"interfaces": mesh(lever=None, motion=here)}, set()),
     ("interface_velocity_is_the_rate_of_its_position", Cart, {"interfaces": ground(motion=elsewhere)}, set()),
     ("rhs_writes_every_entry", Cart, {"rhs": staticmethod(adds_up)}, set()),
     ("rhs_changes_no_argument", Cart, {"rhs": staticmethod(clears_its_input)}, set()),
@@ -279,7 +354,7 @@ def broken_rules(component):
     return {f.rule for f in testing.check(component) if not f.ok}
 
 
-@pytest.mark.parametrize("component", [Drag, Memory, Cart, Drag(at="base")])
+@pytest.mark.parametrize("component", [Drag, Memory, Cart, Wheels, Wheels("translation"), Drag(at="base")])
 def test_good_plugins_keep_every_rule(component):
     assert [str(f) for f in testing.check(component) if not f.ok] == []
     testing.assert_conforms(component)

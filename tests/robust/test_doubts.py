@@ -122,5 +122,6 @@ def test_no_real_recording_is_doubted(shared: Path) -> None:
     dampers = sorted((folder / "brfd_friction_backlash").glob("*.npz"))
     assert len(dampers) > 20
     for file in dampers:
-        damper = RecordingSpec(file.name, "data[0]", None, (Channel("data[1]", "base_position", "inch"),), (Channel("data[2]", "force", "kip"),))  # fmt: skip
+        moved, felt = Channel("data[1]", "base_position", "inch"), Channel("data[2]", "force", "kip")
+        damper = RecordingSpec(file.name, "data[0]", None, (moved,), (felt,))
         assert load_recording(damper, file.parent).notes == (), file.name

@@ -62,7 +62,7 @@ def chain(friction):
 
 SETS = {
     "duffing": (wells, WELLS, {"c": 0.2, "k3": 0.7}, {"coulomb_friction.force": 0.02}),
-    "gear_pair": (
+    "gear_mesh": (
         teeth, TEETH, {"c": 0.1, "x0": 1.3},
         {"parametric_stiffness.cosine": 0.2 * math.cos(0.5), "parametric_stiffness.sine": -0.2 * math.sin(0.5)},
     ),

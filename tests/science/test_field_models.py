@@ -12,7 +12,7 @@ from scipy.special import ellipj, mathieu_a, mathieu_b
 
 from lostmotion.flow import Harmonic
 from lostmotion_plugins.models.duffing import Duffing
-from lostmotion_plugins.models.gear_pair import GearPair
+from lostmotion_plugins.models.gear_mesh import GearMesh
 from lostmotion_plugins.quantifiers.flows import KaplanYorke, LyapunovMax
 
 RNG = np.random.default_rng(0)
@@ -76,7 +76,7 @@ def tongue(kappa):
 
 def exponent_at_rest(values):
     """Return the largest exponent (1/s) of the state of rest."""
-    flow = flow_of(GearPair(), values, drive=2.0 * math.pi / values["omega_mesh"], start=[0.0, 0.0])
+    flow = flow_of(GearMesh(), values, drive=2.0 * math.pi / values["omega_mesh"], start=[0.0, 0.0])
     return float(flow.march(np.zeros(2), periods=2000, tangents=1).growth[200:].mean() / flow.period)
 
 
@@ -113,7 +113,7 @@ def test_teeth_that_never_part_answer_as_hill_says():
     steady = (np.exp(0.8j * np.outer(t, orders)) @ shares).real
     assert steady.min() > 0.1
     seen = followed(
-        GearPair(), values, drive=2.0 * math.pi / 0.8, start=[0.05 + steady[0], 0.0], periods=60, looks=64, steps=640
+        GearMesh(), values, drive=2.0 * math.pi / 0.8, start=[0.05 + steady[0], 0.0], periods=60, looks=64, steps=640
     )
     np.testing.assert_allclose(seen[-65:, 0] - 0.05, steady, atol=1e-6)
 
@@ -127,7 +127,7 @@ def test_gears_that_rattle_against_another_integrator():
         push = 0.1 + 0.5 * math.cos(0.7 * t)
         return [y[1], push - 0.05 * y[1] - (1.0 + 0.3 * math.cos(1.4 * t + 0.6)) * beyond]
 
-    seen = followed(GearPair(), values, drive=Harmonic(0.5, 0.7), start=[0.9, 0.3], periods=3, looks=100, steps=4000)
+    seen = followed(GearMesh(), values, drive=Harmonic(0.5, 0.7), start=[0.9, 0.3], periods=3, looks=100, steps=4000)
     assert np.sum(np.diff(np.abs(seen[:, 0]) > 1.0)) >= 6
     np.testing.assert_allclose(seen, elsewhere(rates, t, [0.9, 0.3], max_step=0.01), atol=2e-5)
 
@@ -135,7 +135,7 @@ def test_gears_that_rattle_against_another_integrator():
 def test_exponents_are_measured_through_teeth():
     """The force has kinks and no jumps, so that tangent vectors go through them without more ado."""
     values = mesh(c=0.05, kappa=0.3, omega=1.4, preload=0.1) | {"x0": 1.0}
-    flow = flow_of(GearPair(), values, drive=Harmonic(0.5, 0.7), start=[0.1, 0.0])
+    flow = flow_of(GearMesh(), values, drive=Harmonic(0.5, 0.7), start=[0.1, 0.0])
     found = LyapunovMax(periods=300, transient=100).estimate(flow, rng=RNG)
     assert found.status == "ok", found.says
     assert flow.march(flow.start, periods=20, tangents=1).status == "ok"

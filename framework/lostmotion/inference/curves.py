@@ -83,7 +83,8 @@ def _range(fit: Fit, curve: Learned) -> tuple[float, float]:
 def _ends(problem: Problem, theta: Array, index: int, place: Interface, column: int) -> tuple[float, float]:
     observation = problem.observations[index]
     single = replace(problem.on((observation,)), jobs=1)
-    moved = observation.motion_at(place, single.smooth(theta).filtered)[column]
+    lever = problem.system.lever(single.full(theta), place)
+    moved = single.observations[0].motion_at(place, single.smooth(theta).filtered, lever)[column]
     low, high = np.quantile(moved[len(moved) // 50 :], [1e-3, 1.0 - 1e-3])
     return float(low), float(high)
 

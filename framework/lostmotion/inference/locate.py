@@ -38,7 +38,7 @@ def covariates(model: Model, observation: Observation, missing: Missing) -> dict
     table = {"position": missing.position, "velocity": missing.velocity}
     for place in model.interfaces:
         if place.name != "ground" and len(model.interfaces) > 1:
-            moved = observation.motion_at(place, missing.states)
+            moved = observation.motion_at(place, missing.states, missing.levers.get(place.name, ()))
             table[f"position at {place.name}"], table[f"velocity at {place.name}"] = moved
     period = observation.period
     if period:
@@ -94,7 +94,7 @@ def further(
         x, v = (
             (missing.position, missing.velocity)
             if place.name == "ground"
-            else observation.motion_at(place, missing.states)
+            else observation.motion_at(place, missing.states, missing.levers.get(place.name, ()))
         )
         tail = "" if place.name == "ground" or len(model.interfaces) == 1 else f" at {place.name}"
         found[f"sign of velocity{tail}"] = Covariate((np.sign(v),), classes=True)

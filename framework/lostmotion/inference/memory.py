@@ -69,8 +69,8 @@ def _alike(nominal: Fit, hung: Fit) -> Fit | None:
 def remembering(fit: Fit, sensors: Sequence[int] | None = None) -> Fit | None:
     """Return the fit with measurement noise that has a memory beside the white one, or None where all sensors have it.
 
-    Of several sensors (those numbered so, or all) it is the one whose memory is worth most. Begun at a few lengths of the memory, with the random
-    force at what is usual, since it need not imitate any more.
+    Of several sensors (those numbered so, or all) it is the one whose memory is worth most. Begun at a few lengths of
+    the memory, with the random force at what is usual, since it need not imitate any more.
     """
     problem, first = fit.problem, fit.problem.observations[0]
     numbers = range(len(first.sensors)) if sensors is None else sensors

@@ -43,7 +43,8 @@ def scouted(fit: Fit) -> dict[str, list[dict[str, float]]]:
     states, lean = expected_force(problem, fit.theta)
     slopes, found = None, {}
     for key in keys:
-        x, v = observation.motion_at(place_of(problem.system.model, term_of(problem, key)[0]), states)
+        place = place_of(problem.system.model, term_of(problem, key)[0])
+        x, v = observation.motion_at(place, states, problem.system.lever(problem.full(fit.theta), place))
         if best := _best(problem, key, np.stack([observation.time, x, v]), lean):
             slopes = slopes or slopes_of(fit)
             hint = screen(fit, slopes, key, [best])

@@ -82,7 +82,7 @@ def _push(system: System, observation: Observation, inertia: float) -> tuple[flo
     A base that is shaken pushes by its acceleration; one that moves through a joint pushes by an unknown force: zero.
     """
     squares, peak = 0.0, 0.0
-    for name, u in zip(system.model.inputs, observation.inputs.T, strict=True):
+    for name, u in zip(system.model.inputs, observation.inputs.T, strict=False):
         weight = inertia if name == "base_acceleration" else float(quantity_of(name) == "force")
         squares += 2.0 * weight**2 * float(np.var(u))
         peak = max(peak, weight * float(np.abs(u).max()))

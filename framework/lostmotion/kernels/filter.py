@@ -162,7 +162,7 @@ def corrected(work, slow, levels, sensor, z, many, own, errors, variances, k, la
     """Correct the states by one reading of a sensor, of which `EXPECTED` and `H` tell what the model thinks.
 
     `levels` has for each sensor the variances of white and of slow noise, by how much the slow one fades in a sample,
-    its gain, its offset and its lag. `slow` holds for each of `many` sensors with slow noise the mean of that, its covariance
+    its gain, its offset and its lag. `slow` holds for each of `many` sensors with slow noise its mean, its covariance
     with the states (N rows) and with the slow noise of each sensor; `own` is the place of this sensor among them, or
     -1.
     """
@@ -266,14 +266,14 @@ def filtered(functions, blocks, wiring, inputs, drives, z, sensors, dt, nsub, er
 
     `functions` are the addresses of what derives and what observes; `blocks` those of the model, of work, of slow
     noise, and what each point brings: its time at the first sample (1 row); for each sensor the variances of white
-    and of slow noise, by how much the slow one fades in a sample, gain, offset and lag (6 rows each); for each source of
-    noise the number of the state that it enters and its intensity, then for each force that is drawn anew at each
+    and of slow noise, how much the slow one fades in a sample, gain, offset and lag (6 rows each); for each source
+    of noise the number of the state that it enters and its intensity, then for each force that is drawn anew at each
     sample its state and variance (2 rows each); states and covariances to begin with (N + N * N rows). `wiring` holds
     the wires of the model, with the numbers of sources, of drawn forces, of inputs and of drives at `SOURCES` and
     behind. `inputs` (rows, 4, inputs) holds a cubic for each sample, and `drives` (lanes,) the first row of each
     point. `sensors` (sensors, 4) holds the channel of each, the state that it shows directly or -1, its place
-    among those with slow noise or -1, and whether it is late. `errors` and `variances` are (lanes, samples, sensors); `reached` (lanes,)
-    counts the samples that were got through. `kept` is what a smoother needs of the first point: states and
+    among those with slow noise or -1, and whether it is late. `errors` and `variances` are (lanes, samples, sensors);
+    `reached` (lanes,) counts the samples that were got through. `kept` is what a smoother needs of the first point: states and
     covariances after and before each sample and the steps between, empty if not wanted.
     """
     derive, observe = functions[0], functions[1]

@@ -32,13 +32,14 @@ FIRST = 11
 class Place:
     """Where a force acts: the row of `dydt`, the index of the inertia in `p`, and the relative motion there.
 
-    `against` is row and inertia of a body that feels the opposite force.
+    `against` is row and inertia of a body that feels the opposite force, times the parameter with index `lever`.
     """
 
     row: int
     inertia: int
     motion: Callable[..., Any]
     against: tuple[int, int] | None = None
+    lever: int | None = None
 
 
 @dataclass(frozen=True)
@@ -189,6 +190,8 @@ def _law_lines(index: int, plan: Blueprint, start: int) -> list[str]:
     own = "(" + "".join(f"value(block, {row}, l), " for row in places) + ")"
     if law.prepared:
         own = f"column(block, {rows.own + start}, l, {law.width})"
+    lever = "" if place.lever is None else f"value(block, {rows.params + place.lever}, l)"
+    moved = f"column(block, {rows.states}, l, {plan.states}), u{lever and ', ' + lever}"
     states = "".join(f"value(block, {rows.states + a} + at, l), " for a in range(law.states))
     first = f"fields_{index}, " if law.fields else ""
     told = f"{first}value(block, 0, l), x, v, u, {own}, ({states})"
@@ -197,12 +200,12 @@ def _law_lines(index: int, plan: Blueprint, start: int) -> list[str]:
         f"        at = wires[{at}]",
         "        for l in range(lanes):",
         f"            u = column(block, {rows.inputs}, l, {plan.inputs})",
-        f"            x, v = motion_{law.place}(column(block, {rows.states}, l, {plan.states}), u)",
+        f"            x, v = motion_{law.place}({moved})",
         f"            push = force_{index}({told})",
         _pushed(plan, place.row, place.inertia, "push"),
     ]
     if place.against:
-        lines.append(_pushed(plan, *place.against, "-push"))
+        lines.append(_pushed(plan, *place.against, f"-push * {lever}" if lever else "-push"))
     if law.states:
         lines.append(f"            rate_{index}({told}, column(block, {rows.derivatives} + at, l, {law.states}))")
     return lines

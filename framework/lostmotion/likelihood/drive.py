@@ -51,6 +51,10 @@ class Drive:
         """The inputs (samples, inputs) at the samples."""
         return self.cubics[:, 0]
 
+    def widened(self, count: int) -> Drive:
+        """Return the drive with `count` inputs: those that it lacks are zero."""
+        return replace(self, cubics=widened(self.cubics, count)) if self.cubics.shape[2] < count else self
+
     @classmethod
     def smooth(cls, columns: Sequence[Callable[[Array], Array]], dt: float, samples: int, begin: float = 0.0) -> Drive:
         """Return the drive of functions of time (s), one to each input: cubics through four points of each sample."""
@@ -80,6 +84,12 @@ class Drive:
                 cubics[:, :, i] = 0.0
                 cubics[:, : 2 if held else 4, i] = _fitted(_LINE if held else _CUBIC, values)[:, :, 0]
         return replace(grid, cubics=cubics)
+
+
+def widened(columns: Array, count: int) -> Array:
+    """Return columns (..., inputs) with zeros behind them, `count` in all: an input that nothing drives is zero."""
+    lacking = count - columns.shape[-1]
+    return np.concatenate([columns, np.zeros((*columns.shape[:-1], lacking))], axis=-1) if lacking > 0 else columns
 
 
 def _fitted(inverse: Array, values: Array) -> Array:

@@ -58,7 +58,7 @@ def _by_force(
     """Return mean and covariance where the first sensor shows a force: the body stands where it is felt."""
     observation, model = problem.observations[index], problem.system.model
     mean, cov = begun
-    mean[:, :2] = observation.inputs[0]
+    mean[:, :2] = observation.inputs[0, :2]
     cov[1, 1] *= 0.25
     covariance = np.tile(cov, (len(fulls), 1, 1))
     for point, full in enumerate(fulls):

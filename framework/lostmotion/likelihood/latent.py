@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -22,7 +23,8 @@ class Missing:
     `states` (samples, n) are those of model and terms, smoothed.
 
     `share` is its prior standard deviation in units of the drive and `time` its correlation time in s, both chosen
-    by the likelihood; `log_gain` is what the likelihood prefers it by over a latent force of `SHARES[0]`.
+    by the likelihood; `log_gain` is what the likelihood prefers it by over a latent force of `SHARES[0]`. `levers` are
+    those of `System.lever` by place.
     """
 
     force: Array
@@ -31,6 +33,7 @@ class Missing:
     share: float
     time: float
     log_gain: float
+    levers: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
 
     @property
     def position(self) -> Array:
@@ -59,7 +62,9 @@ def missing_force(problem: Problem, theta: Array, index: int = 0) -> Missing:
     sd = np.sqrt(np.maximum(seen.covariance[:, -1, -1], 0.0))
     share, pace = grid[best]
     gain = float(heights[best] - base)
-    return Missing(seen.states[:, -1], sd, seen.states[:, :-1], share, problem.scales.time / pace, gain)
+    full, places = single.full(theta), problem.system.model.interfaces
+    levers = {place.name: problem.system.lever(full, place) for place in places}
+    return Missing(seen.states[:, -1], sd, seen.states[:, :-1], share, problem.scales.time / pace, gain, levers)
 
 
 def expected_force(problem: Problem, theta: Array, index: int = 0) -> tuple[Array, Array]:

@@ -72,7 +72,7 @@ def noise_frees(observations: Sequence[Observation], scales: Scales) -> tuple[Fr
 
 
 def memory_frees(observation: Observation, sensor: int, noise: float, scales: Scales) -> tuple[Free, Free]:
-    """Return size and length (s) of noise with a memory of a sensor, both as logarithms; `noise` is that of the white."""
+    """Return log size and log length (s) of noise with a memory of a sensor; `noise` is log size of the white one."""
     dt = observation.dt
     low, high = math.log(SHORTEST * dt), math.log(max(LONGEST * scales.time, LASTING * dt))
     middle = min(math.log(3.0 * dt), high)

@@ -12,7 +12,7 @@ from lostmotion.errors import ContractError
 from lostmotion.kernels.inputs import DRIVES
 from lostmotion.kernels.vector import STRIDE, WIDTH
 from lostmotion.likelihood.compose import FIRST
-from lostmotion.likelihood.drive import Drive
+from lostmotion.likelihood.drive import Drive, widened
 from lostmotion.likelihood.kernels import motion_kernels
 
 if TYPE_CHECKING:
@@ -121,8 +121,8 @@ def derivatives(
 ) -> tuple[Array, Array]:
     """Return derivatives (points, n) of the states (points, n) under inputs (points, inputs), and channels there.
 
-    `packed` are the parameters (1, params), `times` (points,) in s, zero if not given. The force with the key `muted`
-    is switched off, and its states stay.
+    `packed` are the parameters (1, params), `times` (points,) in s, zero if not given. Inputs that lack are zero. The
+    force with the key `muted` is switched off, and its states stay.
     """
     rates, seen = np.zeros(states.shape), np.zeros((len(states), len(system.model.channels)))
     made, wires = system.functions(), model_wires(system, active)
@@ -130,7 +130,7 @@ def derivatives(
         wires[FIRST + [key for key, _ in system.forces].index(muted)] = 0
     told: list[Any] = [
         np.ascontiguousarray(a, dtype=float)
-        for a in (np.zeros(len(states)) if times is None else times, states, inputs)
+        for a in (np.zeros(len(states)) if times is None else times, states, widened(inputs, len(system.model.inputs)))
     ]
     blocks = (model_block(system, packed),)
     failed = motion_kernels()["evaluate"]((made.derive, made.observe), blocks, wires, *told, rates, seen)

@@ -80,9 +80,12 @@ class Observation:
         """The time of each sample from the start of the recording, in s."""
         return np.asarray((self.begin + np.arange(self.samples)) * self.dt, dtype=float)
 
-    def motion_at(self, place: Interface, states: Array) -> Array:
-        """Return relative position and velocity (2, samples) at a place of the model, along `states` (samples, n)."""
-        return np.array([place.motion(y, u) for y, u in zip(states, self.inputs, strict=True)]).T
+    def motion_at(self, place: Interface, states: Array, lever: tuple[float, ...] = ()) -> Array:
+        """Return relative position and velocity (2, samples) at a place of the model, along `states` (samples, n).
+
+        `lever` is what `System.lever` returns.
+        """
+        return np.array([place.motion(y, u, *lever) for y, u in zip(states, self.inputs, strict=True)]).T
 
     def part(self, start: int, stop: int) -> Observation:
         """Return the samples from `start` up to `stop` as an observation of its own."""

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from lostmotion.contracts import Array, Engine
 from lostmotion.kernels.threads import each
-from lostmotion.likelihood.drive import Drive
+from lostmotion.likelihood.drive import Drive, widened
 from lostmotion.likelihood.engine import Dynamics, Innovations, Points, Random, Smoothed
 from lostmotion.likelihood.initial import initial
 from lostmotion.likelihood.lanes import Lanes
@@ -66,6 +66,14 @@ class Problem:
     nsub: int = 3
     jobs: int = 2
     engine: Engine = field(default_factory=Lanes)
+
+    def __post_init__(self) -> None:
+        """Set the inputs to zero that a recording lacks."""
+        count = len(self.system.model.inputs)
+        whole = [
+            replace(o, inputs=widened(o.inputs, count)) if o.inputs.shape[1] < count else o for o in self.observations
+        ]
+        object.__setattr__(self, "observations", tuple(whole))
 
     @cached_property
     def space(self) -> ParameterSpace:
@@ -293,9 +301,7 @@ class Problem:
             values = tuple((key, self.system.values(full, key, observation.tone)) for key in acts)
             if values not in numbers:
                 numbers[values] = len(drives)
-                columns = self.system.acting(
-                    observation.columns, full, acts, observation.tone, lead=observation.lead
-                )
+                columns = self.system.acting(observation.columns, full, acts, observation.tone, lead=observation.lead)
                 drives.append(Drive.acting(columns, observation.drive, observation.held) if acts else observation.drive)
             which.append(numbers[values])
         return tuple(drives), np.array(which, dtype=np.int64)
@@ -318,7 +324,7 @@ class Problem:
         return self.noise(theta, index, sensor)[1] + self.slow(theta, index, sensor)[0]
 
     def gauge(self, theta: Array, index: int = 0, sensor: int = 0) -> tuple[float, float, float]:
-        """Return what a sensor shows of one unit, what it shows at zero (unit of the channel), and how late it is (s)."""
+        """Return what a sensor shows of one unit, what at zero (unit of the channel), and how late it is (s)."""
         fulls = self.full(theta, index)[None]
         gain, more = self._gauged(fulls, index)
         zero = float(self._sensor(theta, index, sensor)[3])

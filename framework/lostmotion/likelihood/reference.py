@@ -121,12 +121,13 @@ class _Machine:
             own, first = tuple(self.packed[first : first + law.width].tolist()), first + law.width
             if on[i]:
                 place = plan.places[law.place]
-                x, v = place.motion(y, u)
+                lever = () if place.lever is None else (self.packed[place.lever],)
+                x, v = place.motion(y, u, *lever)
                 states = slice(at[i], at[i] + law.states)
                 push = term.force(t, x, v, u, own, tuple(y[states]))
                 dydt[place.row] += push / self.packed[place.inertia]
                 if place.against:
-                    dydt[place.against[0]] -= push / self.packed[place.against[1]]
+                    dydt[place.against[0]] -= push * math.prod(lever) / self.packed[place.against[1]]
                 if law.states:
                     term.rate(t, x, v, u, own, tuple(y[states]), dydt[states])
         for i, body in enumerate(plan.bodies[: self.dynamics.forces]):

@@ -24,15 +24,17 @@ def _law_lines(index: int, plan: Blueprint, start: int) -> list[str]:
     if law.prepared:
         own = f"view(w, {start}, {law.width})"
     states = "".join(f"y[at[{i}] + {a}], " for a in range(law.states))
+    lever = "" if place.lever is None else f"p[{place.lever}]"
     handed = f"{f'fields_{i}, ' if law.fields else ''}t, x, v, u, {own}, ({states})"
     lines = [
         f"    if on[{i}]:",
-        f"        x, v = motion_{law.place}(y, u)",
+        f"        x, v = motion_{law.place}(y, u{lever and ', ' + lever})",
         f"        push = force_{i}({handed})",
         f"        dydt[{place.row}] += push / p[{place.inertia}]",
     ]
     if place.against:
-        lines.append(f"        dydt[{place.against[0]}] -= push / p[{place.against[1]}]")
+        pull = f"{lever} * push" if lever else "push"
+        lines.append(f"        dydt[{place.against[0]}] -= {pull} / p[{place.against[1]}]")
     if law.states:
         lines.append(f"        rate_{i}({handed}, view(dydt, at[{i}], {law.states}))")
     return lines

@@ -131,7 +131,13 @@ class System:
         model = self.model
         index = {q.name: i for i, q in enumerate(model.params)}
         places = tuple(
-            Place(i.row, index[i.inertia], i.motion, i.against and (i.against[0], index[i.against[1]]))
+            Place(
+                i.row,
+                index[i.inertia],
+                i.motion,
+                i.against and (i.against[0], index[i.against[1]]),
+                None if i.lever is None else index[i.lever],
+            )
             for i in model.interfaces
         )
         names = [i.name for i in model.interfaces]
@@ -140,12 +146,19 @@ class System:
         return Blueprint(*sizes, model.rhs, model.observe, places, laws)
 
     def inertia(self, full: Array, place: Interface) -> Any:
-        """Return the inertia (kg or kg m^2) that a force at a place moves; of two bodies, m1 m2 / (m1 + m2).
+        """Return the inertia (kg or kg m^2) that a force at a place moves; of two bodies, 1 / (1/m1 + lever^2/m2).
 
         `full` is (parameters,) or (points, parameters).
         """
         moved = [place.inertia, *(place.against[1:] if place.against else ())]
-        return 1.0 / np.sum([1.0 / full[..., self.index[name]] for name in moved], axis=0)
+        inverse = [1.0 / full[..., self.index[name]] for name in moved]
+        for lever in self.lever(full, place):
+            inverse[-1] = lever**2 * inverse[-1]
+        return 1.0 / np.sum(inverse, axis=0)
+
+    def lever(self, full: Array, place: Interface) -> tuple[Any, ...]:
+        """Return the lever of the second body of a place, as its `motion` takes it: nothing where there is none."""
+        return () if place.lever is None else (full[..., self.index[place.lever]],)
 
     def wiring(self, active: Iterable[str]) -> tuple[NDArray[np.bool_], NDArray[np.int64]]:
         """Return the switches of the terms, and where in `y` the states of each begin."""
@@ -200,14 +213,15 @@ class System:
 
     @cached_property
     def groups(self) -> tuple[tuple[str, tuple[int, ...]], ...]:
-        """The inputs that are measured, by name, with the columns of value and derivative in the inputs of the model."""
+        """The inputs by name, with their columns among those of the model: of a base motion value and derivative."""
         names = self.model.inputs
-        pairs = {n: (names.index(n), *([names.index("base_velocity")] if "base_velocity" in names else [])) for n in names}
-        return tuple(
-            (n, pairs[n] if n == "base_position" else pairs[n][:1])
-            for n in names
-            if n != "base_velocity" or "base_position" not in names
-        )
+        found: list[tuple[str, tuple[int, ...]]] = []
+        for i, name in enumerate(names):
+            if name == "base_position" and "base_velocity" in names:
+                found.append((name, (i, names.index("base_velocity"))))
+            elif name != "base_velocity" or "base_position" not in names:
+                found.append((name, (i,)))
+        return tuple(found)
 
     def shaping(self, active: Iterable[str], *, alone: bool = True) -> tuple[str, ...]:
         """Return the keys of those terms that change the input which acts: of the drive, and delays of the sensor.
@@ -235,6 +249,8 @@ class System:
         """
         made: list[Column | None] = [None] * len(columns)
         for name, places in self.groups:
+            if max(places) >= len(columns):  # an input that nothing drives
+                continue
             u: Input = _Recorded(tuple(columns[place] for place in places))
             own = [key for key in keys if self._touches(key, name, lead in places)]
             for key in own:
@@ -316,9 +332,9 @@ class System:
     def simulate(self, full: Array, active: Iterable[str], y0: Array, drive: Drive, nsub: int = 1) -> Motion:
         """Return the free motion by RK4, `nsub` steps to a sample, from the state `y0` under `drive`.
 
-        What `y0` lacks, the states of terms, begins at zero.
+        What `y0` lacks, the states of terms, begins at zero; inputs that `drive` lacks are zero.
         """
-        chosen = frozenset(active)
+        chosen, drive = frozenset(active), drive.widened(len(self.model.inputs))
         start = np.zeros((1, self.states(chosen)))
         start[0, : min(start.shape[1], len(y0))] = y0[: start.shape[1]]
         packed = self.pack(full[None], drive.dt / nsub, drive.tone)

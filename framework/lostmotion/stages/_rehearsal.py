@@ -10,7 +10,6 @@ from scipy.signal import lfilter
 
 from lostmotion.contracts import Array
 from lostmotion.inference.fit import Fit, sensitivity, solved
-from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.predict import kicked_run, observed
 from lostmotion.likelihood.problem import RANDOM, Problem
 from lostmotion.stages._excitations import Excitation

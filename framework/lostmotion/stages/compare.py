@@ -46,8 +46,9 @@ class Piece:
 class Prediction:
     """How one model predicts held-out data: scores, error growth (steps,), forecasts (samples, sensors), innovations.
 
-    `nrmse` is the mean over the sensors, `by_sensor` that of each, over the
-    standard deviations `scales` of what was held out; error growth is that of the first. `expected_score` is the log score of a recording that the model itself had made.
+    `nrmse` is the mean over the sensors, `by_sensor` that of each, over the standard deviations `scales` of what was
+    held out; error growth is that of the first. `expected_score` is the log score of a recording that the model itself
+    had made.
     """
 
     log_score: float
@@ -169,7 +170,7 @@ def _runs(problem: Problem, fit: Fit, states: Array, piece: Piece, horizon: Hori
 
 
 def _forecast(problem: Problem, fit: Fit, states: Array, piece: Piece, horizon: Horizon) -> tuple[Array, Array]:
-    """Return free-running predictions (samples, sensors) over a piece, begun anew every few units of time, and where."""
+    """Return free-running predictions (samples, sensors) over a piece, begun anew every few units of time, where."""
     observation = piece.observation
     length = max(int(SEGMENT * horizon.unit_time / observation.dt), horizon.steps, 2)
     forecast, restarts = np.full(observation.readings.shape, np.nan), np.zeros(observation.samples)

@@ -141,8 +141,7 @@ def _beside(term: type[Term], observations: Sequence[Observation]) -> tuple[str,
         return (term.acts,)
     first = observations[0]
     if term.acts == "drive":
-        driven = ("drive",) if first.driven is None or len(first.driven) == 1 else first.driven
-        return driven
+        return ("drive",) if first.driven is None or len(first.driven) == 1 else first.driven
     alone = len(first.sensors) == 1
     return () if alone and getattr(term, "relative", False) else tuple(sensor.place for sensor in first.sensors)
 

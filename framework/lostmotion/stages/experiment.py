@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -66,7 +66,8 @@ def propose(
     natural = natural_of(chosen)
     samples = min(SAMPLES, observation.samples)
     share = observation.samples / samples
-    offered = candidates_for(observation, samples, limits or usual_limits(observation, natural), rng)
+    moved = replace(observation, inputs=observation.inputs[:, : len(chosen.problem.system.model.driven)])
+    offered = candidates_for(moved, samples, limits or usual_limits(observation, natural), rng)
     weighed = _Weighed((Model.of(chosen), Model.of(rival)), share, rng)
     say(f"what {len(offered)} other excitations would tell")
     rough = weighed.ways(offered, 0)

@@ -12,6 +12,7 @@ from lostmotion.contracts import Array, Assembly, Flow, Group
 from lostmotion.errors import CaseError, nearest
 from lostmotion.flow import Harmonic, flow_of
 from lostmotion.likelihood.system import System
+from lostmotion.quantities import unit_of
 
 DRIVE = {"amplitude": "amplitude of the drive", "omega": "angular frequency of the drive", "phase": "its phase"}
 OMEGA = 0.2
@@ -94,10 +95,7 @@ class Rig:
     def _drive_unit(self, key: str) -> str:
         if key != "amplitude":
             return "rad/s" if key == "omega" else "rad"
-        turns = self.assembly.model.motion == "rotation"
-        if "force" in self.assembly.model.inputs:
-            return "N m" if turns else "N"
-        return "rad" if turns else "m"
+        return unit_of(self.assembly.model.inputs[0], self.assembly.model.motion)
 
     def checked(self) -> Rig:
         """Return this rig, or raise `CaseError` when a knob is unknown, is set twice over, or is wanting."""

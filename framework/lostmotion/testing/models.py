@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from lostmotion.contracts import Array, Interface, Model
+from lostmotion.errors import DataError
+from lostmotion.quantities import NUMBER, quantity_of
 from lostmotion.testing.probes import Point, blank, compiled, differ, of_model
 from lostmotion.testing.rules import listed, rule
 from lostmotion.testing.shared import repeated
 
-INPUTS = ("force", "base_position", "base_velocity")
+INPUTS = ("force", "base_position", "base_velocity", "base_acceleration")
+"""What inputs are called; one that ends in `_force` acts on a further body."""
+RATE_OF = {"velocity": "position", "acceleration": "velocity"}
 _SMALL = 1e-6
 
 
@@ -36,21 +41,59 @@ def _changed(before: Iterable[Array], after: Iterable[Array]) -> bool:
 
 @rule("model", declaration=True)
 def motion_is_known(model: Model) -> str:
-    """Write `motion = "translation"` (N, m) or `motion = "rotation"` (N m, rad): the units follow from it."""
-    return "" if model.motion in ("translation", "rotation") else f"the motion is {model.motion!r}"
+    """Write `motion = "translation"` (N, m) or `motion = "rotation"` (N m, rad): the units follow from it.
+
+    Where the equations hold for both, make it a field, `motion: Motion = "translation"`, and list both in `motions`.
+    """
+    if unknown := {model.motion, *model.motions} - {"translation", "rotation"}:
+        return f"the motion {sorted(unknown)[0]!r} is not known"
+    if model.motions and model.motion not in model.motions:
+        return f"the motion is {model.motion}, and motions are {listed(model.motions)}"
+    stiff = [m for m in model.motions if model.turned(m).motion != m]
+    return f"turned({stiff[0]!r}) is still a model of {model.motion}" if stiff else ""
 
 
 @rule("model", declaration=True)
 def inputs_and_channels_are_named(model: Model) -> str:
-    """Let inputs be "force", or "base_position" and "base_velocity"; give each channel a name of its own."""
+    """Let inputs be "force", "second_force", "base_position" and behind it "base_velocity", or "base_acceleration".
+
+    The force on a further body ends in "_force". Give each channel a name of its own.
+    """
     if not model.states or not model.inputs or not model.channels:
         return "states, inputs or channels are empty"
-    if unknown := [name for name in model.inputs if name not in INPUTS]:
+    if unknown := [name for name in model.inputs if name not in INPUTS and not str(name).endswith("_force")]:
         return f"input {unknown[0]!r} is not known"
+    behind = [b for a, b in zip(("", *model.inputs), (*model.inputs, ""), strict=True) if a == "base_position"]
+    if behind != [name for name in model.inputs if name == "base_velocity"]:
+        return "of base_position and base_velocity one is missing, or they do not stand one behind the other"
     if again := repeated(model.channels) + repeated(model.inputs):
         return f"{listed(again)} stands twice"
     bad = [name for name in model.channels if not str(name).isidentifier()]
     return f"channel {bad[0]!r} is no identifier" if bad else ""
+
+
+@rule("model", declaration=True)
+def channels_are_named_by_quantity(model: Model) -> str:
+    """End the name of each channel in its quantity: position, velocity, acceleration, force or torque.
+
+    What stands before it says of which body, as in "second_position": units and derivatives follow from the name.
+    """
+    bad = [name for name in model.channels if _quantity(name) is None]
+    return f"channel {bad[0]!r} names no quantity" if bad else ""
+
+
+def _quantity(name: str) -> str | None:
+    try:
+        return quantity_of(name)
+    except DataError:
+        return None
+
+
+@rule("model", declaration=True, courtesy=True)
+def bodies_are_shown(model: Model) -> str:
+    """Show position and velocity of each body that are states, by the same names: there may be a sensor of either."""
+    hidden = [s for s in model.states if _quantity(s) in ("position", "velocity") and s not in model.channels]
+    return f"{listed(hidden)} is a state and no channel" if hidden else ""
 
 
 @rule("model", declaration=True)
@@ -66,6 +109,14 @@ def interfaces_name_rows_and_params(model: Model) -> str:
         if unknown := [name for name in (place.inertia, other, *place.holds) if name not in known]:
             return f"{place.name} names {unknown[0]!r}, which is no parameter"
     return ""
+
+
+@rule("model", declaration=True)
+def levers_are_numbers(model: Model) -> str:
+    """Give a `lever` only to an interface that acts `against` a second body: a parameter of the dimension NUMBER."""
+    plain = {q.name for q in model.params if q.dimension == NUMBER}
+    bad = [i for i in model.interfaces if i.lever is not None and (i.against is None or i.lever not in plain)]
+    return f"{bad[0].name} has the lever {bad[0].lever!r}, which is no number or has no second body" if bad else ""
 
 
 @rule("model")
@@ -84,7 +135,7 @@ def rhs_writes_every_entry(model: Model) -> str:
 def _over(model: Model, point: Point) -> Array:
     """Return the time derivative of the states, written over zeros."""
     dydt = np.zeros(len(model.states))
-    type(model).rhs(point.t, point.y, point.u, point.p, dydt)
+    type(model).rhs(point.t, point.y.copy(), point.u.copy(), point.p, dydt)
     return dydt
 
 
@@ -139,7 +190,7 @@ def observe_changes_no_argument(model: Model) -> str:
 def interface_velocity_is_the_rate_of_its_position(model: Model) -> str:
     """Let `motion` return position and velocity of the same motion: the second is the time derivative of the first."""
     for place in model.interfaces:
-        gap = max(abs(_rate(model, place, p) - place.motion(p.y, p.u)[1]) for p in of_model(model))
+        gap = max(abs(_rate(model, place, p) - _motion(model, place, p)[1]) for p in of_model(model))
         if not gap < _SMALL * 1e3:
             return f"at {place.name} they differ by up to {gap:.3g}"
     return ""
@@ -147,13 +198,80 @@ def interface_velocity_is_the_rate_of_its_position(model: Model) -> str:
 
 def _rate(model: Model, place: Interface, p: Point) -> float:
     """Return the time derivative of the position at an interface, by central differences along the motion."""
-    dudt = np.zeros(len(model.inputs))
-    if {"base_position", "base_velocity"} <= set(model.inputs):
-        dudt[model.inputs.index("base_position")] = p.u[model.inputs.index("base_velocity")]
-    dydt = _over(model, p)
-    ahead = place.motion(p.y + _SMALL * dydt, p.u + _SMALL * dudt)[0]
-    behind = place.motion(p.y - _SMALL * dydt, p.u - _SMALL * dudt)[0]
+    ahead, behind = (_motion(model, place, _later(model, p, step))[0] for step in (_SMALL, -_SMALL))
     return float((ahead - behind) / (2.0 * _SMALL))
+
+
+def _motion(model: Model, place: Interface, p: Point, function: Any = None) -> tuple[float, float]:
+    """Return relative position and velocity at an interface."""
+    names = [q.name for q in model.params]
+    lever = () if place.lever is None else (float(p.p[names.index(place.lever)]),)
+    found: tuple[float, float] = (function or place.motion)(p.y, p.u, *lever)
+    return found
+
+
+def _later(model: Model, p: Point, step: float) -> Point:
+    """Return the point so many seconds later, to first order; of the inputs only a base position moves."""
+    dudt = np.zeros(len(model.inputs))
+    if "base_position" in model.inputs:
+        dudt[model.inputs.index("base_position")] = p.u[model.inputs.index("base_velocity")]
+    return replace(p, t=p.t + step, y=p.y + step * _over(model, p), u=p.u + step * dudt)
+
+
+@rule("model")
+def interface_force_acts_along_its_motion(model: Model) -> str:
+    """Count the relative velocity at an interface in the direction of the force there.
+
+    It grows by one with the velocity of the body in `row`, and falls by one, or by the lever, with that of a second
+    body: then force times relative velocity is the power of the term.
+    """
+    for place, p in ((place, p) for place in model.interfaces for p in of_model(model)):
+        lever = p.p[[q.name for q in model.params].index(place.lever)] if place.lever else 1.0
+        for row, wanted in ((place.row, 1.0), *(((place.against[0], -lever),) if place.against else ())):
+            push = np.zeros(len(p.y))
+            push[row] = 1.0
+            ends = [_motion(model, place, replace(p, y=p.y + sign * push))[1] for sign in (1.0, -1.0)]
+            if not abs(0.5 * (ends[0] - ends[1]) - wanted) < _SMALL * (1.0 + abs(wanted)):
+                return f"at {place.name} it grows by {0.5 * (ends[0] - ends[1]):.3g} with {model.states[row]}"
+    return ""
+
+
+def _shown(model: Model, p: Point) -> Array:
+    """Return what the sensors show of a motion without terms."""
+    seen = blank(len(model.channels))
+    type(model).observe(p.t, p.y, _over(model, p), p.u, p.p, seen)
+    return seen
+
+
+@rule("model")
+def channels_of_states_show_them(model: Model) -> str:
+    """Let a channel that has the name of a state show it as it is: the filter reads the state in its place."""
+    both = [name for name in model.channels if name in model.states]
+    for p in of_model(model):
+        seen = _shown(model, p)
+        if bad := [c for c in both if abs(seen[model.channels.index(c)] - p.y[model.states.index(c)]) > 0.0]:
+            return f"channel {bad[0]} is not the state {bad[0]}"
+    return ""
+
+
+@rule("model")
+def channels_are_rates_of_each_other(model: Model) -> str:
+    """Let a velocity be the time derivative of the position of the same body, and an acceleration that of the velocity.
+
+    Where "base_acceleration" is an input, add it to the acceleration: an accelerometer shows both.
+    """
+    for p in of_model(model):
+        seen, ends = _shown(model, p), [_shown(model, _later(model, p, step)) for step in (_SMALL, -_SMALL)]
+        rates = (ends[0] - ends[1]) / (2.0 * _SMALL)
+        for index, name in enumerate(model.channels):
+            below = name.removesuffix(quantity_of(name)) + RATE_OF.get(quantity_of(name), "?")
+            if below in model.channels:
+                base = name.endswith("acceleration") and "base_acceleration" in model.inputs
+                more = p.u[model.inputs.index("base_acceleration")] if base else 0.0
+                wanted = rates[model.channels.index(below)] + more
+                if abs(seen[index] - wanted) > _SMALL * 1e3 * (1.0 + abs(wanted)):
+                    return f"{name} is {seen[index]:.6g}, where {below} and the base give {wanted:.6g}"
+    return ""
 
 
 @rule("model")
@@ -164,7 +282,8 @@ def compiles_to_the_same_numbers(model: Model) -> str:
     for p in of_model(model):
         gaps = {"rhs": differ(slope(model, p), slope(model, p, rhs))}
         gaps["observe"] = differ(sight(model, p), sight(model, p, observe))
-        gaps |= {i.name: differ(i.motion(p.y, p.u), m(p.y, p.u)) for i, m in zip(places, motions, strict=True)}
+        pairs = zip(places, motions, strict=True)
+        gaps |= {i.name: differ(_motion(model, i, p), _motion(model, i, p, m)) for i, m in pairs}
         if bad := {name: gap for name, gap in gaps.items() if not gap < 1e-12}:
             return f"compiled and plain differ: {bad}"
     return ""

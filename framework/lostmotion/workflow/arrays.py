@@ -20,7 +20,14 @@ PREDICTED = "free-running prediction of the"
 def arrays_of(outcome: Outcome, motions: Mapping[str, Array]) -> tuple[dict[str, Column], dict[str, Column]]:
     """Return the variables and the coordinates of `arrays.nc`; `motions` are those of `motions_of`."""
     d = outcome.diagnosis
-    variables = {**_series(outcome), **_further(outcome), **_curves(d), **_portraits(d, motions), **_growth(outcome), **_draws(outcome)}
+    variables = {
+        **_series(outcome),
+        **_further(outcome),
+        **_curves(d),
+        **_portraits(d, motions),
+        **_growth(outcome),
+        **_draws(outcome),
+    }
     coords = {
         "time": Column(("time",), d.shown.time, "s", "time from the start of the recording"),
         "covariate": Column(("covariate",), list(d.located.curves)),
@@ -49,9 +56,7 @@ def _series(outcome: Outcome) -> dict[str, Column]:
         heldout[: shown.samples - d.held[0].samples] = 0.0
     time = ("time",)
     table = {
-        "excitation": Column(
-            time, shown.excitation, unit_of(model.inputs[shown.lead], model.motion), "measured input"
-        ),
+        "excitation": Column(time, shown.excitation, unit_of(model.inputs[shown.lead], model.motion), "measured input"),
         "response": Column(time, shown.response, seen, f"recorded {shown.sensors[0].label}"),
         "heldout": Column(time, heldout, "1", "1 where no fit has seen the data"),
         "record": Column(time, np.zeros(shown.samples), "1", "number of the recording"),

@@ -17,6 +17,7 @@ from lostmotion.contracts import Array, Model
 from lostmotion.errors import CaseError, ContractError, DataError, nearest
 from lostmotion.likelihood.space import Free
 from lostmotion.likelihood.system import System
+from lostmotion.quantities import unit_of
 from lostmotion.registry import Registry
 from lostmotion.stages.identify import Cloud, Shown, Task
 from lostmotion.study.atlas import DIMENSION, RATIO, Atlas
@@ -26,7 +27,6 @@ from lostmotion.study.numbers import Law, Power, law_of
 from lostmotion.study.sweep import Crew
 from lostmotion.workflow.mapping import How, Request, make_map, study_of
 from lostmotion.workflow.reading import read_levels
-from lostmotion.workflow.rehearsal import unit_of
 from lostmotion.workflow.vetting import sound
 
 SWEPT = ("alpha", "zeta", RATIO)
@@ -193,7 +193,7 @@ def _fixed(powers: Mapping[str, Power], known: Mapping[str, float], free: tuple[
 
 
 def _require_units(model: Model, levels: Sequence[Level]) -> None:
-    unit = unit_of(model)
+    unit = unit_of(model.inputs[0], model.motion)
     for level in levels:
         if level.unit != unit:
             raise CaseError(

@@ -190,9 +190,9 @@ def _own(system: System, full: Array, run: _Run, start: Array) -> Array:
     """Return the motion by the model's own right-hand side, from rest at a random place in its gap if it has one."""
     model, dt = system.model, 1.0 / run.rate
     known = {"force": run.drive.value, "base_position": run.drive.value, "base_velocity": run.drive.slope}
-    if strange := [name for name in model.inputs if name not in known]:
+    if strange := [name for name in model.driven if name not in known]:
         raise CaseError(f"{model.name} is driven by {strange[0]}, which a simulation cannot make")
-    inputs = [known[name] for name in model.inputs]
+    inputs = [known[name] for name in model.driven]
     y0 = np.zeros(len(model.states))
     y0[0] = start[0] * full[system.index["x0"]] if "x0" in system.index else 0.0
     rough = system.moved(full, y0, inputs, Clock(dt, FEWEST, run.samples))

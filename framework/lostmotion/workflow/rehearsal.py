@@ -14,6 +14,7 @@ import numpy as np
 from lostmotion.case import Case
 from lostmotion.contracts import Array, Model
 from lostmotion.flow import Harmonic, flow_of
+from lostmotion.quantities import unit_of
 from lostmotion.registry import Registry
 from lostmotion.study.rig import reach
 from lostmotion.workflow.reading import Read, Signals, read_level
@@ -45,7 +46,7 @@ def rehearsed(
     u = beat.amplitude * np.cos(beat.omega * dt * np.arange(len(seen)) + beat.phase)
     noisy = [x + share * float(np.std(x)) * rng.standard_normal(len(x)) for x, share in
              ((seen, bench.noise), (u, bench.drive_noise))]  # fmt: skip
-    return Signals(f"{beat.amplitude:g}", noisy[0], noisy[1], dt, unit_of(model)), begin
+    return Signals(f"{beat.amplitude:g}", noisy[0], noisy[1], dt, unit_of(model.inputs[0], model.motion)), begin
 
 
 def rehearsed_levels(
@@ -68,14 +69,6 @@ def rehearsed_levels(
         signals, _ = rehearsed(model, values, Harmonic(amplitude, omega), bench or Bench(), own)
         found.append(read_level(signals, registry, own))
     return tuple(found)
-
-
-def unit_of(model: Model) -> str:
-    """Return the SI unit of what drives a model."""
-    rotation = model.motion == "rotation"
-    if "force" in model.inputs:
-        return "N m" if rotation else "N"
-    return "rad" if rotation else "m"
 
 
 def true_values(model: Model, values: Mapping[str, float]) -> dict[str, float]:

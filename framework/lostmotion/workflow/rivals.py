@@ -13,6 +13,7 @@ from lostmotion.contracts import Term
 from lostmotion.inference.candidates import term_of
 from lostmotion.inference.selection import Visit, related
 from lostmotion.likelihood.system import key_of
+from lostmotion.quantities import unit_of
 from lostmotion.stages.diagnose import Diagnosis
 from lostmotion.stages.experiment import Limits, Proposal, natural_of, propose, usual_limits
 from lostmotion.workflow.verdict import WORTH_NAMING
@@ -94,8 +95,7 @@ def confused_with(d: Diagnosis, rows: Sequence[Mapping[str, Any]], proposals: Pr
 def _unit(d: Diagnosis) -> str:
     """Return the SI unit of what moves the machine."""
     model = d.selection.chosen.problem.system.model
-    force, base = ("N m", "rad") if model.motion == "rotation" else ("N", "m")
-    return force if "force" in model.inputs else base
+    return unit_of(model.inputs[0], model.motion)
 
 
 def _excitation(d: Diagnosis, proposal: Proposal) -> dict[str, Any]:

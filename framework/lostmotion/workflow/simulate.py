@@ -12,14 +12,14 @@ from pathlib import Path
 
 import numpy as np
 
-from lostmotion.contracts import Array, Assembly, Input, Model, SensorTerm, Term
-from lostmotion.errors import CaseError, nearest
+from lostmotion.contracts import Array, Assembly, Model, SensorTerm, Term
+from lostmotion.errors import CaseError, DataError, nearest
 from lostmotion.likelihood.drive import SILENT, Drive, Tone
 from lostmotion.likelihood.motion import derivatives
 from lostmotion.likelihood.observation import Observation, tone_of
 from lostmotion.likelihood.system import Clock, Slot, System, key_of
 from lostmotion.provenance import provenance
-from lostmotion.quantities import ANGULAR, SI
+from lostmotion.quantities import unit_of
 from lostmotion.registry import Registry
 from lostmotion.storage import save_table
 from lostmotion.workflow.drives import Signal, number, pairs, signal_of
@@ -81,7 +81,7 @@ def simulate(plan: Plan) -> Table:
     nsub = _substeps(system, full, y0, inputs, 1.0 / plan.rate)
     acting, tone = _acting(system, full, signals, inputs, 1.0 / plan.rate)
     motion = system.moved(full, y0, acting, Clock(1.0 / plan.rate, nsub, samples), tone)
-    columns = dict(zip(plan.assembly.model.inputs, inputs.T, strict=True))
+    columns = dict(zip(plan.assembly.model.driven, inputs.T, strict=True))
     acts = np.stack([column(times) for column in acting], axis=1)
     packed = system.pack(full[None], 1.0 / (plan.rate * nsub), tone)
     _, seen = derivatives(system, system.everything, packed, motion.states, acts, times)
@@ -170,7 +170,7 @@ def _initial(plan: Plan) -> Array:
 
 
 def _inputs(plan: Plan) -> list[Signal]:
-    """Return a signal for each input of the model: the drive itself, and its derivative for a base velocity."""
+    """Return a signal for each driven input of the model: the drive itself, and its derivative for a base velocity."""
     model = plan.assembly.model
     if not plan.drives:
         raise CaseError(f"nothing drives {model.name}: add --drive, such as harmonic:amplitude=1,frequency=2")
@@ -182,13 +182,8 @@ def _inputs(plan: Plan) -> list[Signal]:
             f"the drive reaches {total.top:.4g} Hz, of which {plan.rate:g} samples per second show nothing:"
             f" wanted a rate above {2.0 * total.top:.4g} Hz, or a slower drive"
         )
-    known = {"force": total, "base_position": total, "base_velocity": Signal(total.slope, total.slope, total.top)}
-    for name in model.inputs:
-        if name not in known:
-            raise CaseError(
-                f"{model.name} is driven by {name}, which simulate cannot make: it makes {', '.join(known)}"
-            )
-    return [known[name] for name in model.inputs]
+    slope = Signal(total.slope, total.slope, total.top)
+    return [slope if name == "base_velocity" else total for name in model.driven]
 
 
 def _acting(
@@ -259,5 +254,7 @@ def _table(plan: Plan, columns: Mapping[str, Array], nsub: int) -> Table:
 
 def _unit(name: str, model: Model) -> str:
     """Return the SI unit of a column; of one that nobody knows, "1"."""
-    table = SI if model.motion == "translation" else {**SI, **ANGULAR}
-    return table.get({"base_velocity": "velocity"}.get(name, name), "1")
+    try:
+        return "s" if name == "time" else unit_of(name, model.motion)
+    except DataError:
+        return "1"

@@ -18,14 +18,13 @@ from lostmotion.case.levels import Level
 from lostmotion.contracts import Array
 from lostmotion.errors import CaseError, LostMotionError, PlaceError
 from lostmotion.inference.ranks import rank_of
-from lostmotion.quantities import ANGULAR, SI
+from lostmotion.quantities import ANGULAR, SI, unit_of
 from lostmotion.stages.identify import Identification, identify
 from lostmotion.storage import save_table
 from lostmotion.workflow.drives import Options, pairs
 from lostmotion.workflow.levels import Survey, inversion_of, quantifier_task
 from lostmotion.workflow.machines import Seen
 from lostmotion.workflow.prepare import case_of, prepare
-from lostmotion.workflow.rehearsal import unit_of
 from lostmotion.workflow.trajectory import chosen_terms, sampled
 from lostmotion.workflow.workshop import Design, Machine, Workshop, workshop
 
@@ -112,7 +111,7 @@ def by_quantifiers(
 
 def maps_for(shop: Workshop, out: Path, jobs: int) -> tuple[Path, ...]:
     """Return the maps in which every machine is looked up, made in the folder `out` unless they are there."""
-    unit = unit_of(shop.system.model)
+    unit = unit_of(shop.system.model.inputs[0], shop.system.model.motion)
     both = zip(shop.design.labels, shop.design.bench.drives, strict=True)
     levels = tuple(Level(label, *_harmonic(drive), unit=unit) for label, drive in both)
     inversion_of(shop.case, levels, shop.registry, out, Survey(jobs=jobs))
@@ -133,7 +132,7 @@ def _harmonic(drive: str) -> tuple[float, float]:
 def _write(shop: Workshop, machine: Machine, seen: list[Seen], folder: Path) -> Path:
     """Return the case of a machine, written with its recordings into a folder."""
     design, model = shop.design, shop.system.model
-    quantity = "force" if "force" in model.inputs else "base_position"
+    quantity = model.inputs[0]
     units = SI if model.motion == "translation" else ANGULAR
     entries = []
     for label, one, offset in zip(design.labels, seen, machine.offsets, strict=True):

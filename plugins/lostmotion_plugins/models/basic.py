@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-from lostmotion.contracts import Array, Interface, Model, Param
+from lostmotion.contracts import Array, Interface, Model, Motion, Param
 from lostmotion.quantities import DAMPING, INERTIA, STIFFNESS
 from lostmotion_plugins.models.lin import LinBacklash, ground
 
@@ -16,13 +16,17 @@ _DAMPING = Param("c", "viscous friction", DAMPING, low=0.0, scale="log", aliases
 
 @dataclass(frozen=True)
 class RigidDrive(Model):
-    """m x'' + c x' = force: a carriage moved by a motor, as in the EMPS benchmark of Janot, Gautier, Brunot (2019)."""
+    """m (x'' + a) + c x' = force: a carriage moved by a motor, as that of the EMPS benchmark of Janot et al. (2019).
+
+    The base acceleration a is that of the table on which it stands; x is relative to the table.
+    """
 
     name: ClassVar[str] = "rigid_drive"
     paper: ClassVar[str] = "Janot, Gautier, Brunot, Nonlinear System Identification Benchmarks workshop (2019)"
-    motion = "translation"
+    motion: Motion = "translation"
+    motions: ClassVar[tuple[str, ...]] = ("translation", "rotation")
     states = ("position", "velocity")
-    inputs = ("force",)
+    inputs = ("force", "base_acceleration")
     channels = ("position", "velocity", "acceleration")
     params = (_MASS, _DAMPING)
     interfaces = (_GROUND,)
@@ -30,20 +34,24 @@ class RigidDrive(Model):
     @staticmethod
     def rhs(t: float, y: Array, u: Array, p: Array, dydt: Array) -> None:
         dydt[0] = y[1]
-        dydt[1] = (u[0] - p[1] * y[1]) / p[0]
+        dydt[1] = (u[0] - p[1] * y[1]) / p[0] - u[1]
 
     observe = staticmethod(LinBacklash.observe)
 
 
 @dataclass(frozen=True)
 class LinearOscillator(Model):
-    """m x'' + c x' + k x = force: the textbook oscillator, and the nominal model of the Silverbox."""
+    """m (x'' + a) + c x' + k x = force: the textbook oscillator, and the nominal model of the Silverbox.
+
+    The base acceleration a is that of a shaking table on which the spring stands; x is relative to the table.
+    """
 
     name: ClassVar[str] = "linear_oscillator"
     paper: ClassVar[str] = "Wigren, Schoukens, European Control Conference (2013), the linear part"
-    motion = "translation"
+    motion: Motion = "translation"
+    motions: ClassVar[tuple[str, ...]] = ("translation", "rotation")
     states = ("position", "velocity")
-    inputs = ("force",)
+    inputs = ("force", "base_acceleration")
     channels = ("position", "velocity", "acceleration")
     params = (_MASS, _DAMPING, Param("k", "stiffness", STIFFNESS, low=0.0, scale="log", aliases=("k1", "stiffness")))
     interfaces = (Interface("ground", row=1, inertia="m", motion=ground, holds=("k",), stiffness="k"),)
@@ -51,6 +59,6 @@ class LinearOscillator(Model):
     @staticmethod
     def rhs(t: float, y: Array, u: Array, p: Array, dydt: Array) -> None:
         dydt[0] = y[1]
-        dydt[1] = (u[0] - p[1] * y[1] - p[2] * y[0]) / p[0]
+        dydt[1] = (u[0] - p[1] * y[1] - p[2] * y[0]) / p[0] - u[1]
 
     observe = staticmethod(LinBacklash.observe)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-from lostmotion.contracts import Array, Interface, Model, Param
+from lostmotion.contracts import Array, Interface, Model, Motion, Param
 from lostmotion.quantities import DAMPING, INERTIA, LENGTH, STIFFNESS
 from lostmotion_plugins.models.lin import ground
 
@@ -22,19 +22,23 @@ def second(y: Array, u: Array) -> tuple[float, float]:
 
 @dataclass(frozen=True)
 class ClearanceChain(Model):
-    """m1 x1'' + c1 x1' + k1 x1 + J = force and m2 x2'' + c2 x2' + k2 x2 = J, with J = c0 (x1' - x2') + F(x1 - x2).
+    """m1 x1'' + c1 x1' + k1 x1 + J = force and m2 x2'' + c2 x2' + k2 x2 = J + second_force, with a joint J.
 
-    F is zero inside the gap |x1 - x2| < x0 and k0 (|x1 - x2| - x0) beyond, with the sign of x1 - x2. The force, and the
-    channels "position", "velocity" and "acceleration", are those of the first body. A term acts between the first body
+    J = c0 (x1' - x2') + F(x1 - x2), where F is zero inside the gap |x1 - x2| < x0 and k0 (|x1 - x2| - x0) beyond, with
+    the sign of x1 - x2. Channels without "second_" are those of the first body. On a table of acceleration a both are
+    relative to it, -m a acts on each, and the channels of acceleration show x'' + a. A term acts between the first body
     and its guide (`ground`), between the second body and its own (`second`), or between the two (`joint`).
     """
 
     name: ClassVar[str] = "clearance_chain"
     paper: ClassVar[str] = "Nordin, Gutman, Automatica 38 (2002) 1633-1649, section 2: two masses with backlash"
-    motion = "translation"
+    motion: Motion = "translation"
+    motions: ClassVar[tuple[str, ...]] = ("translation", "rotation")
     states = ("position", "velocity", "second_position", "second_velocity")
-    inputs = ("force",)
-    channels = ("position", "velocity", "acceleration", "second_position")
+    inputs = ("force", "second_force", "base_acceleration")
+    channels = (
+        "position", "velocity", "acceleration", "second_position", "second_velocity", "second_acceleration",
+    )  # fmt: skip
     params = (
         Param("m1", "mass of the first body", INERTIA, low=0.0, scale="log", aliases=("m",)),
         Param("c1", "viscous damping of the first body", DAMPING, low=0.0),
@@ -59,13 +63,15 @@ class ClearanceChain(Model):
         lean = y[0] - y[2]
         joint = p[7] * (y[1] - y[3]) + p[6] * (lean - min(max(lean, -p[8]), p[8]))
         dydt[0] = y[1]
-        dydt[1] = (u[0] - p[1] * y[1] - p[2] * y[0] - joint) / p[0]
+        dydt[1] = (u[0] - p[1] * y[1] - p[2] * y[0] - joint) / p[0] - u[2]
         dydt[2] = y[3]
-        dydt[3] = (joint - p[4] * y[3] - p[5] * y[2]) / p[3]
+        dydt[3] = (u[1] + joint - p[4] * y[3] - p[5] * y[2]) / p[3] - u[2]
 
     @staticmethod
     def observe(t: float, y: Array, dydt: Array, u: Array, p: Array, seen: Array) -> None:
         seen[0] = y[0]
         seen[1] = y[1]
-        seen[2] = dydt[1]
+        seen[2] = dydt[1] + u[2]
         seen[3] = y[2]
+        seen[4] = y[3]
+        seen[5] = dydt[3] + u[2]

@@ -5,23 +5,25 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-from lostmotion.contracts import Array, Interface, Model, Param
+from lostmotion.contracts import Array, Interface, Model, Motion, Param
 from lostmotion.quantities import DAMPING, INERTIA, STIFFNESS, Dimension
 from lostmotion_plugins.models.lin import LinBacklash, ground
 
 
 @dataclass(frozen=True)
 class Duffing(Model):
-    """m x'' + c x' + k x + k3 x^3 = force: a spring that hardens or softens, or with k < 0 < k3 a beam that buckled.
+    """m (x'' + a) + c x' + k x + k3 x^3 = force: a spring that hardens or softens, or with k < 0 < k3 a buckled beam.
 
-    With k < 0 there are two wells, at x = +-sqrt(-k / k3), and with k = 0 it is the oscillator of Ueda.
+    With k < 0 there are two wells, at x = +-sqrt(-k / k3), and with k = 0 it is the oscillator of Ueda. The base
+    acceleration a is that of a shaking table on which the spring stands; x is relative to the table.
     """
 
     name: ClassVar[str] = "duffing"
     paper: ClassVar[str] = "Duffing (1918); Ueda, J. Statistical Physics 20 (1979) 181-196"
-    motion = "translation"
+    motion: Motion = "translation"
+    motions: ClassVar[tuple[str, ...]] = ("translation", "rotation")
     states = ("position", "velocity")
-    inputs = ("force",)
+    inputs = ("force", "base_acceleration")
     channels = ("position", "velocity", "acceleration")
     params = (
         Param("m", "mass", INERTIA, low=0.0, scale="log", aliases=("mass",)),
@@ -35,6 +37,6 @@ class Duffing(Model):
     def rhs(t: float, y: Array, u: Array, p: Array, dydt: Array) -> None:
         x = y[0]
         dydt[0] = y[1]
-        dydt[1] = (u[0] - p[1] * y[1] - (p[2] + p[3] * x * x) * x) / p[0]
+        dydt[1] = (u[0] - p[1] * y[1] - (p[2] + p[3] * x * x) * x) / p[0] - u[1]
 
     observe = staticmethod(LinBacklash.observe)

@@ -6,27 +6,29 @@ import math
 from dataclasses import dataclass
 from typing import ClassVar
 
-from lostmotion.contracts import Array, Group, Interface, Model, Param
+from lostmotion.contracts import Array, Group, Interface, Model, Motion, Param
 from lostmotion.quantities import DAMPING, INERTIA, LENGTH, STIFFNESS, Dimension
 from lostmotion_plugins.models.lin import LinBacklash, ground
 
 
 @dataclass(frozen=True)
 class ImpactOscillator(Model):
-    """m x'' + c x' + k x + P = force, where the stop pushes with P = k0 (x - x0) (1 + loss x') from x > x0 on.
+    """m (x'' + a) + c x' + k x + P = force, where the stop pushes with P = k0 (x - x0) (1 + loss x') from x > x0 on.
 
     The stop never pulls: P is zero where the formula falls below it. As the loss grows with the depth (Hunt, Crossley),
     the force does not jump at the first touch, and the restitution is one for slow impacts and falls with their speed:
-    a body that comes with v leaves with w, where s - ln(1 + s) is the same for s = loss v and s = -loss w.
+    a body that comes with v leaves with w, where s - ln(1 + s) is the same for s = loss v and s = -loss w. The base
+    acceleration a is that of a shaking table on which spring and stop stand; x is relative to the table.
     """
 
     name: ClassVar[str] = "impact_oscillator"
     paper: ClassVar[str] = (
         "Shaw, Holmes, J. Sound and Vibration 90 (1983) 129-155; Hunt, Crossley, J. Applied Mechanics 42 (1975) 440-445"
     )
-    motion = "translation"
+    motion: Motion = "translation"
+    motions: ClassVar[tuple[str, ...]] = ("translation", "rotation")
     states = ("position", "velocity")
-    inputs = ("force",)
+    inputs = ("force", "base_acceleration")
     channels = ("position", "velocity", "acceleration")
     params = (
         Param("m", "mass", INERTIA, low=0.0, scale="log", aliases=("mass",)),
@@ -53,6 +55,6 @@ class ImpactOscillator(Model):
         if y[0] > p[4]:
             push = max(p[3] * (y[0] - p[4]) * (1.0 + p[5] * y[1]), 0.0)
         dydt[0] = y[1]
-        dydt[1] = (u[0] - p[1] * y[1] - p[2] * y[0] - push) / p[0]
+        dydt[1] = (u[0] - p[1] * y[1] - p[2] * y[0] - push) / p[0] - u[1]
 
     observe = staticmethod(LinBacklash.observe)

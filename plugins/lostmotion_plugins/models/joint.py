@@ -23,20 +23,20 @@ def base(y: Array, u: Array) -> tuple[float, float]:
 
 @dataclass(frozen=True)
 class RobotJoint(Model):
-    """J q'' + c (q' - qb') + F(q - qb) + mgl sin q = 0: a link q moved by a base motion qb through a gap.
+    """J q'' + c (q' - qb') + F(q - qb) + mgl sin q = force: a link q moved by a base motion qb through a gap.
 
     The contact F is zero inside the gap |q - qb| < x0 and k0 (|q - qb| - x0) beyond. Encoder 1 reads qb (the input),
     encoder 2 reads q (the channel "position"), a torque sensor what goes through contact and damper (the channel
-    "force"; a term at the place "base" is not part of it). The angle is measured from where the link hangs straight
-    down; mgl = 0 for a link that turns in the horizontal plane. The dimensionless numbers are those of such a link:
-    weight acts on the angle itself and not on its ratio to the gap.
+    "force"; a term at the place "base" is not part of it). The input "force" is a torque on the link. The angle is
+    measured from where the link hangs straight down; mgl = 0 for a link that turns in the horizontal plane. The
+    dimensionless numbers are those of such a link: weight acts on the angle itself and not on its ratio to the gap.
     """
 
     name: ClassVar[str] = "robot_joint"
     paper: ClassVar[str] = "Tjahjowidodo, Al-Bender, Van Brussel, MSSP 21 (2007) 973-986, section 6 and Fig. 1"
     motion = "rotation"
     states = ("position", "velocity")
-    inputs = ("base_position", "base_velocity")
+    inputs = ("base_position", "base_velocity", "force")
     channels = ("position", "velocity", "acceleration", "force")
     params = (
         Param("m", "moment of inertia of the link", INERTIA, low=0.0, scale="log", aliases=("J", "inertia")),
@@ -67,7 +67,7 @@ class RobotJoint(Model):
         elif gap < -p[3]:
             contact = p[2] * (gap + p[3])
         dydt[0] = y[1]
-        dydt[1] = -(p[1] * (y[1] - u[1]) + contact + p[4] * math.sin(y[0])) / p[0]
+        dydt[1] = -(p[1] * (y[1] - u[1]) + contact + p[4] * math.sin(y[0]) - u[2]) / p[0]
 
     @staticmethod
     def observe(t: float, y: Array, dydt: Array, u: Array, p: Array, seen: Array) -> None:

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
-from lostmotion.contracts import Array, Drive, Flow, Group, Interface, Model, Param
+from lostmotion.contracts import Array, Drive, Flow, Group, Interface, Model, Motion, Param
 from lostmotion.quantities import DAMPING, INERTIA, LENGTH, STIFFNESS
 
 
@@ -18,16 +18,19 @@ def ground(y: Array, u: Array) -> tuple[float, float]:
 
 @dataclass(frozen=True)
 class LinBacklash(Model):
-    """m x'' + c x' + k1 x + F(x) = force, where the contact F is zero inside the gap |x| < x0 and k0 (|x| - x0) beyond.
+    """m (x'' + a) + c x' + k1 x + F(x) = force, where the contact F is zero in the gap |x| < x0, k0 (|x| - x0) beyond.
 
-    The states are position and velocity; the parameters m, c, k1, k0, x0 in this order.
+    The base acceleration a is that of a shaking table on which spring and stops stand: x is relative to the table, and
+    the channel "acceleration" is x'' + a, what an accelerometer on the body shows. The states are position and
+    velocity; the parameters m, c, k1, k0, x0 in this order.
     """
 
     name: ClassVar[str] = "lin_backlash"
     paper: ClassVar[str] = "Tjahjowidodo, Al-Bender, Van Brussel, MSSP 21 (2007) 973-986, eq. (1); Lin (1990)"
-    motion = "translation"
+    motion: Motion = "translation"
+    motions: ClassVar[tuple[str, ...]] = ("translation", "rotation")
     states = ("position", "velocity")
-    inputs = ("force",)
+    inputs = ("force", "base_acceleration")
     channels = ("position", "velocity", "acceleration")
     params = (
         Param("m", "mass", INERTIA, low=0.0, scale="log", aliases=("mass",)),
@@ -58,13 +61,13 @@ class LinBacklash(Model):
         elif x < -p[4]:
             contact = p[3] * (x + p[4])
         dydt[0] = y[1]
-        dydt[1] = (u[0] - p[1] * y[1] - p[2] * x - contact) / p[0]
+        dydt[1] = (u[0] - p[1] * y[1] - p[2] * x - contact) / p[0] - u[1]
 
     @staticmethod
     def observe(t: float, y: Array, dydt: Array, u: Array, p: Array, seen: Array) -> None:
         seen[0] = y[0]
         seen[1] = y[1]
-        seen[2] = dydt[1]
+        seen[2] = dydt[1] + u[1]
 
     @classmethod
     def exact(cls, values: Mapping[str, float], drive: Drive, start: Array | None) -> Flow | None:

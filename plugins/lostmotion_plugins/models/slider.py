@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-from lostmotion.contracts import Array, Interface, Model, Param
+from lostmotion.contracts import Array, Interface, Model, Motion, Param
 from lostmotion.quantities import DAMPING, INERTIA, LENGTH, STIFFNESS
 from lostmotion_plugins.models.joint import base
 from lostmotion_plugins.models.lin import ground
@@ -13,19 +13,21 @@ from lostmotion_plugins.models.lin import ground
 
 @dataclass(frozen=True)
 class BacklashSlider(Model):
-    """m x'' = f = c (xb' - x') + F(xb - x): a body x moved by a base motion xb through a gap of 2 x0.
+    """m x'' = f + force, f = c (xb' - x') + F(xb - x): a body x moved by a base motion xb through a gap of 2 x0.
 
     The contact F is zero inside the gap |xb - x| < x0 and k0 (|xb - x| - x0) beyond. The channel "force" is f, what
-    the base exerts on the body through contact and damper, as a load cell in the joint shows it; a term at the place
-    "base" is not part of it. Friction of the guide is a term at the ground: with it this is a friction damper with
-    backlash, and its loop of force over travel is flat where it slides and thin where the gap is crossed.
+    the base exerts on the body through contact and damper, as a load cell in the joint shows it; neither a term at the
+    place "base" nor the input "force", which pushes the body itself, is part of it. Friction of the guide is a term at
+    the ground: with it this is a friction damper with backlash, and its loop of force over travel is flat where it
+    slides and thin where the gap is crossed.
     """
 
     name: ClassVar[str] = "backlash_slider"
     paper: ClassVar[str] = "Nordin, Gutman, Automatica 38 (2002) 1633-1649, section 2.1: dead zone with a damper"
-    motion = "translation"
+    motion: Motion = "translation"
+    motions: ClassVar[tuple[str, ...]] = ("translation", "rotation")
     states = ("position", "velocity")
-    inputs = ("base_position", "base_velocity")
+    inputs = ("base_position", "base_velocity", "force")
     channels = ("position", "velocity", "acceleration", "force")
     params = (
         Param("m", "moving mass", INERTIA, low=0.0, scale="log", aliases=("mass",)),
@@ -47,7 +49,7 @@ class BacklashSlider(Model):
         elif gap < -p[3]:
             contact = p[2] * (gap + p[3])
         dydt[0] = y[1]
-        dydt[1] = (p[1] * (u[1] - y[1]) + contact) / p[0]
+        dydt[1] = (p[1] * (u[1] - y[1]) + contact + u[2]) / p[0]
 
     @staticmethod
     def observe(t: float, y: Array, dydt: Array, u: Array, p: Array, seen: Array) -> None:
