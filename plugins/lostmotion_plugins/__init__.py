@@ -44,6 +44,7 @@ def lostmotion_terms() -> dict[str, str]:
         "quadratic_damping": f"{_HERE}.terms.viscous:QuadraticDamping",
         "sensor_delay": f"{_HERE}.terms.sensor:SensorDelay",
         "sensor_gain": f"{_HERE}.terms.sensor:SensorGain",
+        "sensor_offset": f"{_HERE}.terms.sensor:SensorOffset",
         "sensor_quantisation": f"{_HERE}.terms.sensor:SensorQuantisation",
         "stribeck_friction": f"{_HERE}.terms.friction:StribeckFriction",
         "viscous_damping": f"{_HERE}.terms.viscous:ViscousDamping",

@@ -15,7 +15,7 @@ from lostmotion.likelihood.compose import handed
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import LATEST, NOISE, RANDOM, Free, Problem, Scales
 from lostmotion.likelihood.system import Slot
-from lostmotion.quantities import FORCE, TIME
+from lostmotion.quantities import FORCE, LENGTH, SPEED, TIME, Dimension, quantity_of
 
 CREEP, FINEST = 0.02, 32
 SHORT, CLEAR = 1500, 8.0
@@ -78,7 +78,18 @@ def _free(slot: Slot, size: float, start: float | None) -> Free:
 def term_of(problem: Problem, key: str) -> tuple[Term, list[Slot]]:
     """Return a term of the problem's system and the slots of its parameters."""
     i = problem.system.keys.index(key)
-    return problem.system.terms[i], [s for s in problem.system.slots if s.term == i]
+    term, slots = problem.system.terms[i], [s for s in problem.system.slots if s.term == i]
+    return term, [_shown(problem, term, slot) for slot in slots] if term.acts == "sensor" else slots
+
+
+def _shown(problem: Problem, term: Term, slot: Slot) -> Slot:
+    """Return a parameter of a sensor, of which a length stands for what its channel shows."""
+    channel = next((s.channel for s in problem.observations[0].sensors if s.place == term.at), "position")
+    if slot.param.dimension != LENGTH or quantity_of(channel) == "position":
+        return slot
+    dimension = {"velocity": SPEED, "acceleration": Dimension(0, 1, -2), "force": FORCE}[quantity_of(channel)]
+    unit = dimension.unit(problem.system.model.motion)
+    return replace(slot, param=replace(slot.param, dimension=dimension), unit=unit)
 
 
 def sorted_slots(problem: Problem, key: str) -> tuple[list[Slot], list[Slot]]:

@@ -24,6 +24,9 @@ from lostmotion.likelihood.system import Slot, System
 from lostmotion.quantities import quantity_of, unit_of
 
 HELD_OUT = 0.3
+BLOCKS, ALIVE, DIED = 60, 4.0, 0.67
+"""Parts of a recording that are looked at for its motion; noises by which that stands out where there is one; the share
+of the recording by which a motion must be over to count as one that died away."""
 SHARED = Sensor("shared")
 """A sensor of which nothing is to be split by recording."""
 BEGINNING, FEWEST = 3000, 400
@@ -41,12 +44,30 @@ COARSE, FINE = 0.06, 0.015
 
 
 def split(observations: Sequence[Observation]) -> tuple[tuple[Observation, ...], tuple[Observation, ...]]:
-    """Return what is fitted and what is held out: the last 30 % of one recording, or the last 30 % of several."""
+    """Return what is fitted and what is held out: the last 30 % of one recording, or the last 30 % of several.
+
+    Of a motion that dies away, the last 30 % of what stands out of the noise begin what is held out.
+    """
     if len(observations) == 1:
-        cut = round((1.0 - HELD_OUT) * observations[0].samples)
+        cut = round((1.0 - HELD_OUT) * lasting(observations[0]))
         return (observations[0].part(0, cut),), (observations[0].part(cut, observations[0].samples),)
     kept = max(1, len(observations) - max(1, round(HELD_OUT * len(observations))))
     return tuple(observations[:kept]), tuple(observations[kept:])
+
+
+def lasting(observation: Observation) -> int:
+    """Return how many samples of a recording there are until its motion has died away, or all of them.
+
+    A block of readings lives where its deviation is more than `ALIVE` times the noise, and the motion has died where
+    the last third of the recording or more does not.
+    """
+    sensor = telling(observation)
+    blocks = np.array_split(filled(observation.readings[:, sensor]), BLOCKS)
+    alive = np.array([float(np.std(block)) for block in blocks]) > ALIVE * observation.noises[sensor]
+    last = int(np.flatnonzero(alive)[-1]) + 1 if alive.any() else BLOCKS
+    if last > DIED * BLOCKS:
+        return observation.samples
+    return sum(len(block) for block in blocks[:last])
 
 
 def scales_of(system: System, observations: Sequence[Observation], known: Array) -> Scales:

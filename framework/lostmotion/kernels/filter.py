@@ -273,8 +273,8 @@ def filtered(functions, blocks, wiring, inputs, drives, z, sensors, dt, nsub, er
     behind. `inputs` (rows, 4, inputs) holds a cubic for each sample, and `drives` (lanes,) the first row of each
     point. `sensors` (sensors, 4) holds the channel of each, the state that it shows directly or -1, its place
     among those with slow noise or -1, and whether it is late. `errors` and `variances` are (lanes, samples, sensors);
-    `reached` (lanes,) counts the samples that were got through. `kept` is what a smoother needs of the first point: states and
-    covariances after and before each sample and the steps between, empty if not wanted.
+    `reached` (lanes,) counts the samples that were got through. `kept` is what a smoother needs of the first point:
+    states and covariances after and before each sample and the steps between, empty if not wanted.
     """
     derive, observe = functions[0], functions[1]
     space, work, slow, begin = pointer(blocks[0]), pointer(blocks[1]), pointer(blocks[2]), pointer(blocks[3])

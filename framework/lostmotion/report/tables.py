@@ -42,7 +42,7 @@ def key_numbers(evidence: Evidence) -> Table:
     """Return the numbers that carry the answer: before, after, and the noise floor."""
     rows = [
         ["Unexplained force, r.m.s.", *_forces(evidence), DASH],
-        ["Its share of the drive", *_shares(evidence), DASH],
+        [f"Its share of {evidence.fact('drive', 'of') or 'the drive'}", *_shares(evidence), DASH],
         [f"Prediction error{horizon(evidence)}", *_fit(evidence, "heldout_nrmse", percent), _floor(evidence)],
         ["Held-out log score per sample", *_fit(evidence, "heldout_log_score", figures), DASH],
         ["Predictions are valid for", *(_valid(evidence, when) for when in ("before", "after", "floor"))],

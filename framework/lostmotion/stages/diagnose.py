@@ -99,6 +99,11 @@ class Diagnosis:
         return tuple(key for key in self.found if not self.learned or key not in self.learned.keys)
 
     @property
+    def yardstick(self) -> str:
+        """What forces are compared with: the drive, or where nothing drives the machine the force of its inertia."""
+        return "the inertial force" if self.shown.free else "the drive"
+
+    @property
     def unexplained(self) -> bool:
         """Whether a random force beyond the usual noise of the drive is left."""
         return self.random_gain > SIGNIFICANT

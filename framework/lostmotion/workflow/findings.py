@@ -82,7 +82,7 @@ def _entry(outcome: Outcome, key: str, after: Mapping[str, Interval]) -> dict[st
         "probability": d.selection.inclusion(key),
         "parameters": {name: i.as_dict() for name, i in (own | _derived(outcome, term, held)).items()},
         "share_of_drive": share,
-        "says": f"{sentence}, up to {100.0 * share:.2g} % of the drive.",
+        "says": f"{sentence}, up to {100.0 * share:.2g} % of {d.yardstick}.",
     }
 
 

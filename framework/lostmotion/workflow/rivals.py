@@ -62,11 +62,11 @@ def proposed(
 ) -> dict[str, Proposal | None]:
     """Return the experiment that would decide between what was found and each of its heaviest rivals, by key.
 
-    Where none is `allowed`, none is looked for.
+    Where none is `allowed`, or nothing drives the machine, none is looked for.
     """
     chosen = d.selection.chosen
     heaviest = list(rivals_of(d).items())[:MOST]
-    if allowed is None:
+    if allowed is None or d.shown.free:
         return {key: None for key, _ in heaviest}
     usual = usual_limits(chosen.problem.observations[0], natural_of(chosen))
     limits = Limits(allowed.max_level or usual.level, allowed.max_frequency or usual.frequency)

@@ -42,7 +42,7 @@ def learned_entry(d: Diagnosis) -> dict[str, Any]:
     size = Interval(rms, max(rms - BAND * sd, 0.0), rms + BAND * sd, unit)
     depends = names_of(unknown.terms)
     share = rms / d.after.problem.scales.force
-    text = f"A force of {rms:.3g} {unit} rms, {share:.2%} of the drive, is missing that no term of the library explains"
+    text = f"A force of {rms:.3g} {unit} rms, {share:.2%} of {d.yardstick}, is missing that no term of the library explains"
     return {
         "mechanism": "unknown",
         "at": unknown.terms[0].at,
@@ -71,7 +71,7 @@ def unnamed_entry(d: Diagnosis) -> dict[str, Any]:
         "probability": 1.0 - math.exp(-d.random_gain),
         "parameters": {"rms": Interval(rms, rms, rms, unit).as_dict()},
         "depends_on": depends,
-        "says": f"A force of {rms:.3g} {unit} rms, {share:.1%} of the drive, is missing; no term explains it; it {on}.",
+        "says": f"A force of {rms:.3g} {unit} rms, {share:.1%} of {d.yardstick}, is missing; no term explains it; it {on}.",
     }
 
 

@@ -60,6 +60,7 @@ def _setting(outcome: Outcome) -> dict[str, Any]:
         "drive": {
             "amplitude": scales.force,
             "unit": units[2],
+            "of": d.yardstick,
             "frequency": 1.0 / (period * d.shown.dt) if period else None,
         },
         "units": {"position": units[0], "velocity": units[1], "force": units[2], "time": "s"},
@@ -171,6 +172,8 @@ def _confused(d: Diagnosis) -> list[dict[str, Any]]:
 def _equal(d: Diagnosis, key: str) -> list[dict[str, Any]]:
     """Return the terms that no recording of a machine that does not age can tell from a term that was found."""
     term, _ = term_of(d.after.problem, key)
+    if len(d.shown.sensors) > 1:  # what delays one sensor delays no other
+        return []
     says = (
         f"No recording of this machine can tell {{}} from {term.name}: measure the time lag of the channels by itself."
     )

@@ -35,6 +35,28 @@ class SensorGain(SensorTerm):
 
 
 @dataclass(frozen=True)
+class SensorOffset(SensorTerm):
+    """A sensor whose zero lies elsewhere than that of the other sensors.
+
+    Of a sensor alone it does what a constant force does, or nothing, so it is tried where there are several. The
+    parameter is of the dimension of the channel.
+    """
+
+    at: str = "sensor"
+    name: ClassVar[str] = "sensor_offset"
+    physics: ClassVar[str] = "The sensor shows {offset} where the machine stands at zero"
+    formula: ClassVar[str] = "x + offset"
+    paper: ClassVar[str] = "Pintelon, Schoukens, System Identification: a Frequency Domain Approach (2012), section 1.6"
+    params = (Param("offset", "what the sensor shows at zero", LENGTH, null=0.0, typical=0.3),)
+    resembles = ("offset_force",)
+    relative: ClassVar[bool] = True
+
+    @staticmethod
+    def offset(p: Values) -> float:
+        return p[0]
+
+
+@dataclass(frozen=True)
 class SensorDelay(SensorTerm):
     """A sensor of the response that is late: what it shows was there `delay` ago."""
 
