@@ -34,6 +34,8 @@ FINEST = 1e-9
 """Share of the largest amplitude below which all is rounding."""
 STARTS = (1.0, 1.15, 0.87, 1.3, 0.75, 1.5, 0.65)
 """Multiples of the frequency of the whole at which the first cycle is sought: stiffness may change a lot."""
+SAME = 0.3
+"""Logarithm of the ratio of two frequencies up to which they may be the same mode at two amplitudes."""
 HARMONICS = 3
 UNEXPLAINED = 0.1
 """Share of the amplitude that may be left over beside a single mode."""
@@ -118,8 +120,7 @@ def decay_of(values: ArrayLike, dt: float, *, noise: float | None = None, near: 
     end = _rests(filled, level, max(2, round(1.0 / (overall * dt))))
     cycles = _alone((readings - rest)[:end], dt, overall)
     if not _explained(cycles, level):
-        first, apart = _apart(filled, dt, overall, lines)
-        cycles = list(_beside((readings - rest)[:end], dt, first, apart))
+        cycles = list(_beside((readings - rest)[:end], dt, *_neighbours(filled, dt, overall, lines)))
     return _accepted(cycles, level)
 
 
@@ -165,7 +166,7 @@ def _fading(size: int, rise: int) -> Array:
 def _spectrum(x: Array, dt: float) -> tuple[Array, Array]:
     """Return frequencies (Hz) and heights of the spectrum of `x`, padded to four times its length."""
     size = 4 * x.size
-    return np.fft.rfftfreq(size, dt), np.abs(np.fft.rfft(x, size))
+    return np.asarray(np.fft.rfftfreq(size, dt)), np.asarray(np.abs(np.fft.rfft(x, size)))
 
 
 def _lines(frequency: Array, height: Array, lowest: float) -> Array:
@@ -181,22 +182,27 @@ def _dominating(lines: Array, near: float | None) -> float | None:
     return float(asked[np.argmax(asked[:, 1]), 0]) if len(asked) else None
 
 
-def _apart(x: Array, dt: float, overall: float, lines: Array) -> tuple[float, float]:
-    """Return the frequency (Hz) of a mode in the first periods of `x`, and the distance (Hz) of the next mode.
+def _neighbours(x: Array, dt: float, overall: float, lines: Array) -> tuple[float, float, float]:
+    """Return the frequency (Hz) of a mode in the first periods of `x`, the distance (Hz) and height of other modes.
 
     Far modes are found in the whole spectrum; close ones only in the first periods, for there a frequency that
     changes with the amplitude makes no second line.
     """
     strength = lines[np.argmin(np.abs(lines[:, 0] - overall)), 1]
-    others = [f for f, height in lines if height > OTHER * strength and not 0.5 * overall < f < 2.0 * overall]
+    far = lines[np.abs(np.log2(lines[:, 0] / overall)) > 1.0] / np.array([1.0, strength])
     piece = x[: max(FEWEST_SAMPLES, round(FIRST / (overall * dt)))]
     weights = _fading(piece.size, piece.size // 5)
-    early = _lines(*_spectrum((piece - np.average(piece, weights=weights)) * weights, dt), 1.5 / (piece.size * dt))
-    own = early[(early[:, 0] > 0.5 * overall) & (early[:, 0] < 2.0 * overall)]
-    loud = own[own[:, 1] > 0.3 * own[:, 1].max(initial=0.0)]
-    first, strength = loud[np.argmin(np.abs(loud[:, 0] - overall))] if len(loud) else (overall, math.inf)
-    others += [f for f, height in early if height > OTHER * strength and f != first]
-    return float(first), max(min((abs(f - first) for f in others), default=first), CLOSEST * first)
+    centred = piece - np.average(piece, weights=weights)
+    early = _lines(*_spectrum(centred * weights, dt), 1.5 / (piece.size * dt))
+    own = early[np.abs(np.log(early[:, 0] / overall)) < SAME]
+    if not len(own):
+        return overall, CLOSEST * overall, 1.0
+    loud = own[own[:, 1] > 0.3 * own[:, 1].max()]
+    first, strength = loud[np.argmin(np.abs(loud[:, 0] - overall))]
+    others = np.concatenate([far, early[early[:, 0] != first] / np.array([1.0, strength])])
+    others = others[others[:, 1] > OTHER]
+    apart = float(np.min(np.abs(others[:, 0] - first), initial=first))
+    return float(first), max(apart, CLOSEST * first), float(np.max(others[:, 1], initial=1.0))
 
 
 def _noise(x: Array, dt: float, about: float) -> float:
@@ -249,18 +255,21 @@ def _explained(cycles: list[_Cycle], noise: float) -> bool:
     return len(left) >= FEWEST_CYCLES and float(np.mean(left)) > 0.75
 
 
-def _beside(x: Array, dt: float, first: float, apart: float) -> Iterator[_Cycle]:
-    """Yield what is fitted about the middle of each cycle of `x` (n,), which other modes at a distance (Hz) share.
+def _beside(x: Array, dt: float, first: float, apart: float, height: float) -> Iterator[_Cycle]:
+    """Yield what is fitted about the middle of each cycle of `x` (n,), where there are modes at a distance (Hz).
 
-    The windows are symmetric and so long that their taper separates the modes, also from a steady rest of the fit.
+    The windows are symmetric and so long that their taper separates the modes: the longer the higher the others are.
     """
+    wanted = 3.0 * height**0.3 / apart
     exponent, centre = complex(0.0, 2.0 * math.pi * first), 0.5 / first
     while centre < x.size * dt:
         period = 2.0 * math.pi / exponent.imag
-        reach = min(max(REACH * period, 3.0 / apart), centre, x.size * dt - centre)
+        reach = min(max(REACH * period, wanted), centre, x.size * dt - centre)
         if reach >= 0.999 * max(period, 2.0 / apart):
             cycle = _cycle(x, dt, _Window(centre, reach, 4), exponent)
-            if cycle is not None and 0.7 < cycle.exponent.imag / exponent.imag < 1.4:
+            if cycle is not None and abs(cycle.exponent.imag / (2.0 * math.pi) - first) > 0.5 * apart:
+                return  # another mode has outlived this one
+            if cycle is not None:
                 exponent = cycle.exponent
                 yield cycle
         centre += 2.0 * math.pi / exponent.imag
@@ -274,7 +283,7 @@ def _cycle(x: Array, dt: float, window: _Window, exponent: complex) -> _Cycle | 
     period = 2.0 * math.pi / exponent.imag
     if seen.size < max(12, 0.6 * period / dt) or (seen[-1] - seen[0]) * dt < 0.9 * period:
         return None
-    s = (seen * dt - window.middle) / period
+    s = np.asarray((seen * dt - window.middle) / period, dtype=np.float64)
     weights = np.cos(0.5 * np.pi * s * period / window.reach) ** window.power
     count = min(HARMONICS, math.ceil(0.5 * period / dt) - 1)
     turn = exponent * period
@@ -312,7 +321,7 @@ def _errors(table: Array, weights: Array, amplitude: complex) -> Array:
     rows[0, :2] = along.real, along.imag
     rows[1, 2:4] = along.real / abs(amplitude), along.imag / abs(amplitude)
     rows[2, 2:4] = across.real / abs(amplitude), across.imag / abs(amplitude)
-    return np.sqrt(np.maximum(np.einsum("ij,jk,ik->i", rows, covariance, rows), 0.0))
+    return np.asarray(np.sqrt(np.maximum(np.einsum("ij,jk,ik->i", rows, covariance, rows), 0.0)))
 
 
 def _accepted(cycles: list[_Cycle], noise: float) -> Decay | None:
