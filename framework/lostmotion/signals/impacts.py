@@ -159,9 +159,9 @@ def onsets_of(values: ArrayLike, dt: float) -> tuple[int, ...]:
     """Return the sample numbers at which a vibration begins anew in a response (n,), taken every `dt` s.
 
     There the largest deviation from the median within two periods of the strongest frequency is 2.5 times that of the
-    eight periods before, and still 1.5 times a period later, so a lost sample is none. The first sample is one where
-    the first eight periods are 2.5 times as large as the quiet tenth of all. A hit into a vibration that is still loud
-    is not seen.
+    eight periods before, and still 1.5 times a period later, so a lost sample is none. Where the first eight periods are
+    2.5 times as large as the quiet tenth of all, there is an onset in them, at the first sample if they begin loud. A
+    hit into a vibration that is still loud is not seen.
     """
     size = np.abs(_checked(values, dt))
     period = _period(_checked(values, dt))
@@ -171,7 +171,7 @@ def onsets_of(values: ArrayLike, dt: float) -> tuple[int, ...]:
     blocks = size[: size.size // past * past].reshape(-1, past).max(axis=1)
     quiet = float(np.quantile(blocks, 0.1))
     before = np.lib.stride_tricks.sliding_window_view(size, past).max(axis=1)
-    found = [0] if blocks[0] > RISE * quiet else []
+    found = [_first(size[:past], period)] if blocks[0] > RISE * quiet else []
     loud = past + np.flatnonzero(size[past:] > RISE * np.maximum(before[:-1], quiet))
     for place in loud.tolist():
         level = float(before[place - past])
@@ -179,6 +179,12 @@ def onsets_of(values: ArrayLike, dt: float) -> tuple[int, ...]:
         if later > 1.5 * level and (not found or place >= found[-1] + past):
             found.append(place - int(np.argmax(size[max(0, place - ahead) : place + 1][::-1] <= level)) + 1)
     return tuple(found)
+
+
+def _first(size: Array, period: float) -> int:
+    """Return the sample at which the vibration in the first periods begins: the first one where it is loud already."""
+    place = int(np.argmax(size > WEAKEST * size.max()))
+    return place if place > 0.5 * period else 0
 
 
 def _period(x: Array) -> float:
@@ -252,11 +258,11 @@ def note_overload(values: ArrayLike, what: str, unit: str = "") -> Iterator[str]
 
     Nothing is said of more than 1 % of equal samples: that is a stuck channel, or a machine at rest.
     """
-    size = np.size(values)
-    for found in overloaded(values):
-        if found.exact and found.samples > STUCK * size:
+    readings = np.asarray(values, dtype=np.float64)
+    for found in overloaded(readings):
+        if found.exact and found.samples > STUCK * readings.size:
             continue
-        word = "largest" if found.value == np.nanmax(values) or found.value > np.nanmedian(values) else "smallest"
+        word = "largest" if found.value > np.nanmedian(readings) else "smallest"
         at = f"{found.value:.4g} {unit}".rstrip()
         stretches = "1 stretch" if found.stretches == 1 else f"{found.stretches} stretches"
         yield (

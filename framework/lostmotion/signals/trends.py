@@ -18,6 +18,8 @@ STIFFER, DAMPED = 2e-4, 0.1
 LAGS = 5
 """Neighbouring cycles whose errors are taken to be correlated: the windows of fitted sines overlap."""
 AT_ENDS = 5
+FEWEST = 5
+"""Cycles below which no slope is given."""
 
 _STIFFNESS = {
     "hardening": "the stiffness rises with the amplitude (hardening)",
@@ -68,13 +70,15 @@ def trend_of(decay: Decay) -> Trend:
     Newey and West (Econometrica 55, 1987, 703), or those of the noise where these are larger. A change counts when its
     slope is four errors away from nothing, and is 0.02 % of the frequency or 10 % of the decrement over the decay.
     """
-    # A sine whose amplitude falls by a large share in a cycle has no sharp frequency, and if it falls along a straight
-    # line as under dry friction, no sharp decrement: measured on closed forms.
+    # A sine whose amplitude falls by a large share in a cycle has no sharp frequency: measured on closed forms.
     blurred = np.hypot(decay.frequency_error, 2.0 * decay.frequency * (decay.decrement / (2.0 * math.pi)) ** 2)
-    smeared = np.hypot(decay.decrement_error, 0.4 * np.abs(decay.decrement) ** 3)
     frequency, _ = _line(decay.amplitude**2, decay.frequency, blurred)
-    decrement, left = _line(decay.amplitude, decay.decrement, smeared)
-    dry, left_dry = _line(1.0 / decay.amplitude, decay.decrement, smeared)
+    # Falls from one cycle to the next but one hold where a sine with an exponential envelope is no good fit any more.
+    size, inside = decay.amplitude, decay.amplitude[1:-1]
+    fall = (size[:-2] - size[2:]) / ((decay.time[2:] - decay.time[:-2]) * decay.frequency[1:-1] * inside)
+    errors = np.hypot(decay.amplitude_error[:-2], decay.amplitude_error[2:]) / (2.0 * inside)
+    decrement, left = _line(inside, fall, errors)
+    dry, left_dry = _line(1.0 / inside, fall, errors)
     change = frequency.value * float(np.ptp(decay.amplitude**2)) / float(np.mean(decay.frequency))
     stiffness = "constant"
     if frequency.sure and abs(change) > STIFFER:
@@ -99,6 +103,8 @@ def _damping(decay: Decay, slopes: tuple[Slope, Slope], *, is_dry: bool, least: 
 
 def _line(over: Array, values: Array, errors: Array) -> tuple[Slope, float]:
     """Return the slope of a straight line through values with standard errors, and the weighted squares left over."""
+    if over.size < FEWEST:
+        return Slope(0.0, math.inf), 0.0
     scale = float(np.max(np.abs(over)))
     table = np.column_stack([np.ones_like(over), over / scale])
     rough = values - table @ np.linalg.lstsq(table, values, rcond=None)[0]
