@@ -101,10 +101,13 @@ def decay_of(values: ArrayLike, dt: float, *, noise: float | None = None, near: 
 
     Method: a sine with an exponential envelope and an offset is fitted by least squares to windows of four periods
     about the middle of each cycle (Gauss-Newton, Hann weights), so neither an offset nor a body that comes to rest
-    disturbs it. Next to a neighbouring mode windows are longer, so that the taper separates the two, and do not
-    overhang the ends. Against the amplitude and phase of a Hilbert transform such fits are as accurate in the middle
-    of a decay, and by two orders of magnitude better at its ends (Feldman, Mech. Syst. Signal Process. 25, 2011, 735,
-    on the end effects of the transform).
+    disturbs it; harmonics are fitted along, so the amplitude is that of the fundamental. Where that leaves more than
+    noise there are other modes; then windows are symmetric and longer, so that their taper separates the modes, and the
+    first and last cycles are lost. A Hilbert transform, averaged over as many periods, does worse: its decrements
+    scatter twice as much in the middle of a noisy decay, and are useless within two cycles of the ends, where its
+    amplitude is off by several per cent (Feldman, Mech. Syst. Signal Process. 25, 2011, 735, on these end effects).
+    Standard errors leave out what other modes do. Readings of velocity and acceleration of a nonlinear oscillator have
+    other decrements than its position, since the factor between the amplitudes is the frequency, which changes.
     """
     readings = _checked(values, dt)
     there = np.isfinite(readings)

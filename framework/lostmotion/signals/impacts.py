@@ -159,9 +159,9 @@ def onsets_of(values: ArrayLike, dt: float) -> tuple[int, ...]:
     """Return the sample numbers at which a vibration begins anew in a response (n,), taken every `dt` s.
 
     There the largest deviation from the median within two periods of the strongest frequency is 2.5 times that of the
-    eight periods before, and still 1.5 times a period later, so a lost sample is none. Where the first eight periods are
-    2.5 times as large as the quiet tenth of all, there is an onset in them, at the first sample if they begin loud. A
-    hit into a vibration that is still loud is not seen.
+    eight periods before, and still 1.5 times a period later, so a lost sample is none. Where the first eight periods
+    are 2.5 times as large as the quiet tenth of all, there is an onset in them, at the first sample if they begin loud.
+    A hit into a vibration that is still loud is not seen.
     """
     size = np.abs(_checked(values, dt))
     period = _period(_checked(values, dt))
@@ -249,7 +249,7 @@ def note_hits(force: ArrayLike, dt: float) -> Iterator[str]:
             yield (
                 f"hit {number} at {hit.start * dt:.4g} s is a double hit: a second contact of {hit.second:.0%} of its "
                 f"peak follows after {1e3 * hit.after:.3g} ms; both are inputs that were measured, so the model is "
-                "driven by both, but a decrement read off the response by eye is not: use another hit for that"
+                "driven by both; a free decay begins after the second one only"
             )
 
 

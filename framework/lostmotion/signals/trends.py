@@ -23,10 +23,10 @@ FEWEST = 5
 
 _STIFFNESS = {
     "hardening": "the stiffness rises with the amplitude (hardening)",
-    "softening": "the stiffness falls with the amplitude (softening), as with a joint that slips in large motion",
+    "softening": "the stiffness falls with the amplitude (softening)",
 }
 _DAMPING = {
-    "drag": "the damping is strongest in large motion, as with drag or with a joint that slips",
+    "drag": "the damping is strongest in large motion, as with drag",
     "dry friction": "the damping is strongest in small motion, as with dry friction",
 }
 
@@ -147,6 +147,8 @@ def says(decay: Decay, unit: str = "", *, factor: float = 1.0) -> str:
     parts = [_frequency_part(decay, trend, pitch, at), _decrement_part(decay, trend, loss)]
     why = [_STIFFNESS.get(trend.stiffness), _DAMPING.get(trend.damping)]
     meaning = " and ".join(reason for reason in why if reason)
+    if (trend.stiffness, trend.damping) == ("softening", "drag"):
+        meaning += "; a joint that slips does both"
     closing = f" So {meaning}." if meaning else " So one linear mode with viscous damping describes the decay."
     return f"The frequency {parts[0]}; the logarithmic decrement {parts[1]}.{closing}"
 
