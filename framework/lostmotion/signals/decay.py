@@ -39,6 +39,10 @@ SAME = 0.3
 HARMONICS = 3
 UNEXPLAINED = 0.1
 """Share of the amplitude that may be left over beside a single mode."""
+ONSET = 3
+"""Cycles before the largest one whose windows may hold part of it."""
+MOST = 2000
+"""Cycles that are looked at: of more, one in two or more."""
 STEPS, PRECISION = 30, 1e-8
 
 
@@ -95,6 +99,7 @@ def decay_of(values: ArrayLike, dt: float, *, noise: float | None = None, near: 
     amplitude above three times the `noise` (standard deviation, in the unit of the readings; estimated from the
     spectrum about the mode in the second half of the readings where it is not given), whose amplitude falls by 10 % or
     more and by 5 standard errors, and on its way never rises again by more than a quarter of that fall (logarithms).
+    It must begin at once, and stay within the noise once it is there. Of more than 2000 cycles some are passed over.
     So noise, a steady vibration and the beat of two modes are none. A resonance that noise drives may fall for a while
     by chance, and then looks like a decay. `near` (Hz) asks for the mode next to a frequency, not for the
     dominating one.
@@ -240,15 +245,20 @@ def _alone(x: Array, dt: float, overall: float) -> list[_Cycle]:
     if not firsts:
         return []
     exponent = min(firsts, key=lambda cycle: cycle.rest).exponent
-    found, centre = [], math.pi / exponent.imag
+    found, centre, hop = [], math.pi / exponent.imag, _hop(x, dt, overall)
     while centre < x.size * dt:
         period = 2.0 * math.pi / exponent.imag
         cycle = _cycle(x, dt, _Window(centre, REACH * period, 2), exponent)
         if cycle is not None and 0.7 < cycle.exponent.imag / exponent.imag < 1.4:
             exponent = cycle.exponent
             found.append(cycle)
-        centre += 2.0 * math.pi / exponent.imag
+        centre += hop * 2.0 * math.pi / exponent.imag
     return found
+
+
+def _hop(x: Array, dt: float, frequency: float) -> int:
+    """Return how many cycles lie between two that are looked at."""
+    return math.ceil(x.size * dt * frequency / MOST)
 
 
 def _explained(cycles: list[_Cycle], noise: float) -> bool:
@@ -264,7 +274,7 @@ def _beside(x: Array, dt: float, first: float, apart: float, height: float) -> I
     The windows are symmetric and so long that their taper separates the modes: the longer the higher the others are.
     """
     wanted = 3.0 * height**0.3 / apart
-    exponent, centre = complex(0.0, 2.0 * math.pi * first), 0.5 / first
+    exponent, centre, hop = complex(0.0, 2.0 * math.pi * first), 0.5 / first, _hop(x, dt, first)
     while centre < x.size * dt:
         period = 2.0 * math.pi / exponent.imag
         reach = min(max(REACH * period, wanted), centre, x.size * dt - centre)
@@ -275,7 +285,7 @@ def _beside(x: Array, dt: float, first: float, apart: float, height: float) -> I
             if cycle is not None:
                 exponent = cycle.exponent
                 yield cycle
-        centre += 2.0 * math.pi / exponent.imag
+        centre += hop * 2.0 * math.pi / exponent.imag
 
 
 def _cycle(x: Array, dt: float, window: _Window, exponent: complex) -> _Cycle | None:
@@ -335,7 +345,7 @@ def _accepted(cycles: list[_Cycle], noise: float) -> Decay | None:
     first = int(np.argmax(sizes))
     quiet = np.flatnonzero(sizes[first:] <= max(LOUD * noise, FINEST * sizes[first]))
     kept = cycles[first : first + int(quiet[0]) if quiet.size else None]
-    if len(kept) < max(FEWEST_CYCLES, first):
+    if len(kept) < max(FEWEST_CYCLES, first) or not _once(sizes / sizes[first], first, len(kept), noise / sizes[first]):
         return None
     decay = _collected(kept, noise)
     size = np.log(decay.amplitude)
@@ -344,6 +354,13 @@ def _accepted(cycles: list[_Cycle], noise: float) -> Decay | None:
     climb = float(np.max(size - np.minimum.accumulate(size)))
     falls = fall > max(FALL, SURE * error) and climb < CLIMB * fall + SURE * error
     return decay if falls else None
+
+
+def _once(sizes: Array, first: int, count: int, noise: float) -> bool:
+    """Return whether sizes (over the largest one) come up at once, and stay down when they are down."""
+    early, later = sizes[: max(0, first - ONSET)], sizes[first + count :]
+    sudden = bool(np.all(early < 0.3) or np.all(early > 0.8))
+    return sudden and float(np.mean(later > max(2.0 * LOUD * noise, 1e-6))) < 0.1 if later.size else sudden
 
 
 def _collected(cycles: list[_Cycle], noise: float) -> Decay:
