@@ -1,24 +1,38 @@
-"""What any method does with a sampled series: checks, delay vectors, sampling against the drive, spectra, sections."""
+"""What any method does with a sampled series: checks, delay vectors, sampling, spectra, sections, decays, hits."""
 
+from lostmotion.signals.decay import Decay, decay_of, decays_of
+from lostmotion.signals.impacts import Hit, hits_of, note_hits, note_overload, onsets_of, overloaded
 from lostmotion.signals.sampling import Locked, commensurate, resampled, unlocked
 from lostmotion.signals.sections import poincare, return_spread, stroboscopic
 from lostmotion.signals.series import checked, delay_vectors
 from lostmotion.signals.spectra import fundamental, refined_period, spectrum, without_harmonics
 from lostmotion.signals.tones import base_line, two_tones
+from lostmotion.signals.trends import Trend, trend_of
 
 __all__ = [
+    "Decay",
+    "Hit",
     "Locked",
+    "Trend",
     "base_line",
     "checked",
     "commensurate",
+    "decay_of",
+    "decays_of",
     "delay_vectors",
     "fundamental",
+    "hits_of",
+    "note_hits",
+    "note_overload",
+    "onsets_of",
+    "overloaded",
     "poincare",
     "refined_period",
     "resampled",
     "return_spread",
     "spectrum",
     "stroboscopic",
+    "trend_of",
     "two_tones",
     "unlocked",
     "without_harmonics",

@@ -1,0 +1,272 @@
+"""Hammer tests: hits in a measured force, onsets of decays in a response, and sensors that were overloaded."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from lostmotion.errors import DataError
+
+Array = NDArray[np.float64]
+LOUD = 10.0
+"""Standard deviations of the noise above which a pulse counts."""
+WEAKEST = 0.05
+"""Share of the largest pulse from which on a pulse is a hit, and of its first pulse that makes a hit a double one."""
+TWICE, AT_ONCE = 20.0, 0.1
+"""Durations of a pulse, and time (s), within which a second pulse belongs to the same hit: no hand strikes so fast."""
+FLANK = 0.01
+"""Share of its peak at which a pulse begins and ends."""
+RISE, PAST, AHEAD = 2.5, 8.0, 2.0
+"""Rise of the envelope at an onset; periods before it that are compared, and periods after it."""
+LEAST_PAST = 64
+FLAT, FLATTER, EQUAL = 0.01, 3.0, 3
+"""Height of a flat top over the range; its length over that of a round top as steep; equal samples that make one."""
+STUCK = 0.01
+"""Share of equal samples at the extreme value above which a channel counts as stuck, and not as overloaded."""
+
+
+@dataclass(frozen=True)
+class Hit:
+    """A hit of a hammer: from sample `start` to `stop`, which is not part of it any more, second contact included.
+
+    `peak` (N) has the sign of the force, `impulse` (N s) is that of all contacts, `duration` (s) that of the first one.
+    `second` is the peak of a second contact over that of the first one, 0 without one, and `after` (s) its delay.
+    """
+
+    start: int
+    stop: int
+    peak: float
+    impulse: float
+    duration: float
+    second: float = 0.0
+    after: float = 0.0
+
+    @property
+    def double(self) -> bool:
+        """Return whether the hammer touched twice."""
+        return self.second > 0.0
+
+
+@dataclass(frozen=True)
+class Overload:
+    """Flat tops of a signal at its extreme `value`: samples in all, stretches of them, and the first sample number.
+
+    `exact` says that the samples are equal; else they lie within noise of one another.
+    """
+
+    value: float
+    samples: int
+    stretches: int
+    first: int
+    exact: bool
+
+
+def hits_of(force: ArrayLike, dt: float) -> tuple[Hit, ...]:
+    """Return the hits in a measured force (n,), taken every `dt` s, in their order.
+
+    A hit begins with a pulse of ten standard deviations of the noise (from the median deviation) and 5 % of the
+    largest pulse. A second pulse of 5 % of the first one or more, within twenty durations of the first or 0.1 s, makes
+    it a double hit. The second pulse is looked for in the force averaged over half the duration of the first, so that
+    neither noise nor ringing of the hammer that is faster than its contact counts.
+    """
+    readings = _checked(force, dt)
+    if not np.ptp(readings):
+        return ()
+    noise = 1.4826 * float(np.median(np.abs(readings)))
+    sign = 1.0 if readings.max() >= -readings.min() else -1.0
+    pulses = sign * readings
+    threshold = max(LOUD * noise, WEAKEST * float(pulses.max()))
+    found: list[Hit] = []
+    over = np.flatnonzero(pulses > threshold)
+    place = 0
+    while over.size and (over := over[over >= place]).size:
+        hit = _hit(pulses, dt, int(over[0]), noise)
+        found.append(Hit(hit.start, hit.stop, sign * hit.peak, sign * hit.impulse, *_rest(hit)))
+        place = max(hit.stop, hit.start + math.ceil(_reach(hit.duration) / dt))
+    return tuple(found)
+
+
+def _rest(hit: Hit) -> tuple[float, float, float]:
+    return hit.duration, hit.second, hit.after
+
+
+def _reach(duration: float) -> float:
+    """Return the time (s) from its start within which a second pulse belongs to a hit."""
+    return max(TWICE * duration, AT_ONCE)
+
+
+def _checked(values: ArrayLike, dt: float) -> Array:
+    """Return the readings (n,) without their median; lost samples are 0."""
+    readings = np.array(values, dtype=np.float64)
+    if readings.ndim != 1 or not readings.size:
+        raise DataError(f"the readings have the shape {readings.shape}: give one channel, shape (n,)")
+    if not (math.isfinite(dt) and dt > 0.0):
+        raise DataError(f"the sampling step is {dt:g} s: give a positive one")
+    there = np.isfinite(readings)
+    if not there.any():
+        raise DataError("all readings are NaN or infinite: check the sensor and the column")
+    return np.asarray(np.where(there, readings - np.median(readings[there]), 0.0))
+
+
+def _hit(pulses: Array, dt: float, first: int, noise: float) -> Hit:
+    """Return the hit whose pulse passes the threshold at a sample."""
+    start, top, stop = _pulse(pulses, first, noise)
+    duration = (stop - start) * dt
+    second = _second(pulses, (top, stop), start + math.ceil(_reach(duration) / dt), noise)
+    if second is None:
+        return Hit(start, stop, float(pulses[top]), float(pulses[start:stop].sum()) * dt, duration)
+    _, later, end = _pulse(pulses, second, noise)
+    impulse = float(pulses[start:end].sum()) * dt
+    share = float(pulses[later] / pulses[top])
+    return Hit(start, end, float(pulses[top]), impulse, duration, share, (later - top) * dt)
+
+
+def _pulse(pulses: Array, inside: int, noise: float) -> tuple[int, int, int]:
+    """Return start, top and stop of the pulse about a sample: it ends where it falls to its flank or to the noise."""
+    floor = 2.0 * noise
+    top = inside
+    for _ in range(2):
+        below = np.flatnonzero(pulses[top:] <= max(floor, FLANK * pulses[top]))
+        stop = top + int(below[0]) if below.size else pulses.size
+        top = top + int(np.argmax(pulses[top:stop]))
+    before = np.flatnonzero(pulses[:top] <= max(floor, FLANK * pulses[top]))
+    return int(before[-1]) + 1 if before.size else 0, top, stop
+
+
+def _second(pulses: Array, pulse: tuple[int, int], end: int, noise: float) -> int | None:
+    """Return the sample at the top of a second pulse after a first one (top, stop) and before `end`, or None."""
+    top, stop = pulse
+    width = max(1, (stop - top) | 1)
+    low = max(0, top - 2 * width)
+    smooth = np.convolve(pulses[low : min(end, pulses.size) + width], np.ones(width) / width, mode="same")
+    after = smooth[stop + width // 2 - low : end - low]
+    if not after.size:
+        return None
+    place = int(np.argmax(after))
+    threshold = max(WEAKEST * float(smooth[top - low]), 6.0 * noise / math.sqrt(width))
+    # At its first sample the mean may still hold the tail of the first pulse: a second pulse rises before it falls.
+    if place == 0 or after[place] < threshold:
+        return None
+    around = stop + width // 2 + place
+    return around - width // 2 + int(np.argmax(pulses[around - width // 2 : around + width // 2 + 1]))
+
+
+def onsets_of(values: ArrayLike, dt: float) -> tuple[int, ...]:
+    """Return the sample numbers at which a vibration begins anew in a response (n,), taken every `dt` s.
+
+    There the largest deviation from the median within two periods of the strongest frequency is 2.5 times that of the
+    eight periods before, and still 1.5 times a period later, so a lost sample is none. Where the first eight periods
+    are 2.5 times as large as the quiet tenth of all, there is an onset in them, at the first sample if they begin loud.
+    A hit into a vibration that is still loud is not seen.
+    """
+    size = np.abs(_checked(values, dt))
+    period = _period(_checked(values, dt))
+    past, ahead = max(LEAST_PAST, round(PAST * period)), max(2, round(AHEAD * period))
+    if size.size < 2 * past or not size.any():
+        return ()
+    blocks = size[: size.size // past * past].reshape(-1, past).max(axis=1)
+    quiet = float(np.quantile(blocks, 0.1))
+    before = np.lib.stride_tricks.sliding_window_view(size, past).max(axis=1)
+    found = [_first(size[:past], period)] if blocks[0] > RISE * quiet else []
+    loud = past + np.flatnonzero(size[past:] > RISE * np.maximum(before[:-1], quiet))
+    for place in loud.tolist():
+        level = float(before[place - past])
+        later = size[place + ahead // 4 : place + ahead].max(initial=0.0)
+        if later > 1.5 * level and (not found or place >= found[-1] + past):
+            found.append(place - int(np.argmax(size[max(0, place - ahead) : place + 1][::-1] <= level)) + 1)
+    return tuple(found)
+
+
+def _first(size: Array, period: float) -> int:
+    """Return the sample at which the vibration in the first periods begins: the first one where it is loud already."""
+    place = int(np.argmax(size > WEAKEST * size.max()))
+    return place if place > 0.5 * period else 0
+
+
+def _period(x: Array) -> float:
+    """Return the period (samples) of the strongest frequency."""
+    height = np.abs(np.fft.rfft(x))
+    strongest = 2 + int(np.argmax(height[2:])) if height.size > 2 else 1
+    return x.size / strongest
+
+
+def overloaded(values: ArrayLike) -> tuple[Overload, ...]:
+    """Return the flat tops of a signal (n,) at its largest and at its smallest value, at most one entry for each.
+
+    A top is flat where three samples or more are equal to the extreme value of the signal; or, with noise behind the
+    limit, where four samples or more in a row lie within 1 % of its range from the extreme and a round top with the
+    same slope at its flanks, a parabola, would have stayed there less than a third as long.
+    """
+    readings = np.array(values, dtype=np.float64)
+    if readings.ndim != 1 or np.count_nonzero(np.isfinite(readings)) < 2:
+        return ()
+    span = float(np.nanmax(readings) - np.nanmin(readings))
+    if not (math.isfinite(span) and span > 0.0):
+        return ()
+    ends = [_flat(sign * readings, span) for sign in (1.0, -1.0)]
+    return tuple(
+        Overload(sign * found.value, found.samples, found.stretches, found.first, found.exact)
+        for sign, found in zip((1.0, -1.0), ends, strict=True)
+        if found is not None
+    )
+
+
+def _flat(x: Array, span: float) -> Overload | None:
+    """Return the flat tops at the largest value, equal ones if there are any, or None without any."""
+    largest = float(np.nanmax(x))
+    equal = [run for run in _runs(x == largest) if run[1] - run[0] >= EQUAL]
+    near = [run for run in _runs(x >= largest - FLAT * span) if _is_flat(x, run, FLAT * span)]
+    runs = equal or near
+    if not runs:
+        return None
+    value = largest if equal else float(np.mean(np.concatenate([x[low:high] for low, high in near])))
+    return Overload(value, sum(high - low for low, high in runs), len(runs), runs[0][0], bool(equal))
+
+
+def _is_flat(x: Array, run: tuple[int, int], height: float) -> bool:
+    """Return whether a top (first sample, stop) of a height is much longer than a parabola with its flanks."""
+    low, high = run
+    if high - low < EQUAL + 1 or low < 2 or high + 2 > x.size:
+        return False
+    slope = min(x[low] - x[low - 2], x[high - 1] - x[high + 1]) / 2.0
+    # A parabola of height h with the slope s at its flanks is 4 h / s long.
+    return bool((high - low) * slope > FLATTER * 4.0 * height)
+
+
+def _runs(flags: NDArray[np.bool_]) -> list[tuple[int, int]]:
+    edges = np.flatnonzero(np.diff(np.concatenate(([False], flags, [False])).astype(np.int8)))
+    return [(int(low), int(high)) for low, high in zip(edges[::2], edges[1::2], strict=True)]
+
+
+def note_hits(force: ArrayLike, dt: float) -> Iterator[str]:
+    """Yield a note for each double hit in a measured force (n,), taken every `dt` s."""
+    for number, hit in enumerate(hits_of(force, dt), 1):
+        if hit.double:
+            yield (
+                f"hit {number} at {hit.start * dt:.4g} s is a double hit: a second contact of {hit.second:.0%} of its "
+                f"peak follows after {1e3 * hit.after:.3g} ms; both are inputs that were measured, so the model is "
+                "driven by both; a free decay begins after the second one only"
+            )
+
+
+def note_overload(values: ArrayLike, what: str, unit: str = "") -> Iterator[str]:
+    """Yield a note for each end at which the samples (n,) of a sensor have flat tops.
+
+    Nothing is said of more than 1 % of equal samples: that is a stuck channel, or a machine at rest.
+    """
+    readings = np.asarray(values, dtype=np.float64)
+    for found in overloaded(readings):
+        if found.exact and found.samples > STUCK * readings.size:
+            continue
+        word = "largest" if found.value > np.nanmedian(readings) else "smallest"
+        at = f"{found.value:.4g} {unit}".rstrip()
+        stretches = "1 stretch" if found.stretches == 1 else f"{found.stretches} stretches"
+        yield (
+            f"{what} sits at its {word} value {at} for {found.samples} samples in {stretches}, the first at sample "
+            f"{found.first}: it was overloaded, and its readings there are not the motion; empty these cells, and take "
+            "a larger range or strike less hard next time"
+        )
