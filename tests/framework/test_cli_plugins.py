@@ -125,7 +125,7 @@ def test_show_prints_what_a_term_says_of_itself():
 @pytest.mark.parametrize("args", [("--json", "show", "lin_backlash"), ("show", "lin_backlash", "--json")])
 def test_show_for_machines(args):
     (sheet,) = json.loads(run("plugins", *args))["plugins"]
-    assert sheet["parameters"][0]["units"] == {"translation": "kg"}
+    assert sheet["parameters"][0]["units"] == {"translation": "kg", "rotation": "kg m^2"}
     assert sheet["parameters"][0]["high"] is None
     assert sheet["interfaces"][0]["holds"] == ["k0", "x0"]
 
