@@ -143,7 +143,7 @@ class Model(ABC):
         """Return the model in that motion, or raise a `ContractError` where it cannot be in it."""
         if motion not in (known := self.motions or (self.motion,)):
             words = " or ".join(known)
-            raise ContractError(f"{self.name} is a model of {words}, not of {motion}: ask for {words}, or another one")
+            raise ContractError(f"{self.name} is of {words}, not of {motion}: ask for {words}, or another model")
         return self if motion == self.motion else replace(self, motion=motion)  # type: ignore[type-var]
 
     def __add__(self, term: Term) -> Assembly:

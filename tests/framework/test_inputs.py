@@ -102,7 +102,7 @@ def test_a_model_turns_into_what_it_can_be():
     assert turning.turned("rotation") is turning
     joint = default().make("model", "robot_joint")
     assert joint.turned("rotation") is joint
-    with pytest.raises(ContractError, match="robot_joint is a model of rotation, not of translation: ask for rotation"):
+    with pytest.raises(ContractError, match="robot_joint is of rotation, not of translation: ask for rotation"):
         joint.turned("translation")
     with pytest.raises(ContractError, match="of translation or rotation, not of sideways"):
         turning.turned("sideways")
