@@ -34,7 +34,7 @@ _AXIS = "NAME=LOW:HIGH:N[:log|inverse]"
 @click.option(
     "--motion",
     type=click.Choice(["translation", "rotation"]),
-    default="",
+    default=None,
     help="In N and m, or in N m and rad, where the model can be either; `plugins show` tells.",
 )
 @click.option("--x", "x", metavar=_AXIS, help="The first axis; `inverse` spaces 1/NAME evenly.")

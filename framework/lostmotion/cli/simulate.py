@@ -88,7 +88,7 @@ def command(
 
     require_ending(out)
     registry = registry_of(ctx)
-    assembly, values = assembly_of(registry, model, terms, motion or "")
+    assembly, values = assembly_of(registry, model, terms, motion)
     used = [("model", model), *(("term", term.name) for term in assembly.terms)]
     values |= _numbers(sets, "--set")
     plan = Plan(assembly, values, initial=_numbers(initial, "--initial"), origins=registry.origins(*used), **settings)  # type: ignore[arg-type]

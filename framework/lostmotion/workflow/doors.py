@@ -25,7 +25,7 @@ def simulate(
     *,
     terms: str | Iterable[str] = (),
     drives: str | Iterable[str],
-    motion: str = "",
+    motion: str | None = None,
     registry: Registry | None = None,
     out: str | Path | None = None,
     values: Mapping[str, float],

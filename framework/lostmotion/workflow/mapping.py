@@ -39,7 +39,7 @@ class Request:
     quantities: tuple[str, ...] = ()
     unit: str = "nat"
     seed: int = 0
-    motion: str = ""
+    motion: str | None = None
 
 
 def study_of(request: Request, registry: Registry) -> Study:

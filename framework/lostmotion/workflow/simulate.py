@@ -96,7 +96,7 @@ def simulate(plan: Plan) -> Table:
 
 
 def assembly_of(
-    registry: Registry, model: str, terms: Iterable[str], motion: str = ""
+    registry: Registry, model: str, terms: Iterable[str], motion: str | None = None
 ) -> tuple[Assembly, dict[str, float]]:
     """Return model plus terms, and the parameters given with the terms, from `NAME[@PLACE][:param=value,...]`.
 
