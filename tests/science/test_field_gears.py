@@ -11,8 +11,12 @@ from field import elsewhere
 
 from lostmotion.contracts import Assembly
 from lostmotion.flow import Harmonic, stepped
+from lostmotion.inference.fit import maximise
 from lostmotion.likelihood.drive import Drive
 from lostmotion.likelihood.motion import derivatives
+from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.problem import NOISE, RANDOM, Free, Problem, Scales
+from lostmotion.likelihood.sensors import Sensor
 from lostmotion.likelihood.system import Clock, System
 from lostmotion_plugins.models.gear_pair import GearPair
 from lostmotion_plugins.terms.elastic import CubicStiffness
@@ -133,6 +137,30 @@ def test_stiff_teeth_turn_as_one_shaft():
     np.testing.assert_allclose(states[:, 2], 0.5 * pull * t**2, atol=1e-5)
     np.testing.assert_allclose(states[:, 0], RATIO * states[:, 2], atol=1e-5)
     np.testing.assert_allclose(states[:, 3], pull * t, atol=1e-5)
+
+
+def test_two_encoders_tell_ratio_backlash_stiffness_and_inertia():
+    """Torque and brake are recorded, the table is not and stands still. Each truth within three standard deviations,
+    which four numbers leave by chance in one of a hundred seeds."""
+    t, brake = np.arange(1500) * 0.005, np.array([1.0, 1.0, 0.0])
+    seen = wheels(elsewhere(lambda t, y: apart(t, y, lambda t: brake * pulled(t)), t, deflected(START), max_step=2e-3))
+    noise = np.array([2e-4, 1e-4])
+    readings = seen[:, [0, 2]] + noise * np.random.default_rng(5).standard_normal((1500, 2))
+    sensors = (Sensor("position"), Sensor("second_position"))
+    observation = Observation("gears", readings, pulled(t)[:2].T, 0.005, sensors)
+    off = {"ratio": 1.0003, "x0": 1.15, "k0": 0.85, "m2": 1.15}
+    starts = {key: math.log(LOOSE[key] * factor) for key, factor in off.items()}
+    frees = [Free(key, "", start, start - 1.5, start + 1.5, log=True) for key, start in starts.items()]
+    frees += [Free(f"{NOISE}:{s.channel}", "1", math.log(1e-3), -14.0, 0.0) for s in sensors]
+    loud = Free(RANDOM, "1", math.log(0.2 * 0.005), -30.0, 2.0)
+    system = System(GearPair("rotation"))
+    scales = Scales(1.5, float(readings[:, 0].std()), 0.1)
+    found = maximise(Problem(system, (observation,), scales, system.vector(LOOSE), (*frees, loud), nsub=6))
+    assert found.status == "converged"
+    for key in off:
+        assert abs(math.log(found.values[key] / LOOSE[key])) < 3.0 * found.sd[key], key
+    assert found.sd["x0"] < 0.01
+    np.testing.assert_allclose([math.exp(found.theta[i]) for i in (4, 5)], noise, rtol=0.1)
 
 
 def test_units_follow_from_the_motion_of_the_instance():
