@@ -1,7 +1,7 @@
 """The seven kinds of plugin, in one file: subclass one once, as a frozen dataclass.
 
 `rhs`, `observe`, `force` and `rate` are plain scalar Python on NumPy arrays. The host compiles them with numba into one
-kernel: they may use `math`, arithmetic, branches and such functions only. What is *estimated* is no field, but in `p`.
+kernel: they may use `math`, arithmetic, branches and such only. What is *estimated* is an entry of `p`, no field.
 """
 
 from __future__ import annotations
@@ -47,9 +47,9 @@ mobility`, so that it sticks without turning the integration stiff. `omega` is t
 class Param:
     """A number that may be known or estimated: `low` and `high` are physical bounds, not a prior.
 
-    Of a term: `null` is where all of it does nothing; `typical` the prior width in natural scales of the recording
-    (drive force, rms position and velocity; its length if `lasting`); `choices` are tried in turn and held; `far` lists
-    multiples of `typical` tried as well. `scale="log"` says that it is positive and known by order of magnitude.
+    Of a term: `null` is where all of it does nothing; `typical` the prior width in natural scales (drive force, rms
+    position and velocity; if `lasting`, the time is that of the whole recording); `choices` are tried in turn and held;
+    `far` lists multiples of `typical` tried as well. With `scale="log"` it is positive, known by order of magnitude.
     """
 
     name: str
@@ -137,13 +137,13 @@ class Model(ABC):
     @property
     def driven(self) -> tuple[str, ...]:
         """The inputs that a single drive moves: the first one, and with a base position its velocity."""
-        return self.inputs[: 2 if self.inputs[0] == "base_position" else 1]
+        return self.inputs[: 2 if self.inputs[:1] == ("base_position",) else 1]
 
     def turned(self, motion: str) -> Self:
         """Return the model in that motion, or raise a `ContractError` where it cannot be in it."""
         if motion not in (known := self.motions or (self.motion,)):
             words = " or ".join(known)
-            raise ContractError(f"{self.name} is a model of {words}, not of {motion}: ask for {words}, or another one")
+            raise ContractError(f"{self.name} is of {words}, not of {motion}: ask for {words}, or another model")
         return self if motion == self.motion else replace(self, motion=motion)  # type: ignore[type-var]
 
     def __add__(self, term: Term) -> Assembly:
@@ -378,9 +378,9 @@ class Denoiser(ABC):
 
 
 class Engine(ABC):
-    """Filters, smooths and simulates a model with its terms at many parameter points at once, from several threads.
+    """Filters, smooths and simulates a model with its terms at many parameter points at once; threads may call it.
 
-    A point depends on neither the others nor their order. One that leaves all numbers tells by `reached`, not raises.
+    A point depends on neither the others nor their order. One that leaves all numbers is told by `reached`, no error.
     """
 
     name: ClassVar[str]

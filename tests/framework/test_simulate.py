@@ -7,10 +7,11 @@ import pytest
 import xarray
 from click.testing import CliRunner
 
+import lostmotion
 from lostmotion import storage
 from lostmotion.cli import main
 from lostmotion.contracts import Assembly
-from lostmotion.errors import CaseError, DataError
+from lostmotion.errors import CaseError, ContractError, DataError
 from lostmotion.registry import default
 from lostmotion.workflow.drives import KINDS, signal_of
 from lostmotion.workflow.simulate import Plan, assembly_of, simulate
@@ -230,3 +231,16 @@ def test_help_shows_examples():
     done = run("--help")
     assert done.exit_code == 0
     assert "coulomb_friction@base:force=0.03" in done.output
+
+
+def test_a_model_is_simulated_in_its_other_motion():
+    wheels = {"m1": 0.02, "m2": 0.3, "ratio": 2.5, "c": 0.05, "k0": 400.0, "x0": 0.01}
+    asked = {"drives": "harmonic:amplitude=1,omega=9", "duration": 2.0, "rate": 50.0, "values": wheels}
+    tables = {m: lostmotion.simulate("gear_pair", motion=m, **asked) for m in ("translation", "rotation")}
+    assert tables["rotation"].units["second_acceleration"] == "rad/s^2"
+    assert tables["translation"].units["force"] == "N"
+    assert json.loads(tables["rotation"].attrs["provenance"])["settings"]["motion"] == "rotation"
+    for name, column in tables["translation"].columns.items():
+        np.testing.assert_array_equal(tables["rotation"].columns[name], column)
+    with pytest.raises(ContractError, match="robot_joint is of rotation, not of translation: ask for rotation"):
+        lostmotion.simulate("robot_joint", motion="translation", **asked)

@@ -31,6 +31,12 @@ _AXIS = "NAME=LOW:HIGH:N[:log|inverse]"
     )
 )
 @click.option("--model", required=True, type=PluginName("model"), help="The machine.")
+@click.option(
+    "--motion",
+    type=click.Choice(["translation", "rotation"]),
+    default=None,
+    help="In N and m, or in N m and rad, where the model can be either; `plugins show` tells.",
+)
 @click.option("--x", "x", metavar=_AXIS, help="The first axis; `inverse` spaces 1/NAME evenly.")
 @click.option("--y", "y", metavar=_AXIS, help="The second axis.")
 @click.option("--axis", "more", metavar=_AXIS, multiple=True, help="A further axis; may be given several times.")

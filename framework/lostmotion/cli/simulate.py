@@ -33,6 +33,12 @@ _JOINT = "--set m=0.05 --set c=0.15 --set k0=180 --set x0=0.0131"
     help="Physics to add; it acts at the ground unless a PLACE of the model is given.",
 )
 @click.option(
+    "--motion",
+    type=click.Choice(["translation", "rotation"]),
+    default=None,
+    help="In N and m, or in N m and rad, where the model can be either; `plugins show` tells.",
+)
+@click.option(
     "--drive",
     "drives",
     metavar="KIND:KEY=VALUE,...",
@@ -60,6 +66,7 @@ def command(
     model: str,
     sets: tuple[str, ...],
     terms: tuple[str, ...],
+    motion: str | None,
     initial: tuple[str, ...],
     out: Path,
     **settings: object,
@@ -81,7 +88,7 @@ def command(
 
     require_ending(out)
     registry = registry_of(ctx)
-    assembly, values = assembly_of(registry, model, terms)
+    assembly, values = assembly_of(registry, model, terms, motion)
     used = [("model", model), *(("term", term.name) for term in assembly.terms)]
     values |= _numbers(sets, "--set")
     plan = Plan(assembly, values, initial=_numbers(initial, "--initial"), origins=registry.origins(*used), **settings)  # type: ignore[arg-type]

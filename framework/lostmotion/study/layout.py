@@ -134,6 +134,8 @@ def attrs_of(study: Study, **more: object) -> dict[str, str]:
         "unit": study.unit,
         **more,
     }
+    if rig.assembly.model.motion != type(rig.assembly.model).motion:
+        settings["motion"] = rig.assembly.model.motion
     made = provenance("map", settings, study.seed, study.origins)
     return {
         "schema": SCHEMA,

@@ -25,6 +25,7 @@ def simulate(
     *,
     terms: str | Iterable[str] = (),
     drives: str | Iterable[str],
+    motion: str | None = None,
     registry: Registry | None = None,
     out: str | Path | None = None,
     values: Mapping[str, float],
@@ -32,10 +33,11 @@ def simulate(
 ) -> _simulate.Table:
     """Return the table of a simulated machine, each column (samples,) by name; `out` (.csv, .nc) is written too.
 
-    `plan` holds `duration` (s) and `rate` (Hz), and `initial`, `noise` and `seed` if need be.
+    `plan` holds `duration` (s) and `rate` (Hz), and `initial`, `noise` and `seed` if need be; `motion` ("translation",
+    "rotation") turns a model that can be either.
     """
     known = registry or default()
-    assembly, told = _simulate.assembly_of(known, model, _texts(terms))
+    assembly, told = _simulate.assembly_of(known, model, _texts(terms), motion)
     used = [("model", model), *(("term", term.name) for term in assembly.terms)]
     every = {**told, **values}
     table = _simulate.simulate(_simulate.Plan(assembly, every, _texts(drives), origins=known.origins(*used), **plan))

@@ -39,6 +39,7 @@ class Request:
     quantities: tuple[str, ...] = ()
     unit: str = "nat"
     seed: int = 0
+    motion: str | None = None
 
 
 def study_of(request: Request, registry: Registry) -> Study:
@@ -49,7 +50,7 @@ def study_of(request: Request, registry: Registry) -> Study:
     names = [axis.name for axis in axes]
     if len({*names}) < len(names):
         raise CaseError(f"the axes are {', '.join(names)}: name each once")
-    assembly, fixed = assembly_of(registry, request.model, request.terms)
+    assembly, fixed = assembly_of(registry, request.model, request.terms, request.motion)
     for key, text in pairs(",".join(request.sets), "--set").items():
         fixed[key] = number(text, f"{key} of --set")
     rig = Rig(assembly, tuple(names), {**fixed, **_drive(request.drive)}).checked()

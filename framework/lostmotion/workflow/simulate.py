@@ -95,9 +95,15 @@ def simulate(plan: Plan) -> Table:
     return _table(plan, {"time": times, **columns}, nsub)
 
 
-def assembly_of(registry: Registry, model: str, terms: Iterable[str]) -> tuple[Assembly, dict[str, float]]:
-    """Return model plus terms, and the parameters given with the terms, from `NAME[@PLACE][:param=value,...]`."""
-    assembly, values = Assembly(sound(registry, "model", model)), {}
+def assembly_of(
+    registry: Registry, model: str, terms: Iterable[str], motion: str | None = None
+) -> tuple[Assembly, dict[str, float]]:
+    """Return model plus terms, and the parameters given with the terms, from `NAME[@PLACE][:param=value,...]`.
+
+    `motion` is "translation" or "rotation"; without it the model is as it comes.
+    """
+    made: Model = sound(registry, "model", model)
+    assembly, values = Assembly(made.turned(motion) if motion else made), {}
     for text in terms:
         head, _, rest = text.partition(":")
         name, _, place = head.partition("@")
@@ -243,6 +249,8 @@ def _table(plan: Plan, columns: Mapping[str, Array], nsub: int) -> Table:
         "terms": [key_of(t) for t in plan.assembly.terms], "duration": plan.duration, "rate": plan.rate,
         "noise": plan.noise, "substeps": nsub,
     }  # fmt: skip
+    if model.motion != type(model).motion:
+        settings["motion"] = model.motion
     made = provenance(f"simulate {model.name}", settings, plan.seed, plan.origins)
     attrs = {
         "schema": "lostmotion.simulate/1",

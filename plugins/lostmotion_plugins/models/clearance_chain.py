@@ -22,12 +22,12 @@ def second(y: Array, u: Array) -> tuple[float, float]:
 
 @dataclass(frozen=True)
 class ClearanceChain(Model):
-    """m1 x1'' + c1 x1' + k1 x1 + J = force and m2 x2'' + c2 x2' + k2 x2 = J + second_force, with a joint J.
+    """m1 x1'' + c1 x1' + k1 x1 + J = force, m2 x2'' + c2 x2' + k2 x2 = J + second_force, J = c0 d' + F(d), d = x1 - x2.
 
-    J = c0 (x1' - x2') + F(x1 - x2), where F is zero inside the gap |x1 - x2| < x0 and k0 (|x1 - x2| - x0) beyond, with
-    the sign of x1 - x2. Channels without "second_" are those of the first body. On a table of acceleration a both are
-    relative to it, -m a acts on each, and the channels of acceleration show x'' + a. A term acts between the first body
-    and its guide (`ground`), between the second body and its own (`second`), or between the two (`joint`).
+    F is zero inside the gap |d| < x0 and k0 (|d| - x0) beyond, with the sign of d. Channels without "second_" are those
+    of the first body. On a table of acceleration a both bodies are relative to it, -m a acts on each, and the channels
+    of acceleration show x'' + a. A term acts between the first body and its guide (`ground`), between the second body
+    and its own (`second`), or between the two (`joint`).
     """
 
     name: ClassVar[str] = "clearance_chain"
