@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
+from pathlib import Path, PurePath
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,11 +13,13 @@ from numpy.typing import NDArray
 from lostmotion.errors import DataError, nearest
 from lostmotion.provenance import digest
 from lostmotion.quantities import si_factor
-from lostmotion.recording.checks import check_length, check_values, note_stuck
+from lostmotion.recording.checks import bridged, check_finite, check_length, check_values, note_stuck
 from lostmotion.recording.doubts import Signal, doubts
-from lostmotion.recording.formats import read_columns
+from lostmotion.recording.formats import read_table
 from lostmotion.recording.spec import Channel, Hold, RecordingSpec
-from lostmotion.recording.timing import check_step, check_time
+from lostmotion.recording.table import Table
+from lostmotion.recording.timing import Clock, check_step, even_clock, resampled
+from lostmotion.recording.units import note_unit, seconds, time_unit
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -57,29 +59,56 @@ class Recording:
 def load_recording(spec: RecordingSpec, folder: Path) -> Recording:
     """Return the recording that `spec` describes, its file taken relative to `folder`; `DataError` if unusable."""
     path = Path(folder) / spec.file
-    columns = read_columns(path)
-    time, pair = _samples(spec, columns, path.name)
+    table = read_table(path)
+    time, pair, told = _samples(spec, table, path.name)
     check_length(time.size, path.name)
     time, pair = _cut(spec, time, pair)
     check_length(time.size, path.name)
-    dt, notes = check_time(time, path.name) if spec.time else (1.0 / _rate(spec), ())
+    clock = even_clock(time, path.name) if spec.time else Clock(1.0 / _rate(spec), False, (), float(time[0]))
     roles = (("excitation", spec.excitation), ("response", spec.response))
-    checked = [_checked(r, c, v, path.name) for (r, c), v in zip(roles, pair, strict=True)]
-    data = _dataset(time[0] + dt * np.arange(time.size), [si for si, _ in checked])
+    even = [_even(role, spec, time, v, clock) for (role, _), v in zip(roles, pair, strict=True)]
+    checked = [_checked(r, c, v, path.name) for (r, c), (v, _) in zip(roles, even, strict=True)]
+    dt = clock.dt
+    data = _dataset(np.asarray(clock.start + dt * np.arange(time.size)), [si for si, _ in checked])
     both = [_signal(channel, si) for (_, channel), (si, _) in zip(roles, checked, strict=True)]
-    notes = (*notes, *(note for _, own in checked for note in own), *doubts(both[0], both[1], dt))
+    notes = (
+        *told,
+        *clock.notes,
+        *(note for _, own in (*even, *checked) for note in own),
+        *(n for r, c in roles for n in note_unit(c, table.units.get(c.column), f"the {r} {c.column!r}")),
+        *doubts(both[0], both[1], dt),
+    )
     return Recording(spec.label, data, dt, digest(path), path.name, spec.hold, notes)
 
 
-def _samples(spec: RecordingSpec, columns: Mapping[str, Array], source: str) -> tuple[Array, list[Array]]:
+def _samples(spec: RecordingSpec, table: Table, source: str) -> tuple[Array, list[Array], tuple[str, ...]]:
+    """Return the time (s) and both channels (n,), and notes on the unit of the time column."""
+    columns = table.columns
+    told: tuple[str, ...] = ()
     names = [spec.excitation.column, spec.response.column]
     found = {name: _pick(columns, name, source) for name in [*names, *([spec.time] if spec.time else [])]}
     sizes = {name: column.size for name, column in found.items()}
     if len(set(sizes.values())) > 1:
         listed = ", ".join(f"{name!r} {size}" for name, size in sizes.items())
         raise DataError(f"{source}: the columns differ in length ({listed}): name columns recorded together")
-    time = found[spec.time] if spec.time else np.arange(found[names[0]].size) / _rate(spec)
-    return time, [found[name] for name in names]
+    if spec.time:
+        unit, told = time_unit(spec.time, table.units.get(spec.time), None)
+        time = seconds(found[spec.time], unit, source)
+    else:
+        time = np.arange(found[names[0]].size) / _rate(spec)
+    return time, [found[name] for name in names], told
+
+
+def _even(role: str, spec: RecordingSpec, time: Array, values: Array, clock: Clock) -> tuple[Array, tuple[str, ...]]:
+    """Return a channel (n,) on the even grid of its recording, without the lost samples of an input, and notes."""
+    channel = spec.response if role == "response" else spec.excitation
+    what, source = f"the {role} {channel.column!r}", PurePath(spec.file).name
+    notes: tuple[str, ...] = ()
+    check_finite(values, what, source)
+    if role == "excitation":
+        values, notes = bridged(values, what, source, spec.hold)
+    hold: Hold = "smooth" if role == "response" else spec.hold
+    return (resampled(time, values, clock, hold=hold) if clock.uneven else values), notes
 
 
 def _rate(spec: RecordingSpec) -> float:

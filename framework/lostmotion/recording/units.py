@@ -45,8 +45,8 @@ _LONG = ("newton", "meter", "metre", "second", "gram", "radian", "volt", "ampere
 _PLAIN = {
     "sec", "msec", "usec", "min", "minute", "minutes", "h", "hr", "hrs", "hour", "hours", "deg", "degree", "degrees",
     "°", "°C", "degC", "degF", "°F", "celsius", "kelvin", "%", "‰", "percent", "rpm", "rev", "turn", "turns", "in",
-    "inch", "inches", "ft", "foot", "feet", "mil", "mph", "lb", "lbf", "lbs", "kip", "psi", "oz", "ozf", "kgf", "kp", "gf",
-    "g_0", "g_n", "gn", "g0", "count", "counts", "digit", "digits", "LSB", "dB", "ppm", "arcmin", "arcsec", "gon",
+    "inch", "inches", "ft", "foot", "feet", "mil", "mph", "lb", "lbf", "lbs", "kip", "psi", "oz", "ozf", "kgf", "kp",
+    "gf", "g_0", "g_n", "gn", "g0", "count", "counts", "digit", "digits", "LSB", "dB", "ppm", "arcmin", "arcsec", "gon",
     "pound", "pounds", "pound_force", "force_pound",
 }  # fmt: skip
 _ATOMS = (
@@ -54,7 +54,8 @@ _ATOMS = (
     | {prefix + unit for prefix in _PREFIXES for unit in _WITH_PREFIX}
     | {prefix + unit + plural for prefix in _LONG_PREFIXES for unit in _LONG for plural in ("", "s")}
 )
-_BETWEEN = re.compile(r"\s*(?:\*\*|[*/·⋅^²³⁻¹()\s]|(?<=[^\W\d_])-?\d(?!\w))\s*")
+_POWER = re.compile(r"(?:\*\*|\^)\s*\(?\s*[+-]?\d\s*\)?|(?<=[^\W\d_])-?\d(?!\w)|[²³⁻¹]")
+_BETWEEN = re.compile(r"[*/·⋅()\s]+")
 _BRACKETS = re.compile(r"(.*\S)\s*(?:\[([^\[\]]+)\]|\(((?:[^()]|\([^()]*\))+)\))")
 _WRAPPED = re.compile(r"\[(.*)\]|\((.*)\)")
 LONGEST = 40
@@ -82,7 +83,7 @@ def is_unit(text: str) -> bool:
     text = text.strip()
     if not text or len(text) > LONGEST:
         return False
-    atoms = [atom for atom in _BETWEEN.split(text) if atom]
+    atoms = [atom for atom in _BETWEEN.split(_POWER.sub(" ", text)) if atom]
     if atoms[:1] == ["1"] and "/" in text:
         del atoms[0]
     return bool(atoms) and all(atom in _ATOMS for atom in atoms)
