@@ -1,4 +1,4 @@
-"""What looks wrong in a recording that can be used all the same: notes on signs, swapped columns, angles, dead sensors.
+"""What looks wrong in a recording that can be used all the same: signs, swapped columns, angles, sensors, clocks.
 
 None of them may cry wolf: each asks for a sign that good recordings do not give, real ones among them.
 """
@@ -12,6 +12,8 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+
+from lostmotion.recording.drift import note_drift
 
 Array = NDArray[np.float64]
 TURNS = 10
@@ -55,6 +57,7 @@ def doubts(excitation: Signal, response: Signal, dt: float) -> tuple[str, ...]:
         *note_frozen(response.values, f"the response {response.column!r}", dt),
         *(note for role, s in each for note in note_far(s.values, f"the {role} {s.column!r}")),
         *note_power(excitation, response, dt),
+        *note_drift(excitation.values, response.values, dt),
     )
 
 
