@@ -85,7 +85,9 @@ def case_of(values: dict[str, float], encoders: int) -> dict[str, Any]:
         {"channel": "second_position", "column": "load", "unit": "mm", "name": "load encoder"},
     ]
     known = {name: values[name] for name in ("m1", "m2", "k1", "k2", "c2", "c0")}
-    wide = {name: {"low": values[name] / 3.0, "high": 3.0 * values[name], "scale": "log"} for name in ("c1", "k0", "x0")}
+    wide = {
+        name: {"low": values[name] / 3.0, "high": 3.0 * values[name], "scale": "log"} for name in ("c1", "k0", "x0")
+    }
     recording = {
         "file": "recording.csv", "time": "t", "inputs": [{"input": "force", "column": "F", "unit": "N"}],
         "sensors": sensors[:encoders],
@@ -147,7 +149,9 @@ def summary(rows: list[dict[str, Any]]) -> str:
                 spans = [r["after"][name] for r in some if name in r["after"]]
                 wide = [100.0 * (s["high"] - s["low"]) / s["median"] for s in spans]
                 inside = sum(s["low"] <= r["truth"][name] <= s["high"] for s, r in zip(spans, some, strict=True))
-                lines.append(f"    {name}: interval {np.median(wide):.2g} % wide (median), holds {inside} of {len(spans)}")
+                lines.append(
+                    f"    {name}: interval {np.median(wide):.2g} % wide (median), holds {inside} of {len(spans)}"
+                )
     return "\n".join(lines)
 
 

@@ -67,7 +67,12 @@ def test_a_cut_keeps_both_ends(tmp_path: Path, how: dict[str, object]) -> None:
 @pytest.mark.parametrize(
     ("changes", "spec", "words"),
     [
-        ({"u": spoilt(FORCE, 7, np.nan)}, SPEC, ["excitation 'u'", "NaN", "sample 7", "t_start"]),
+        (
+            {"u": spoilt(FORCE, slice(7, 11), np.nan)},
+            SPEC,
+            ["excitation 'u'", "NaN", "sample 7", "4 in a row", "t_start"],
+        ),
+        ({"u": spoilt(FORCE, slice(0, 400, 100), np.nan)}, SPEC, ["excitation 'u'", "4 of 400", "1%"]),
         ({"x": spoilt(POSITION, slice(0, 40), np.nan)}, SPEC, ["response 'x'", "40 of 400", "5%"]),
         ({"x": spoilt(POSITION, slice(None), np.nan)}, SPEC, ["400 of 400"]),
         ({"x": spoilt(POSITION, 9, -np.inf)}, SPEC, ["infinite", "sample 9"]),

@@ -38,14 +38,18 @@ def test_a_force_is_a_response_in_any_unit(tmp_path: Path) -> None:
     np.testing.assert_allclose(load_recording(pounds, tmp_path).data.response, 4.4482216 * FORCE, rtol=1e-7)
 
 
-def test_samples_of_a_measured_force_may_be_lost_and_those_of_a_drive_may_not(tmp_path: Path) -> None:
+def test_samples_of_a_measured_force_may_be_lost_and_those_of_a_drive_are_bridged_one_by_one(tmp_path: Path) -> None:
     spoilt = FORCE.copy()
     spoilt[7] = np.nan
     write(tmp_path, F=spoilt)
     assert int(np.isnan(load_recording(SPEC, tmp_path).data.response).sum()) == 1
     drive = replace(SPEC, inputs=(Channel("F", "force", "kip"),), sensors=(Channel("x", "position", "inch"),))
+    got = load_recording(drive, tmp_path)
+    assert float(got.data.excitation[7]) == pytest.approx(4448.2216 * FORCE[7], rel=1e-3)
+    assert any("1 of 400" in note and "interpolated" in note for note in got.notes)
+    spoilt[7:12] = np.nan
     with pytest.raises(DataError, match="NaN"):
-        load_recording(drive, tmp_path)
+        load_recording(drive, write(tmp_path, F=spoilt))
 
 
 @pytest.mark.parametrize(("quantity", "unit"), [("force", "N"), ("torque", "N m")])

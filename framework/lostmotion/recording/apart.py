@@ -16,11 +16,10 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from lostmotion.errors import DataError
+from lostmotion.recording.table import Table
 
-Array = NDArray[np.float64]
 ALONE = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "MKL_NUM_THREADS": "1"}
 """The environment of a process that has one core to itself."""
 REFUSED = 3
@@ -30,7 +29,7 @@ SECONDS, SPEED, MEMORY = 7, 4 * 2**20, 2 * 2**30
 WALL = 600
 SLAB = 2**26
 """Bytes that are read at a time where nothing is kept."""
-_NAMES = "names"
+_HEAD = "head"
 _READER = (
     "import sys; from pathlib import Path; from lostmotion.recording.apart import main; "
     "sys.exit(main(sys.argv[1], Path(sys.argv[2])))"
@@ -38,7 +37,7 @@ _READER = (
 """Run with -P, so that no module that lies beside a recording is taken for one of Python's."""
 
 
-def read_apart(path: Path) -> dict[str, Array]:
+def read_apart(path: Path) -> Table:
     """Return the columns of a file by name, each (n,), as another process has read them; `DataError` if it cannot."""
     return _unpacked(_said(path, "columns"))
 
@@ -75,18 +74,20 @@ def _given_up(path: Path, why: str) -> DataError:
     )
 
 
-def _packed(columns: dict[str, Array]) -> bytes:
+def _packed(table: Table) -> bytes:
     out = io.BytesIO()
-    names = np.frombuffer(json.dumps(list(columns)).encode(), dtype=np.uint8)
-    held: dict[str, Any] = {_NAMES: names, **{f"column_{i}": column for i, column in enumerate(columns.values())}}
+    head = json.dumps({"columns": list(table.columns), "units": dict(table.units), "starts": dict(table.starts)})
+    held: dict[str, Any] = {f"column_{i}": column for i, column in enumerate(table.columns.values())}
+    held[_HEAD] = np.frombuffer(head.encode(), dtype=np.uint8)
     np.savez(out, **held)
     return out.getvalue()
 
 
-def _unpacked(raw: bytes) -> dict[str, Array]:
+def _unpacked(raw: bytes) -> Table:
     with np.load(io.BytesIO(raw), allow_pickle=False) as archive:
-        names = json.loads(archive[_NAMES].tobytes())
-        return {name: archive[f"column_{i}"] for i, name in enumerate(names)}
+        head = json.loads(archive[_HEAD].tobytes())
+        columns = {name: archive[f"column_{i}"] for i, name in enumerate(head["columns"])}
+    return Table(columns, head["units"], head["starts"])
 
 
 def _limit(path: Path) -> None:
@@ -115,9 +116,9 @@ def _walk(path: Path) -> bytes:
 
 
 def _columns(path: Path) -> bytes:
-    from lostmotion.recording.formats import columns_of
+    from lostmotion.recording.formats import table_of
 
-    return _packed(columns_of(path))
+    return _packed(table_of(path))
 
 
 def main(what: str, path: Path) -> int:

@@ -1,4 +1,4 @@
-"""What looks wrong in a recording that can be used all the same: notes on signs, swapped columns, angles, dead sensors.
+"""What looks wrong in a recording that can be used all the same: signs, swapped columns, angles, sensors, clocks.
 
 None of them may cry wolf: each asks for a sign that good recordings do not give, real ones among them.
 """
@@ -13,12 +13,17 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from lostmotion.recording.drift import note_drift
+from lostmotion.signals.impacts import note_hits, note_overload
+
 Array = NDArray[np.float64]
 TURNS = 10
 SWINGS = 20
 """Crossings of the middle from which on a motion swings and does not merely turn."""
 FROZEN, REPEATS = 20, 0.01
 """Equal samples in a row that are odd, where fewer than this share of all samples repeats the one before."""
+QUIET, MOSTLY = 0.05, 0.9
+"""Share of the peak below which an input counts as at rest, and share of the samples at rest between hits."""
 FAR = 20.0
 """Times the range of all other samples."""
 SEGMENTS, HEARD = 16, 1e-3
@@ -58,8 +63,17 @@ def doubts(inputs: Sequence[Signal], sensors: Sequence[Signal], dt: float) -> tu
         *(note for pair in pairs for note in note_units(*pair)),
         *(note for s in sensors for note in note_frozen(s.values, f"the response {s.column!r}", dt)),
         *(note for role, s in each for note in note_far(s.values, f"the {role} {s.column!r}")),
+        *(note for s in sensors for note in note_overload(s.values, f"the response {s.column!r}")),
+        *(note for u in inputs if is_impulsive(u.values) for note in note_hits(u.values, dt)),
         *(note for pair in pairs for note in note_power(*pair, dt)),
+        *(note for u, z in pairs for note in note_drift(u.values, z.values, dt)),
     )
+
+
+def is_impulsive(values: Array) -> bool:
+    """Return whether an input (n,) is at rest nearly always, as the force of a hammer is."""
+    away = np.abs(values - np.median(values))
+    return float(np.mean(away < QUIET * away.max())) > MOSTLY
 
 
 def note_angle(signal: Signal, what: str) -> Iterator[str]:

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from lostmotion.errors import DataError, nearest
 from lostmotion.recording.apart import read_apart
 from lostmotion.recording.limits import TEXT, check_bytes
+from lostmotion.recording.table import Table
 from lostmotion.recording.text import read_text
 from lostmotion.recording.unpacked import check_hdf5, check_mat, check_npz
 
@@ -24,15 +25,25 @@ KINDS = "fiub"
 
 def read_columns(path: Path) -> dict[str, Array]:
     """Return the numeric columns of a file by name, each (n,), as `columns_of`; foreign formats are read apart."""
+    return dict(read_table(path).columns)
+
+
+def read_table(path: Path) -> Table:
+    """Return the numeric columns of a file with their units, as `table_of`; foreign formats are read apart."""
     path = Path(path)
     if _reader(path) in (read_text, _read_npz):
-        return columns_of(path)
+        return table_of(path)
     _must_be_file(path)
     return read_apart(path)
 
 
 def columns_of(path: Path) -> dict[str, Array]:
-    """Return the numeric columns of a file by name, each (n,); lengths may differ between columns.
+    """Return the numeric columns of a file by name, each (n,), as `table_of`."""
+    return dict(table_of(path).columns)
+
+
+def table_of(path: Path) -> Table:
+    """Return the numeric columns of a file by name, each (n,), with units where the file gives them.
 
     Numbers that stand alone are left out. A two-dimensional array `a` gives `a[0]`, `a[1]`, ...: the longer axis is
     time. A field `b` of a structure or group `a` is `a.b` (MAT) or `a/b` (netCDF, HDF5). In UFF a function is named
@@ -43,7 +54,7 @@ def columns_of(path: Path) -> dict[str, Array]:
         _must_be_file(path)
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            columns = reader(path)
+            table = reader(path)
     except DataError:
         raise
     except Exception as err:  # readers of foreign formats fail in every way there is
@@ -51,12 +62,12 @@ def columns_of(path: Path) -> dict[str, Array]:
             f"{path.name} cannot be read as {path.suffix[1:].lower()} ({_first_line(err)}): "
             "it may be cut short or of another format; export it again, for instance as csv"
         ) from err
-    if not columns:
+    if not table.columns:
         raise DataError(f"{path.name} holds no column of numbers: wanted at least one series of samples")
-    return columns
+    return table
 
 
-def _reader(path: Path) -> Callable[[Path], dict[str, Array]]:
+def _reader(path: Path) -> Callable[[Path], Table]:
     ending = path.suffix[1:].lower()
     if ending not in ENDINGS:
         raise DataError(f"{path.name} ends in {ending!r}: wanted one of {', '.join(ENDINGS)}; export it, say, as csv")
@@ -90,14 +101,14 @@ def _first_line(err: Exception) -> str:
     return (str(err).splitlines() or [""])[0][:120] or type(err).__name__
 
 
-def _read_npz(path: Path) -> dict[str, Array]:
+def _read_npz(path: Path) -> Table:
     if zipfile.is_zipfile(path):
         check_npz(path)
     archive = np.load(path, allow_pickle=False)
     if not isinstance(archive, np.lib.npyio.NpzFile):
         raise DataError(f"{path.name} holds a single array: wanted an archive of named ones, as np.savez writes it")
     with archive:
-        return dict(_flat_all({name: _member(archive, name, path) for name in archive.files}))
+        return _flattened({name: _member(archive, name, path) for name in archive.files})
 
 
 def _member(archive: Any, name: str, path: Path) -> Any:
@@ -111,7 +122,7 @@ def _member(archive: Any, name: str, path: Path) -> Any:
         ) from err
 
 
-def _read_mat(path: Path) -> dict[str, Array]:
+def _read_mat(path: Path) -> Table:
     import h5py
     import pymatreader
 
@@ -123,40 +134,46 @@ def _read_mat(path: Path) -> dict[str, Array]:
     else:
         check_mat(path)
     content = pymatreader.read_mat(path)
-    return dict(_flat_all({k: v for k, v in content.items() if not k.startswith("__")}))
+    return _flattened({k: v for k, v in content.items() if not k.startswith("__")})
 
 
-def _read_nc(path: Path) -> dict[str, Array]:
+def _read_nc(path: Path) -> Table:
     import xarray as xr
 
     with path.open("rb") as raw:
         classic = raw.read(3) == b"CDF"
     if classic:  # netCDF 3 knows no groups
         with xr.open_dataset(path, engine="scipy", decode_times=False) as data:
-            return dict(_flat_all({str(n): v.values for n, v in data.variables.items()}))
+            return _flattened(
+                {str(n): v.values for n, v in data.variables.items()},
+                {str(n): _unit_of(v.attrs) for n, v in data.variables.items()},
+            )
     check_hdf5(path)
     groups = xr.open_groups(path, engine="h5netcdf", decode_times=False)
     try:
-        found = {_inside(g, n): v.values for g, data in groups.items() for n, v in data.variables.items()}
+        held = {_inside(g, n): v for g, data in groups.items() for n, v in data.variables.items()}
+        found = {name: v.values for name, v in held.items()}
+        units = {name: _unit_of(v.attrs) for name, v in held.items()}
     finally:
         for data in groups.values():
             data.close()
-    return dict(_flat_all(found))
+    return _flattened(found, units)
 
 
 def _inside(group: str, name: object) -> str:
     return f"{group.strip('/')}/{name}".lstrip("/")
 
 
-def _read_h5(path: Path) -> dict[str, Array]:
+def _read_h5(path: Path) -> Table:
     import h5py
 
     check_hdf5(path)
     with h5py.File(path, "r") as file:
         if "_NCProperties" not in file.attrs:
-            found: dict[str, Any] = {}
-            file.visititems(lambda name, item: found.update({name: item[()]} if _numeric(item) else {}))
-            return dict(_flat_all(found))
+            held: dict[str, Any] = {}
+            file.visititems(lambda name, item: held.update({name: item} if _numeric(item) else {}))
+            units = {name: _unit_of(item.attrs) for name, item in held.items()}
+            return _flattened({name: item[()] for name, item in held.items()}, units)
     return _read_nc(path)
 
 
@@ -164,7 +181,7 @@ def _numeric(item: Any) -> bool:
     return getattr(item, "dtype", None) is not None and item.dtype.kind in KINDS
 
 
-def _read_uff(path: Path) -> dict[str, Array]:
+def _read_uff(path: Path) -> Table:
     import pyuff
 
     check_bytes(path.stat().st_size, path.name, TEXT)
@@ -176,10 +193,28 @@ def _read_uff(path: Path) -> dict[str, Array]:
     sets = [file.read_sets(i) for i in numbers]
     found = {f"58[{k}]": s["data"] for k, s in enumerate(sets)}
     ids = [str(s.get("id1") or "").strip() for s in sets]
-    found |= {name: s["data"] for name, s in zip(ids, sets, strict=True) if name and ids.count(name) == 1}
-    if sets and all(np.array_equal(s["x"], sets[0]["x"]) for s in sets):
-        found.setdefault("time", sets[0]["x"])
-    return dict(_flat_all(found))
+    units = {f"58[{k}]": str(s.get("ordinate_axis_units_lab") or "").strip() for k, s in enumerate(sets)}
+    for k, (name, s) in enumerate(zip(ids, sets, strict=True)):
+        if name and ids.count(name) == 1:
+            found[name], units[name] = s["data"], units[f"58[{k}]"]
+    if sets and "time" not in found and all(np.array_equal(s["x"], sets[0]["x"]) for s in sets):
+        found["time"] = sets[0]["x"]
+        units["time"] = str(sets[0].get("abscissa_axis_units_lab") or "").strip()
+    return _flattened(found, {name: unit for name, unit in units.items() if unit.upper() != "NONE"})
+
+
+def _unit_of(attributes: Any) -> str:
+    """Return the unit among the attributes of an array, or an empty one."""
+    unit = attributes.get("units", attributes.get("unit", ""))
+    word = unit.decode("utf-8", "replace") if isinstance(unit, bytes) else unit
+    return word.strip() if isinstance(word, str) else ""
+
+
+def _flattened(content: Mapping[str, Any], units: Mapping[str, str] | None = None) -> Table:
+    """Return the table of some arrays; what the unit of a block is, is the unit of its columns."""
+    columns = dict(_flat_all(content))
+    known = {name: (units or {}).get(name) or (units or {}).get(name.rpartition("[")[0], "") for name in columns}
+    return Table(columns, {name: unit for name, unit in known.items() if unit})
 
 
 def _flat_all(content: Mapping[str, Any]) -> Iterator[tuple[str, Array]]:
@@ -206,7 +241,7 @@ def _series(name: str, array: NDArray[Any]) -> Iterator[tuple[str, Array]]:
         yield from ((f"{name}[{i}]", row.astype(np.float64)) for i, row in enumerate(rows))
 
 
-ENDINGS: Mapping[str, Callable[[Path], dict[str, Array]]] = {
+ENDINGS: Mapping[str, Callable[[Path], Table]] = {
     "csv": read_text,
     "tsv": read_text,
     "txt": read_text,

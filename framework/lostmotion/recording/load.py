@@ -13,11 +13,13 @@ from numpy.typing import NDArray
 from lostmotion.errors import DataError, nearest
 from lostmotion.provenance import digest
 from lostmotion.quantities import si_factor
-from lostmotion.recording.checks import check_length, check_values, note_stuck
+from lostmotion.recording.checks import bridged, check_finite, check_length, check_sensor, check_values, note_stuck
 from lostmotion.recording.doubts import Signal, doubts
-from lostmotion.recording.formats import read_columns
+from lostmotion.recording.formats import read_table
 from lostmotion.recording.spec import Channel, Hold, RecordingSpec
-from lostmotion.recording.timing import check_step, check_time
+from lostmotion.recording.table import Table
+from lostmotion.recording.timing import Clock, check_step, even_clock, resampled
+from lostmotion.recording.units import note_unit, seconds, time_unit
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -34,7 +36,7 @@ class Recording:
     `quantity`, `long_name`, and `of`, the input or channel of a model; those of a sensor have `sensor`, its name, and
     `noise` beside them. NaN in a sensor marks a reading that was not taken; an input has none. `dt` is the sampling
     step (s), `digest` the SHA-256 of the file, `source` its name. `notes` are sentences on what looks odd and was
-    accepted.
+    accepted; `start` is when it was recorded, where that is known.
     """
 
     name: str
@@ -45,6 +47,7 @@ class Recording:
     source: str
     hold: Hold = "smooth"
     notes: tuple[str, ...] = ()
+    start: str | None = None
 
     @property
     def rate(self) -> float:
@@ -75,32 +78,97 @@ def _numbered(first: str, more: str, arrays: Sequence[xr.DataArray]) -> dict[str
 def load_recording(spec: RecordingSpec, folder: Path) -> Recording:
     """Return the recording that `spec` describes, its file taken relative to `folder`; `DataError` if unusable."""
     path = Path(folder) / spec.file
-    columns = read_columns(path)
-    time, values = _samples(spec, columns, path.name)
+    table = read_table(path)
+    time, values, told = _samples(spec, table, path.name)
     check_length(time.size, path.name)
     time, values = _cut(spec, time, values)
     check_length(time.size, path.name)
-    dt, notes = check_time(time, path.name) if spec.time else (1.0 / _rate(spec), ())
-    even = time[0] + dt * np.arange(time.size)
+    clock = even_clock(time, path.name) if spec.time else Clock(1.0 / _rate(spec), False, (), float(time[0]))
     roles = [("excitation", c) for c in spec.inputs] + [("response", c) for c in spec.sensors]
-    checked = [_checked(role, c, v, path.name) for (role, c), v in zip(roles, values, strict=True)]
-    arrays = [_array(c, si, even) for (_, c), (si, _) in zip(roles, checked, strict=True)]
-    count = len(spec.inputs)
-    signals = [_signal(channel, si) for (_, channel), (si, _) in zip(roles, checked, strict=True)]
-    told = (*notes, *(note for _, own in checked for note in own), *doubts(signals[:count], signals[count:], dt))
-    inputs, sensors = tuple(arrays[:count]), tuple(arrays[count:])
-    return Recording(spec.label, inputs, sensors, dt, digest(path), path.name, spec.hold, tuple(dict.fromkeys(told)))
+    channels = [_Read(role, c, spec, path.name) for role, c in roles]
+    read = [channel.on(clock, time, raw) for channel, raw in zip(channels, values, strict=True)]
+    count, grid = len(spec.inputs), np.asarray(clock.start + clock.dt * np.arange(time.size))
+    arrays = [channel.array(si, grid) for channel, (si, _) in zip(channels, read, strict=True)]
+    signals = [channel.signal(si) for channel, (si, _) in zip(channels, read, strict=True)]
+    units = [n for c in channels for n in note_unit(c.channel, table.units.get(c.channel.column), c.what)]
+    odd = doubts(signals[:count], signals[count:], clock.dt)
+    notes = dict.fromkeys((*told, *clock.notes, *(n for _, own in read for n in own), *units, *odd))
+    inputs, sensors, start = (
+        tuple(arrays[:count]),
+        tuple(arrays[count:]),
+        spec.start or table.starts.get(spec.time or ""),
+    )
+    return Recording(spec.label, inputs, sensors, clock.dt, digest(path), path.name, spec.hold, tuple(notes), start)
 
 
-def _samples(spec: RecordingSpec, columns: Mapping[str, Array], source: str) -> tuple[Array, list[Array]]:
+@dataclass(frozen=True)
+class _Read:
+    """A channel that is read: its role (excitation, response), what a case says of it, and the file."""
+
+    role: str
+    channel: Channel
+    spec: RecordingSpec
+    source: str
+
+    @property
+    def what(self) -> str:
+        """The channel as messages call it."""
+        return f"the {self.role} {self.channel.column!r}"
+
+    def on(self, clock: Clock, time: Array, raw: Array) -> tuple[Array, tuple[str, ...]]:
+        """Return the channel (n,) in SI units on the even grid of the clock, without lost samples of an input; notes.
+
+        `raw` (n,) was read at `time` (n,) in s.
+        """
+        check_finite(raw, self.what, self.source)
+        if self.role == "excitation":
+            values, notes = bridged(raw, self.what, self.source, self.spec.hold)
+            even = resampled(time, values, clock, hold=self.spec.hold) if clock.uneven else values
+            notes = (*notes, *check_values(even, self.what, self.source, may_miss=False))
+            return self._si(even), notes
+        even = resampled(time, raw, clock) if clock.uneven else raw
+        notes = check_sensor(even, self.what, self.source, dt=clock.dt)
+        return self._si(even), (*notes, *note_stuck(even, self.what))
+
+    def _si(self, values: Array) -> Array:
+        factor, unit = si_factor(self.channel.unit, self.channel.quantity)
+        si = np.asarray(values * (self.channel.factor * factor))
+        check_values(si[np.isfinite(si)], f"{self.what} in {unit}", self.source, may_miss=False)
+        return si
+
+    def array(self, si: Array, time: Array) -> xr.DataArray:
+        """Return the channel (n,) at the times (n,) in s, with what is known of it."""
+        import xarray as xr
+
+        channel, (_, unit) = self.channel, si_factor(self.channel.unit, self.channel.quantity)
+        words = channel.name or channel.quantity.replace("_", " ")
+        attrs = {"units": unit, "quantity": channel.quantity, "of": channel.target, "sensor": channel.name}
+        more = {"noise": channel.noise, "long_name": f"{words} (column {channel.column!r})"}
+        clock = ("time", time, {"units": "s", "long_name": "time"})
+        return xr.DataArray(si, dims="time", coords={"time": clock}, attrs=attrs | more)
+
+    def signal(self, si: Array) -> Signal:
+        """Return the channel as those see it who doubt it."""
+        channel, (factor, _) = self.channel, si_factor(self.channel.unit, self.channel.quantity)
+        return Signal(si, channel.column, channel.quantity, channel.unit, factor * channel.factor)
+
+
+def _samples(spec: RecordingSpec, table: Table, source: str) -> tuple[Array, list[Array], tuple[str, ...]]:
+    """Return the time (s) and all channels (n,), and notes on the unit of the time column."""
+    columns = table.columns
+    told: tuple[str, ...] = ()
     names = [channel.column for channel in (*spec.inputs, *spec.sensors)]
     found = {name: _pick(columns, name, source) for name in [*names, *([spec.time] if spec.time else [])]}
     sizes = {name: column.size for name, column in found.items()}
     if len(set(sizes.values())) > 1:
         listed = ", ".join(f"{name!r} {size}" for name, size in sizes.items())
         raise DataError(f"{source}: the columns differ in length ({listed}): name columns recorded together")
-    time = found[spec.time] if spec.time else np.arange(found[names[0]].size) / _rate(spec)
-    return time, [found[name] for name in names]
+    if spec.time:
+        unit, told = time_unit(spec.time, table.units.get(spec.time), spec.time_unit)
+        time = seconds(found[spec.time], unit, source)
+    else:
+        time = np.arange(found[names[0]].size) / _rate(spec)
+    return time, [found[name] for name in names], told
 
 
 def _rate(spec: RecordingSpec) -> float:
@@ -134,32 +202,3 @@ def _cut(spec: RecordingSpec, time: Array, columns: list[Array]) -> tuple[Array,
             f"to {time[-1]:.6g} s; choose both in there"
         )
     return time[inside], [values[inside] for values in columns]
-
-
-def _checked(role: str, channel: Channel, values: Array, source: str) -> tuple[Array, tuple[str, ...]]:
-    """Return a channel (n,) in SI units, and notes on it."""
-    response = role == "response"
-    what = f"the {role} {channel.column!r}"
-    notes = [*check_values(values, what, source, may_miss=response)]
-    if response:
-        notes += note_stuck(values, what)
-    factor, unit = si_factor(channel.unit, channel.quantity)
-    si = values * (channel.factor * factor)
-    check_values(si, f"{what} in {unit}", source, may_miss=response)
-    return si, tuple(notes)
-
-
-def _array(channel: Channel, si: Array, time: Array) -> xr.DataArray:
-    import xarray as xr
-
-    _, unit = si_factor(channel.unit, channel.quantity)
-    words = channel.name or channel.quantity.replace("_", " ")
-    attrs = {"units": unit, "quantity": channel.quantity, "of": channel.target, "sensor": channel.name}
-    more = {"noise": channel.noise, "long_name": f"{words} (column {channel.column!r})"}
-    clock = ("time", time, {"units": "s", "long_name": "time"})
-    return xr.DataArray(si, dims="time", coords={"time": clock}, attrs=attrs | more)
-
-
-def _signal(channel: Channel, si: Array) -> Signal:
-    factor, _ = si_factor(channel.unit, channel.quantity)
-    return Signal(si, channel.column, channel.quantity, channel.unit, factor * channel.factor)

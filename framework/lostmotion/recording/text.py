@@ -6,48 +6,59 @@ The file is read line by line, twice or three times, so that memory is spent on 
 from __future__ import annotations
 
 import codecs
-import csv
 import re
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from itertools import islice
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from lostmotion.errors import DataError
+from lostmotion.recording.header import HEAD, MISSING, Header, cells_of, find_header
 from lostmotion.recording.limits import check_columns, check_line, check_numbers
+from lostmotion.recording.stamps import Stamps
+from lostmotion.recording.table import Table, with_bare_names
 
 Array = NDArray[np.float64]
+Commas = Literal["none", "all", "quoted"]
+"""Which commas below the header are decimal ones."""
 MISSPELT = re.compile(r"[+-]?\d[\d.,' ]*([eE][+-]?\d+)?")
 """A cell that was meant to be a number, with separators of thousands perhaps, and not a word or a date."""
-MISSING = {"", "nan", "na", "n/a", "null", "none", "-"}
 AT_ONCE = 4096
 """Lines that are held as text at one time, where each cell is looked at."""
 _BLOCK = 1 << 20
 _UTF_16 = (b"\xff\xfe", b"\xfe\xff")
+_QUOTED = re.compile(r'"([^",]*),([^",]*)"')
+"""A quoted cell with one comma."""
+_DECIMAL = re.compile(r"\s*[+-]?\d*,\d+([eE][+-]?\d+)?\s*|.*\d:\d\d,\d+.*")
+_THOUSANDS = re.compile(r"\s*[+-]?[1-9]\d{0,2},\d{3}\s*")
+"""A number with one comma that may separate thousands as well."""
 
 
 @dataclass(frozen=True)
-class _Table:
-    """A text file taken apart: the numbers begin at line `first`; `commas` are decimal ones."""
+class _Text:
+    """A text file taken apart."""
 
     path: Path
     encoding: str
-    names: list[str]
-    separator: str | None
-    commas: bool
-    first: int
+    header: Header
+    commas: Commas
 
     @contextmanager
     def rows(self) -> Iterator[Iterator[str]]:
         """Yield the lines below the header, with decimal points."""
         with self.path.open(encoding=self.encoding) as stream:
-            below = islice(stream, self.first - 1, None)
-            yield (line.replace(",", ".") for line in below) if self.commas else below
+            below: Iterator[str] = islice(stream, self.header.first - 1, None)
+            if self.commas == "all":
+                below = (line.replace(",", ".") for line in below)
+            elif self.commas == "quoted":
+                below = (_QUOTED.sub(r"\1.\2", line) for line in below)
+            yield below
 
 
 @dataclass
@@ -55,13 +66,25 @@ class _Column:
     """What is known of one column so far: its values, the first cell that is no number, whether one was meant."""
 
     name: str
+    stamps: Stamps | None = None
     parts: list[Array] = field(default_factory=list)
     wrong: tuple[int, str] | None = None
     meant: bool = False
     numbers: bool = False
 
-    def add(self, lines: list[int], cells: Iterable[str]) -> None:
+    def add(self, lines: list[int], cells: Sequence[str]) -> None:
         """Take in the cells that stand in some lines of the file."""
+        if self.stamps is not None:
+            self._add_stamps(self.stamps, lines, cells)
+            return
+        try:
+            values = np.array(list(map(float, cells)))
+        except ValueError:
+            values = self._each(lines, cells)
+        self.numbers = self.numbers or bool(np.isfinite(values).any() or np.isinf(values).any())
+        self.parts.append(values)
+
+    def _each(self, lines: list[int], cells: Sequence[str]) -> Array:
         values = np.empty(len(lines))
         for k, cell in enumerate(cells):
             value = _number(cell)
@@ -69,28 +92,37 @@ class _Column:
             if value is None:
                 self.wrong = self.wrong or (lines[k], cell.strip())
                 self.meant = self.meant or bool(MISSPELT.fullmatch(cell.strip()))
-        self.numbers = self.numbers or bool(np.isfinite(values).any() or np.isinf(values).any())
-        self.parts.append(values)
+        return values
 
-    def rounded(self, file: str) -> Array | None:
-        """Return the column (n,), or None when none of its cells is a number: a column of words is left out."""
-        if self.wrong and not self.meant and not self.numbers:
+    def _add_stamps(self, stamps: Stamps, lines: list[int], cells: Sequence[str]) -> None:
+        lost = [cell.strip().lower() in MISSING for cell in cells]
+        wrong = stamps.add(cells, lost)
+        if wrong is not None and self.wrong is None:
+            self.wrong = lines[wrong], cells[wrong].strip()
+
+    def settled(self, file: str) -> tuple[Array, str] | None:
+        """Return the column (n,) and its first time stamp; None when it is a column of words, which is left out."""
+        if self.wrong and not (self.stamps or self.meant or self.numbers):
             return None
         if self.wrong:
             line, cell = self.wrong
             hint = "write decimal points" if re.fullmatch(r"[+-]?\d+,\d+", cell) else "correct or empty it"
-            raise DataError(f"{file}, line {line}, column {self.name!r}: {cell[:40]!r} is not a number: {hint}")
-        return np.concatenate(self.parts)
+            kind = "time stamp like those above it" if self.stamps else "number"
+            raise DataError(f"{file}, line {line}, column {self.name!r}: {cell[:40]!r} is not a {kind}: {hint}")
+        return self.stamps.settled(file, self.name) if self.stamps else (np.concatenate(self.parts), "")
 
 
-def read_text(path: Path) -> dict[str, Array]:
+def read_text(path: Path) -> Table:
     """Return the columns of a text file by the names in its header line, each (n,); empty cells are NaN.
 
-    Comma, semicolon, tab or blank separate the cells; with any but the comma, a decimal comma is understood.
+    Comma, semicolon, tab or blank separate the cells; with any but the comma, a decimal comma is understood, and
+    with the comma one within quotes. Columns of time stamps are in seconds from the first one.
     """
-    table = _table(path)
-    found = _fast(table)
-    return _careful(table) if found is None else found
+    text = _opened(path)
+    found = _fast(text)
+    columns, starts = _careful(text) if found is None else (found, {})
+    units = {name: unit for name, unit in text.header.units.items() if name in columns}
+    return with_bare_names(columns, units | dict.fromkeys(starts, "s"), starts)
 
 
 def _encoding(path: Path) -> str:
@@ -112,66 +144,41 @@ def _encoding(path: Path) -> str:
     return "utf-8-sig"
 
 
-def _table(path: Path) -> _Table:
+def _opened(path: Path) -> _Text:
     encoding = _encoding(path)
     with path.open(encoding=encoding) as stream:
-        top, line, held = _header_line(path.name, stream)
-        below = held or next((row for row in stream if row.strip()), "")
-        check_line(len(below), path.name)
-        lines, commas = 1, "," in below
-        for row in stream:
-            check_line(len(row), path.name)
-            lines += 1
-            commas = commas or "," in row
-    header = line.lstrip("# \t")
-    separator = _separator(header, below)
-    names = [name.strip() for name in _cells(header, separator)]
-    if not below:
-        raise DataError(f"{path.name} has a header line and no numbers below it: record or export it again")
-    check_columns(len(names), path.name)
-    check_numbers(lines * len(names), path.name)
-    _check_names(path.name, names)
-    return _Table(path, encoding, names, separator, commas and separator != ",", top + 2)
+        header = find_header(path.name, list(_checked(path.name, islice(stream, HEAD))))
+    with path.open(encoding=encoding) as stream:
+        below = _checked(path.name, islice(stream, header.first - 1, None))
+        lines, commas = _scanned(below, header.separator)
+    check_columns(len(header.names), path.name)
+    check_numbers(lines * len(header.names), path.name)
+    _check_names(path.name, header.names)
+    return _Text(path, encoding, header, commas)
 
 
-def _header_line(file: str, lines: Iterable[str]) -> tuple[int, str, str]:
-    """Return index and text of the header, and the line of numbers where one had to be read to know.
-
-    The header is the first line that is no comment, or the last comment if numbers follow it.
-    """
-    comment: tuple[int, str] | None = None
-    for i, line in enumerate(lines):
+def _checked(file: str, lines: Iterator[str]) -> Iterator[str]:
+    for line in lines:
         check_line(len(line), file)
-        if line.lstrip().startswith("#"):
-            comment = i, line
-        elif line.strip():
-            if not _all_numbers(line):
-                return i, line, ""
-            if comment is None:
-                raise DataError(
-                    f"{file} starts with numbers: wanted a header line that names the columns, as time,force,x"
-                )
-            return *comment, line
-    if comment is None:
-        raise DataError(f"{file} holds only blank lines: record or export it again")
-    return *comment, ""
+        yield line
 
 
-def _separator(header: str, row: str) -> str | None:
-    for separator in (";", "\t", ","):
-        if separator in header:
-            return separator
-    return None if len(header.split()) == len(row.split()) else ";"
+def _scanned(lines: Iterator[str], separator: str | None) -> tuple[int, Commas]:
+    """Return how many lines there are, and which commas in them are decimal ones.
 
-
-def _cells(line: str, separator: str | None) -> list[str]:
-    if separator is None:
-        return [cell.strip('"') for cell in line.split()]
-    return next(csv.reader([line], delimiter=separator, skipinitialspace=True), [])
-
-
-def _all_numbers(line: str) -> bool:
-    return all(_number(cell) is not None for cell in line.replace(";", " ").replace(",", " ").split())
+    Between commas, `"1,234"` may be a thousand and more: quoted commas are decimal ones only where some cell shows it.
+    """
+    count, commas, shown, spoilt = 0, False, False, False
+    for line in lines:
+        count += 1
+        commas = commas or "," in line
+        if separator == "," and '"' in line and not spoilt:
+            cells = [f"{left},{right}" for left, right in _QUOTED.findall(line)]
+            shown = shown or any(_DECIMAL.fullmatch(cell) and not _THOUSANDS.fullmatch(cell) for cell in cells)
+            spoilt = any("." in cell and _THOUSANDS.match(cell) for cell in cells)
+    if separator != ",":
+        return count, "all" if commas else "none"
+    return count, "quoted" if shown and not spoilt else "none"
 
 
 def _check_names(file: str, names: list[str]) -> None:
@@ -188,45 +195,59 @@ def _number(cell: str) -> float | None:
         return None
 
 
-def _fast(table: _Table) -> dict[str, Array] | None:
+def _fast(text: _Text) -> dict[str, Array] | None:
     """Return the columns of a file with nothing but numbers, or None: then each cell is looked at."""
+    header = text.header
+    if header.stamped or "" in header.names:
+        return None
     try:
-        with table.rows() as rows:
-            numbers = np.loadtxt(rows, delimiter=table.separator, comments=None, ndmin=2, quotechar='"')
+        with text.rows() as rows:
+            lines = (_trimmed(row, header.separator) for row in rows) if header.trailing else rows
+            numbers = np.loadtxt(lines, delimiter=header.separator, comments=None, ndmin=2, quotechar='"')
     except ValueError:
         return None
-    if numbers.shape[1] != len(table.names) or "" in table.names:
+    if numbers.shape[1] != len(header.names):
         return None
-    return {name: np.ascontiguousarray(column) for name, column in zip(table.names, numbers.T, strict=True)}
+    return {name: np.ascontiguousarray(column) for name, column in zip(header.names, numbers.T, strict=True)}
 
 
-def _careful(table: _Table) -> dict[str, Array]:
-    columns = [_Column(name) for name in table.names]
-    with table.rows() as rows:
-        filled = ((table.first + i, row) for i, row in enumerate(rows) if row.strip())
+def _trimmed(row: str, separator: str | None) -> str:
+    """Return a row without the separator behind its last cell."""
+    return row.rstrip("\r\n ").removesuffix(separator or "")
+
+
+def _careful(text: _Text) -> tuple[dict[str, Array], dict[str, str]]:
+    """Return the columns, and the first time stamp of those that hold time stamps."""
+    columns = [_Column(name, Stamps() if name in text.header.stamped else None) for name in text.header.names]
+    with text.rows() as rows:
+        filled = ((text.header.first + i, row) for i, row in enumerate(rows) if row.strip())
         while block := list(islice(filled, AT_ONCE)):
-            _take(table, columns, block)
-    settled = ((c.name, c.rounded(table.path.name)) for c in columns if c.name)
-    return {name: found for name, found in settled if found is not None}
+            _take(text, columns, block)
+    found = {column.name: both for column in columns if column.name and (both := column.settled(text.path.name))}
+    return {name: values for name, (values, _) in found.items()}, {
+        name: start for name, (_, start) in found.items() if start
+    }
 
 
-def _take(table: _Table, columns: list[_Column], block: list[tuple[int, str]]) -> None:
+def _take(text: _Text, columns: list[_Column], block: list[tuple[int, str]]) -> None:
     """Share the cells of some lines out among the columns."""
-    rows = [_cells(row, table.separator) for _, row in block]
     numbers = [number for number, _ in block]
-    for number, cells in zip(numbers, rows, strict=True):
-        _check_width(table, number, cells)
-    for column, cells_of in zip(columns, zip(*rows, strict=True), strict=True):
+    rows = [_row(text, number, row) for number, row in block]
+    for column, cells in zip(columns, zip(*rows, strict=True), strict=True):
         if column.name:
-            column.add(numbers, cells_of)
+            column.add(numbers, cells)
 
 
-def _check_width(table: _Table, number: int, cells: list[str]) -> None:
-    wanted, got = len(table.names), len(cells)
+def _row(text: _Text, number: int, line: str) -> list[str]:
+    """Return the cells of a row, one for each column; `DataError` if it has more or fewer."""
+    header, cells = text.header, cells_of(line, text.header.separator)
+    wanted, got = len(header.names), len(cells)
     if wanted == got:
-        return
+        return cells
+    if header.trailing and got == wanted + 1 and not cells[-1].strip():
+        return cells[:-1]
     hint = "complete or remove the line"
-    if table.separator == "," and got > wanted and all(re.fullmatch(r"[+-]?\d+", cell.strip()) for cell in cells):
+    if header.separator == "," and got > wanted and all(re.fullmatch(r"[+-]?\d+", cell.strip()) for cell in cells):
         hint = "these look like decimal commas; separate the columns by ';' or write decimal points"
-    name = table.path.name
+    name = text.path.name
     raise DataError(f"{name}, line {number}: {got} cells where the header names {wanted} columns: {hint}")

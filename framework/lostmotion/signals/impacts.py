@@ -70,7 +70,7 @@ def hits_of(force: ArrayLike, dt: float) -> tuple[Hit, ...]:
 
     A hit begins with a pulse of ten standard deviations of the noise (from the median deviation) and 5 % of the
     largest pulse. A second pulse of 5 % of the first one or more, within twenty durations of the first or 0.1 s, makes
-    it a double hit. The second pulse is looked for in the force averaged over half the duration of the first, so that
+    it a double hit. The second pulse is looked for in the force averaged over about the duration of the first, so that
     neither noise nor ringing of the hammer that is faster than its contact counts.
     """
     readings = _checked(force, dt)

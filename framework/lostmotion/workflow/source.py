@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -11,8 +12,9 @@ from numpy.typing import NDArray
 from lostmotion.case import Case
 from lostmotion.errors import CaseError, DataError, nearest
 from lostmotion.provenance import digest
-from lostmotion.recording import load_recording, read_columns
-from lostmotion.recording.timing import check_step, check_time
+from lostmotion.recording import Table, load_recording, read_table
+from lostmotion.recording.timing import Clock, check_step, even_clock, resampled
+from lostmotion.recording.units import seconds, time_unit
 from lostmotion.registry import Registry
 from lostmotion.workflow.prepare import case_of
 
@@ -112,12 +114,13 @@ def _whole_stretch(x: Array, notes: list[str]) -> slice:
 
 
 def _of_file(path: Path, wanted: Wanted) -> Source:
-    columns = read_columns(path)
-    clock = next((name for name in TIMES if name in columns), None)
-    names = _named(columns, wanted.columns, clock, path.name)
-    dt, told = _clocked(columns, clock, wanted, len(columns[names[0]]), path.name)
-    notes = list(told)
-    pieces = [columns[name][_whole_stretch(columns[name], notes)] for name in names]
+    table = read_table(path)
+    column = next((name for name in TIMES if name in table.columns), None)
+    names = _named(table, wanted.columns, column, path.name)
+    clock, time = _clocked(table, column, wanted, len(table.columns[names[0]]), path.name)
+    notes = list(clock.notes)
+    series = [_even(table.columns[name], clock, time) for name in names]
+    pieces = [values[_whole_stretch(values, notes)] for values in series]
     if len(pieces) > 1:
         notes.append(
             f"{len(pieces)} pieces are joined, {', '.join(map(str, sorted({len(p) for p in pieces})))} samples long: "
@@ -126,7 +129,7 @@ def _of_file(path: Path, wanted: Wanted) -> Source:
     return Source(
         title=path.stem,
         x=np.concatenate(pieces),
-        dt=dt,
+        dt=clock.dt,
         unit="",
         label=names[0] if len(names) == 1 else names[0].partition("[")[0],
         excitation=None,
@@ -135,17 +138,23 @@ def _of_file(path: Path, wanted: Wanted) -> Source:
     )
 
 
-def _named(columns: dict[str, Array], asked: tuple[str, ...], clock: str | None, source: str) -> tuple[str, ...]:
+def _even(values: Array, clock: Clock, time: Array) -> Array:
+    """Return a channel (n,) on the even grid of its recording; values that are infinite count as lost."""
+    return resampled(time, values, clock) if clock.uneven and values.size == time.size else values
+
+
+def _named(table: Table, asked: tuple[str, ...], clock: str | None, source: str) -> tuple[str, ...]:
     """Return the columns that are meant; `name[*]` stands for name[0], name[1], ..."""
     if asked:
-        return tuple(found for name in asked for found in _matching(columns, name, source))
-    others = [name for name in columns if name != clock]
+        return tuple(found for name in asked for found in _matching(table.columns, name, source))
+    time = table.columns[clock] if clock else None
+    others = [name for name in table.full_names if table.columns[name] is not time]
     if len(others) != 1:
         raise DataError(f"{source} has {len(others)} columns besides time ({_listed(others)}): name one with --column")
     return (others[0],)
 
 
-def _matching(columns: dict[str, Array], name: str, source: str) -> list[str]:
+def _matching(columns: Mapping[str, Array], name: str, source: str) -> list[str]:
     stem = name.removesuffix("[*]")
     found = [c for c in columns if c == name or (stem != name and c.startswith(f"{stem}["))]
     if not found:
@@ -158,16 +167,18 @@ def _listed(names: list[str], most: int = 12) -> str:
     return (", ".join(names[:most]) or "none") + more
 
 
-def _clocked(
-    columns: dict[str, Array], clock: str | None, wanted: Wanted, n: int, source: str
-) -> tuple[float, tuple[str, ...]]:
-    """Return the sampling step (s) and notes on it."""
+def _clocked(table: Table, column: str | None, wanted: Wanted, n: int, source: str) -> tuple[Clock, Array]:
+    """Return the even grid of the recording and its time column (s), which is empty where a rate was given."""
     if wanted.rate is not None:
         if not 0.0 < wanted.rate < np.inf:
             raise DataError(f"the rate is {wanted.rate:g} Hz: give a positive number")
-        return check_step(1.0 / wanted.rate, source), ()
-    if clock is None:
+        return Clock(check_step(1.0 / wanted.rate, source), False, (), 0.0), np.empty(0)
+    if column is None:
         raise DataError(f"{source} has no column 'time': add one in seconds, or give --rate HZ")
-    if len(columns[clock]) != n:
-        raise DataError(f"{source}: {clock!r} has {len(columns[clock])} values and the column {n}: cut them alike")
-    return check_time(columns[clock], source)
+    if len(table.columns[column]) != n:
+        found = len(table.columns[column])
+        raise DataError(f"{source}: {column!r} has {found} values and the column {n}: cut them alike")
+    unit, told = time_unit(column, table.units.get(column), None)
+    time = seconds(table.columns[column], unit, source)
+    clock = even_clock(time, source)
+    return replace(clock, notes=(*told, *clock.notes)), time

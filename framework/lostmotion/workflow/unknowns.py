@@ -42,7 +42,8 @@ def learned_entry(d: Diagnosis) -> dict[str, Any]:
     size = Interval(rms, max(rms - BAND * sd, 0.0), rms + BAND * sd, unit)
     depends = names_of(unknown.terms)
     share = rms / d.after.problem.scales.force
-    text = f"A force of {rms:.3g} {unit} rms, {share:.2%} of {d.yardstick}, is missing that no term of the library explains"
+    size_of = f"{rms:.3g} {unit} rms, {share:.2%} of {d.yardstick}"
+    text = f"A force of {size_of}, is missing that no term of the library explains"
     return {
         "mechanism": "unknown",
         "at": unknown.terms[0].at,
@@ -65,13 +66,14 @@ def unnamed_entry(d: Diagnosis) -> dict[str, Any]:
     rms = float(np.std(located.missing.force))
     unit = _unit_of(d, Dimension(1, 0, 0))
     share = rms / d.after.problem.scales.force
+    size = f"{rms:.3g} {unit} rms, {share:.1%} of {d.yardstick}"
     on = f"depends on {listed(depends)}" if depends else "depends on nothing that was recorded"
     return {
         "mechanism": "unknown" if depends else "random_force",
         "probability": 1.0 - math.exp(-d.random_gain),
         "parameters": {"rms": Interval(rms, rms, rms, unit).as_dict()},
         "depends_on": depends,
-        "says": f"A force of {rms:.3g} {unit} rms, {share:.1%} of {d.yardstick}, is missing; no term explains it; it {on}.",
+        "says": f"A force of {size}, is missing; no term explains it; it {on}.",
     }
 
 
