@@ -104,7 +104,7 @@ def test_powers_are_understood(unit: str) -> None:
         (Channel("F", "force", "N"), None, ""),
         (Channel("x", "position", "deg"), "mm", "the header says mm, the case deg"),
         (Channel("a", "acceleration", "m/s^2"), "m/s²", ""),
-        (Channel("a", "acceleration", "m/s^2"), "g", "measures no acceleration"),
+        (Channel("a", "acceleration", "m/s^2"), "g", "the header says g, the case m/s^2"),
     ],
 )  # fmt: skip
 def test_a_unit_that_differs_from_the_header_is_noted(channel: Channel, header: str | None, words: str) -> None:
@@ -124,7 +124,7 @@ def logged(folder: Path, jitter: float = 0.006, lost: tuple[int, ...] = ()) -> P
     return folder
 
 
-SPEC = RecordingSpec("run.csv", "Time", None, Channel("Force", "force", "N"), Channel("x", "position", "mm"))
+SPEC = RecordingSpec("run.csv", "Time", None, (Channel("Force", "force", "N"),), (Channel("x", "position", "mm"),))
 
 
 def test_a_file_of_a_logger_is_loaded_at_its_true_rate(tmp_path: Path) -> None:
@@ -146,7 +146,7 @@ def test_lost_samples_of_its_input_are_bridged(tmp_path: Path) -> None:
 
 
 def test_a_case_that_contradicts_the_header_is_doubted(tmp_path: Path) -> None:
-    spec = replace(SPEC, excitation=Channel("Force", "force", "kN"))
+    spec = replace(SPEC, inputs=(Channel("Force", "force", "kN"),))
     notes = load_recording(spec, logged(tmp_path)).notes
     assert any("the excitation 'Force': the header says N, the case kN" in note for note in notes)
 

@@ -14,7 +14,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lostmotion.recording.drift import note_drift
-from lostmotion.signals.impacts import note_hits, note_overload
 
 Array = NDArray[np.float64]
 TURNS = 10
@@ -56,6 +55,8 @@ def doubts(inputs: Sequence[Signal], sensors: Sequence[Signal], dt: float) -> tu
 
     Units and power are compared where there is one input: with several, each may take up the power of the other.
     """
+    from lostmotion.signals.impacts import note_hits, note_overload  # loads SciPy
+
     each = [*(("excitation", s) for s in inputs), *(("response", s) for s in sensors)]
     pairs = [(inputs[0], sensors[0])] if len(inputs) == 1 else []
     return (
