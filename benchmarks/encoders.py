@@ -27,7 +27,7 @@ from lostmotion.workflow.diagnose import run_diagnosis
 PLACES = ("second", "joint", "ground")
 NOISE, SHARE = 0.01, 0.12
 """Noise of an encoder over the deviation of what it shows; friction over the amplitude of the drive."""
-SECONDS, RATE, FINER = 16.0, 250.0, 4
+SECONDS, RATE, FINER = 12.0, 150.0, 6
 LINES = 12
 
 
