@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 
-from lostmotion.recording.decimation import decimated, factor_for, low_pass
+from lostmotion.recording import Channel, RecordingSpec, load_recording
+from lostmotion.recording.decimation import decimated, factor_for, low_pass, thinned
 
 DT = 1e-4
 N = 40_000
@@ -110,3 +113,19 @@ def test_merging_by_the_factor_loses_nothing() -> None:
     assert factor > 1
     got = decimated(tones, factor)
     assert np.abs(got - tones[::factor])[40:-40].max() < 3e-3
+
+
+def test_a_recording_that_was_sampled_far_too_fast_is_thinned_with_a_note(tmp_path: Path) -> None:
+    t = np.arange(120_000) / 20_000.0
+    noise = 0.01 * np.random.default_rng(4).standard_normal((2, t.size))
+    np.savez(tmp_path / "run.npz", F=np.sin(20.0 * t) + noise[0], x=np.cos(20.0 * t) + noise[1])
+    spec = RecordingSpec("run.npz", None, 20_000.0, (Channel("F", "force", "N"),), (Channel("x", "position", "m"),))
+    raw = load_recording(spec, tmp_path)
+    kept = thinned(raw)
+    assert raw.n / kept.n > 10 and kept.n >= 2000
+    assert "20000 Hz" in kept.notes[-1] and f"{kept.rate:.6g} Hz" in kept.notes[-1]
+    np.testing.assert_allclose(kept.sensors[0].time, kept.dt * np.arange(kept.n), atol=1e-9)
+    left = kept.sensors[0].to_numpy() - np.cos(20.0 * kept.sensors[0].time.to_numpy())
+    assert float(np.std(left)) < 0.012 / np.sqrt(raw.n / kept.n)
+    assert abs(float(np.corrcoef(left[1:], left[:-1])[0, 1])) < 0.1  # noise that was white stays white
+    assert thinned(replace(raw, hold="step")).n == raw.n

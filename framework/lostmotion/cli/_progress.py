@@ -2,31 +2,46 @@
 
 from __future__ import annotations
 
+import sys
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
+LONGEST = 120
 COMPILING = "compiling, which this machine has to do once"
+
+
+SELDOM = 20.0
+"""Seconds between two lines where nobody watches a terminal."""
 
 
 @contextmanager
 def counted(what: str, total: int, unit: str, *, quiet: bool) -> Iterator[Callable[[int, int], None]]:
-    """Yield a function that is told how many are done of how many; what was done before the start costs no time."""
+    """Yield a function that is told how many are done of how many; what was done before the start costs no time.
+
+    Off a terminal a line is written now and then, with the time to go.
+    """
     from tqdm import tqdm
 
     with tqdm(desc=what, total=total, unit=f" {unit}", leave=False, disable=True if quiet else None) as bar:
+        lines, first = _Lines(what), -1
 
         def say(done: int, _of: int) -> None:
+            nonlocal first
+            first = done if first < 0 else first
             if not bar.n:
                 bar.initial = done
             bar.n = done
             bar.refresh()
+            if bar.disable and not quiet:
+                lines.say(f"{done} of {total} {unit}{lines.to_go(done - first, total - done)}")
 
         yield say
 
 
 @contextmanager
 def progress(what: str, *, quiet: bool) -> Iterator[Callable[[str], None]]:
-    """Yield a function that is told each step; it shows nothing when `quiet` or when nobody watches."""
+    """Yield a function that is told each step; off a terminal it writes a line now and then, when `quiet` nothing."""
     from tqdm import tqdm
 
     with tqdm(
@@ -45,11 +60,41 @@ def progress(what: str, *, quiet: bool) -> Iterator[Callable[[str], None]]:
             bar.update()
             bar.refresh()
 
-        if bar.disable:
+        if quiet:
             yield say
+        elif bar.disable:
+            yield _Lines(what).say
         else:
             with _compiling(lambda busy: bar.set_postfix_str(f"{last} · {COMPILING}" if busy else last)):
                 yield say
+
+
+class _Lines:
+    """Lines on standard error, one in `SELDOM` seconds at most: short work leaves none."""
+
+    def __init__(self, what: str) -> None:
+        self.what, self.begin = what, time.monotonic()
+        self.last = self.begin
+
+    def say(self, step: str) -> None:
+        """Write what is being done, if the last line is long enough ago."""
+        now = time.monotonic()
+        if now - self.last >= SELDOM:
+            self.last = now
+            sys.stderr.write(f"{self.what}: {_minutes(now - self.begin)}: {step[:LONGEST]}\n")
+            sys.stderr.flush()
+
+    def to_go(self, done: int, left: int) -> str:
+        """Return the time to go in words, where so many were done since the beginning and so many are left."""
+        if done <= 0:
+            return ""
+        return f", about {_minutes((time.monotonic() - self.begin) / done * left)} to go"
+
+
+def _minutes(seconds: float) -> str:
+    """Return a time as people say it, for instance 3 min 20 s."""
+    whole = round(seconds)
+    return f"{whole // 60} min {whole % 60} s" if whole >= 60 else f"{whole} s"
 
 
 @contextmanager

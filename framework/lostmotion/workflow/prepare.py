@@ -12,6 +12,7 @@ from lostmotion.errors import CaseError, ContractError
 from lostmotion.likelihood.observation import Observation, observation_of
 from lostmotion.quantities import ROTATES
 from lostmotion.recording import Recording, load_recording
+from lostmotion.recording.decimation import thinned
 from lostmotion.registry import Registry
 from lostmotion.stages.diagnose import candidates_of
 from lostmotion.workflow.vetting import sound, usable_terms
@@ -62,7 +63,7 @@ def prepared_of(case: Case, registry: Registry) -> Prepared:
     """Return a case with its recordings, its model and its terms."""
     if not case.recordings:
         raise CaseError("the case has no [[recordings]]: add one, with file, time or rate, excitation and response")
-    recordings = tuple(load_recording(spec, case.folder) for spec in case.recordings)
+    recordings = tuple(thinned(load_recording(spec, case.folder)) for spec in case.recordings)
     model = moving(sound(registry, "model", case.model), case, recordings)
     check_alike(tuple(spec.sensors for spec in case.recordings))
     observations = tuple(observation_of(r, model, held=r.hold == "step") for r in recordings)
