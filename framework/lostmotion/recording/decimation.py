@@ -100,9 +100,9 @@ def factor_for(values: Array, dt: float) -> int:
 def decimated(values: Array, factor: int) -> Array:
     """Return every `factor`-th sample (ceil(n / factor),) of a signal (n,), after a low-pass filter without delay.
 
-    Up to 0.42 of the new rate, amplitudes stay within 0.1 % and phases as they are. From 0.58 of it on, which would fold
-    back below that, amplitudes are taken down by 68 dB or more. The filter falls off steeply between them, so that white
-    noise stays white but for the end of the band.
+    Up to 0.42 of the new rate, amplitudes stay within 0.1 % and phases as they are. From 0.58 of it on, which would
+    fold back below that, amplitudes are taken down by 68 dB or more. The filter falls off steeply between them, so that
+    white noise stays white but for the end of the band.
     The signal goes on beyond its ends as its own mirror image turned about the last sample (odd extension). Lost
     samples (NaN) are interpolated first. In the band that is kept, a gap of up to half a new step is filled that way;
     the result is NaN where samples with more than a tenth of the squared weight lie in longer gaps.
