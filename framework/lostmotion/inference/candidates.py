@@ -113,8 +113,9 @@ def screen(fit: Fit, slopes: Sensitivity, key: str, more: Sequence[Mapping[str, 
     grids = [tried_of(s.param, problem.scales) for s in shapes]
     usual = [dict(zip((s.key for s in shapes), values, strict=True)) for values in star(grids)]
     hints = _scored(fit, slopes, key, (*usual, *more))
-    alone = term_of(problem, key)[0].acts != "sensor" or len(problem.observations[0].sensors) == 1
-    if len(amplitudes) == 1 and amplitudes[0].param.far and not problem.active and alone:
+    bounded = term_of(problem, key)[0].acts == "sensor" and len(problem.observations[0].sensors) > 1
+    late = bounded and amplitudes[0].param.dimension == TIME
+    if len(amplitudes) == 1 and amplitudes[0].param.far and not problem.active and not late:
         hints.append(_afar(fit, amplitudes[0], key, hints[0].distinct))
     return max(hints, key=lambda h: h.gain)
 

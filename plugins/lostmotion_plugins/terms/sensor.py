@@ -15,6 +15,8 @@ from lostmotion_plugins.terms.drive import FAR
 _LEVELS = 30
 """At least so many differences of neighbouring values have to lie on the lattice."""
 _WHOLE = 0.01
+_AWAY = (-4.0, -2.0, -1.0, -0.5, 0.5, 1.0, 2.0, 4.0)
+"""Offsets that are tried beyond the reach of a score test: where there is a gap, a large one looks like other forces."""
 
 
 @dataclass(frozen=True)
@@ -47,7 +49,7 @@ class SensorOffset(SensorTerm):
     physics: ClassVar[str] = "The sensor shows {offset} where the machine stands at zero"
     formula: ClassVar[str] = "x + offset"
     paper: ClassVar[str] = "Pintelon, Schoukens, System Identification: a Frequency Domain Approach (2012), section 1.6"
-    params = (Param("offset", "what the sensor shows at zero", LENGTH, null=0.0, typical=0.3),)
+    params = (Param("offset", "what the sensor shows at zero", LENGTH, null=0.0, typical=0.3, far=_AWAY),)
     resembles = ("offset_force",)
     relative: ClassVar[bool] = True
 
