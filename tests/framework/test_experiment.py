@@ -115,10 +115,10 @@ def test_simulated_noise_has_the_memory_that_was_found(springs):
     slow = tuple(Free(key, "1", value, -30.0, 30.0) for key, value in ((SLOW, 0.0), (FADE, math.log(0.02))))
     observation = replace(sine(), readings=np.zeros((20000, 1)), inputs=np.zeros((20000, 1)))
     problem = replace(truth.problem, observations=(observation,), free=(*truth.problem.free, *slow))
-    noise = _slow(problem, problem.start, np.random.default_rng(0))
+    noise = _slow(problem, problem.start, 0, np.random.default_rng(0))
     assert noise.std() == pytest.approx(1.0, abs=0.05)
     assert np.corrcoef(noise[1:], noise[:-1])[0, 1] == pytest.approx(math.exp(-1 / RATE / 0.02), abs=0.02)
-    assert not _slow(truth.problem, truth.theta, np.random.default_rng(0)).any()
+    assert not _slow(truth.problem, truth.theta, 0, np.random.default_rng(0)).any()
 
 
 def test_a_machine_that_runs_away_is_not_proposed(springs):

@@ -8,6 +8,7 @@ import pytest
 
 from lostmotion.errors import CaseError, DataError
 from lostmotion.likelihood.problem import Free
+from lostmotion.likelihood.sensors import Sensor
 from lostmotion.stages._chains import grouped, quality_of, quiet_arviz
 from lostmotion.stages._sampling import state_of
 from lostmotion.stages.identify import Cloud, Plan, Shown, Task, identify, task_of
@@ -47,8 +48,8 @@ def task_at(problem, theta=MEAN, covariance=COVARIANCE):
 def fit_of(theta=(0.1, -5.0, 1.0, 2.0, -3.0), log_posterior=0.0, log_evidence=0.0):
     """Return a fit of two recordings of a rotation, as far as a task needs one."""
     observations = (
-        SimpleNamespace(name="one", dt=0.01, channel="position"),
-        SimpleNamespace(name="two", dt=0.04, channel="velocity"),
+        SimpleNamespace(name="one", dt=0.01, sensors=(Sensor("position"),)),
+        SimpleNamespace(name="two", dt=0.04, sensors=(Sensor("velocity"),)),
     )
     keys = ("c", "x0", "offset[two]", "log_noise[two]", "log_random_force[two]")
     free = tuple(Free(k, "?", 0.0, -40.0, 40.0, log=k == "x0") for k in keys)

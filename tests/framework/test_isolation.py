@@ -152,7 +152,7 @@ def late(t, x, v, u, p, s):
 
 def test_the_term_that_raises_along_the_recording_is_found():
     guest, at_fault = guests.Drag(), guests.spoiled(guests.Drag, "guest_late", force=staticmethod(late))()
-    observation = Observation.of("run", np.sin(np.arange(200) * 0.1), np.zeros(200), 0.01, "position")
+    observation = Observation.of("run", np.sin(np.arange(200) * 0.1), np.zeros((200, 1)), 0.01, "position")
     assert raising([guest, at_fault], [observation]) == {"guest_late"}
     assert raising([guest, at_fault], [observation.part(0, 40)]) == set()
 

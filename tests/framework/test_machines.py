@@ -35,7 +35,7 @@ def test_leapfrog_goes_with_the_model(name):
     moved = machines._mover(system)(system, full, machines._Run(drive, rate, samples), np.array([0.5, 0.3]))
     assert machines.moved_by(system) == machines.INDEPENDENT
     known = {"force": drive.value, "base_position": drive.value, "base_velocity": drive.slope}
-    inputs = [known[name] for name in system.model.inputs]
+    inputs = [known[name] for name in system.model.driven]
     begin = [float(f(np.zeros(1))[0]) for f in (drive.value, drive.slope)] if model == "robot_joint" else [0.0, 0.0]
     y0 = np.array([begin[0] + 0.5 * values["x0"], begin[1] + 0.3 * values["x0"] * (values["k0"] / values["m"]) ** 0.5])
     other = system.moved(full, y0, inputs, Clock(1.0 / rate, 400, samples)).states[:, 0]

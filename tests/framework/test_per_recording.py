@@ -204,7 +204,7 @@ def test_predictions_use_what_the_recording_has_for_itself(apart) -> None:
     states = np.zeros((3, 2))
     zero = apart.values[f"offset[{HIGH}]"]
     assert observed(problem, theta, states, (0, 1)) == pytest.approx(np.full(3, zero))
-    runs = free_runs(problem, theta, np.zeros((1, 2)), np.array([0]), 20, index=1)
+    (runs,) = free_runs(problem, theta, np.zeros((1, 2)), np.array([0]), 20, index=1)
     assert np.abs(runs.error).max() < 6.0 * LOUD["noise"]
 
 

@@ -220,15 +220,15 @@ def sensor_is_true_at_null(term: Term) -> str:
         return ""
     for point in of_term(term, null=True):
         p = tuple(point.p)
-        if term.gain(p) != 1.0 or term.delay(p) != 0.0 or not np.array_equal(term.rounded(_TIMES, p), _TIMES):
+        if not _true(term, p):
             return f"it shows something other at p = {point.p}"
-    changed = [
-        term.gain(tuple(q.p)) != 1.0
-        or term.delay(tuple(q.p)) != 0.0
-        or not np.array_equal(term.rounded(_TIMES, tuple(q.p)), _TIMES)
-        for q in of_term(term)
-    ]
-    return "" if any(changed) else "it never changes what is shown"
+    return "" if not all(_true(term, tuple(q.p)) for q in of_term(term)) else "it never changes what is shown"
+
+
+def _true(term: SensorTerm, p: tuple[float, ...]) -> bool:
+    """Return whether a sensor shows what is there, at once."""
+    exact = (term.gain(p), term.offset(p), term.delay(p)) == (1.0, 0.0, 0.0)
+    return exact and bool(np.array_equal(term.rounded(_TIMES, p), _TIMES))
 
 
 @rule("term")

@@ -66,7 +66,7 @@ def proposed(
     """
     chosen = d.selection.chosen
     heaviest = list(rivals_of(d).items())[:MOST]
-    if allowed is None or d.shown.free:
+    if allowed is None or chosen.problem.observations[0].free:
         return {key: None for key, _ in heaviest}
     usual = usual_limits(chosen.problem.observations[0], natural_of(chosen))
     limits = Limits(allowed.max_level or usual.level, allowed.max_frequency or usual.frequency)

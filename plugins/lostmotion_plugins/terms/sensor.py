@@ -16,7 +16,7 @@ _LEVELS = 30
 """At least so many differences of neighbouring values have to lie on the lattice."""
 _WHOLE = 0.01
 _AWAY = (-4.0, -2.0, -1.0, -0.5, 0.5, 1.0, 2.0, 4.0)
-"""Offsets that are tried beyond the reach of a score test: where there is a gap, a large one looks like other forces."""
+"""Offsets beyond the reach of a score test that are tried: where there is a gap, a large one looks like a force."""
 
 
 @dataclass(frozen=True)
