@@ -7,7 +7,7 @@ import re
 from functools import lru_cache
 from typing import Any, NamedTuple
 
-from lostmotion.errors import DataError
+from lostmotion.errors import DataError, nearest
 
 SI = {
     "force": "N",
@@ -57,7 +57,10 @@ def quantity_of(name: str) -> str:
     last = re.split(r"[_.]", name)[-1]
     if (quantity := "force" if last == "torque" else last) in QUANTITIES:
         return quantity
-    raise DataError(f"{name!r} ends in none of {', '.join(QUANTITIES)}: name it so, for instance 'second_position'")
+    raise DataError(
+        f"{name!r} ends in none of {', '.join(QUANTITIES)}{nearest(last, QUANTITIES)}: name it so, for instance"
+        " 'second_position'"
+    )
 
 
 def unit_of(name: str, motion: str) -> str:
@@ -102,6 +105,8 @@ STIFFNESS = Dimension(1, -1, 0)
 NUMBER = Dimension(0, 0, 0)
 
 
+_NEWTON_METRE = re.compile(r"(?<![^\W\d_])([kmM]?N)m(?!\w)")
+"""Torques as they are mostly written, Nm, where pint reads numbers of metres."""
 _GRAVITY = {"g": "g_0", "mg": "mg_0", "G": "g_0"}
 """How accelerations are written by those who make accelerometers, where pint reads grams."""
 
@@ -124,6 +129,7 @@ def si_factor(unit: str, quantity: str) -> tuple[float, str]:
     if unit in targets:
         return 1.0, unit
     registry = _registry()
+    unit = _NEWTON_METRE.sub(r"\1 m", unit)
     if quantity.endswith("acceleration"):
         unit = _GRAVITY.get(unit, unit)
     try:

@@ -256,6 +256,8 @@ def observation_of(recording: Recording, model: Model, *, held: bool = False) ->
                 f" {name}{nearest(name, model.inputs)}: choose another model or another column"
             )
         inputs[:, model.inputs.index(name)] = rounded(np.asarray(array.values, dtype=float))
+    if "base_velocity" in driven and "base_position" not in driven:
+        raise CaseError(f"{recording.name} has the velocity of the base without its position: give base_position")
     if "base_position" in driven and "base_velocity" in model.inputs and "base_velocity" not in driven:
         spline = smoothing_spline(inputs[:, model.inputs.index("base_position")], recording.dt)
         inputs[:, model.inputs.index("base_velocity")] = spline.derivative()(np.arange(recording.n) * recording.dt)

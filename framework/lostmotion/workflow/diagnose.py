@@ -123,6 +123,16 @@ def _background(prepared: Prepared, outcome: Outcome, seed: int) -> dict[str, An
     settings = {"model": case.model, "known": dict(case.known), "terms": [f"{t.name}@{t.at}" for t in prepared.terms]}
     return {
         "truth": dict(case.truth),
+        "recordings": [
+            {
+                "name": r.name,
+                "samples": r.n,
+                "rate": r.rate,
+                "start": r.start,
+                "inputs": [a.attrs["of"] for a in r.inputs],
+            }
+            for r in prepared.recordings
+        ],
         "notes": notes_of(outcome, prepared.notes),
         "provenance": provenance("diagnose", settings, seed, prepared.inputs),
     }

@@ -66,7 +66,12 @@ class Read:
 
 def signals_of(recording: Recording) -> Signals:
     """Return the longest stretch of a recording without a lost sample."""
-    response, drive = (recording.data[key] for key in ("response", "excitation"))
+    if not recording.inputs:
+        raise CaseError(
+            f"nothing drives the machine in {recording.name}: the quantifier route wants a harmonic drive at one level"
+            " in each recording"
+        )
+    response, drive = recording.sensors[0], recording.inputs[0]
     x = np.asarray(response.to_numpy(), dtype=float)
     lost = np.concatenate([[-1], np.flatnonzero(~np.isfinite(x)), [len(x)]])
     longest = int(np.argmax(np.diff(lost)))

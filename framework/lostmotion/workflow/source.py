@@ -75,27 +75,41 @@ def source_of(path: Path, wanted: Wanted, registry: Registry) -> Source:
 def _of_case(case: Case, wanted: Wanted) -> Source:
     if not case.recordings:
         raise CaseError(f"{case.title!r} has no [[recordings]]: add one, or analyse a recording by itself")
-    names = [spec.label for spec in case.recordings]
-    asked = wanted.column
-    if asked is not None and asked not in names:
-        raise CaseError(f"{case.title!r} has no recording {asked!r}{nearest(asked, names)}: it has {', '.join(names)}")
-    chosen = case.recordings[names.index(asked) if asked else 0]
+    names, asked = [spec.label for spec in case.recordings], wanted.column
+    sensors = [sensor.name for sensor in case.recordings[0].sensors if sensor.name]
+    if asked is not None and asked not in (*names, *sensors):
+        known = [*names, *sensors]
+        raise CaseError(
+            f"{case.title!r} has no recording or sensor {asked!r}{nearest(asked, known)}: it has {', '.join(known)}"
+        )
+    chosen = case.recordings[names.index(asked) if asked in names else 0]
     recording = load_recording(chosen, case.folder)
     notes = list(recording.notes)
-    if len(names) > 1 and asked is None:
+    if len(names) > 1 and asked not in names:
         notes.append(f"The first of {len(names)} recordings is analysed: name another one with --column.")
-    response = recording.data["response"]
-    keep = _whole_stretch(np.asarray(response), notes)
+    if len(sensors) > 1 and asked not in sensors:
+        notes.append(f"The first of {len(sensors)} sensors is analysed: name another one with --column.")
+    response = recording.sensors[sensors.index(asked) if asked in sensors else 0]
+    every = _paced(np.asarray(response))
+    x = np.asarray(response)[every]
+    keep = _whole_stretch(x, notes)
     return Source(
         title=case.title,
-        x=np.asarray(response)[keep],
-        dt=recording.dt,
+        x=x[keep],
+        dt=recording.dt * (every.step or 1),
         unit=str(response.attrs["units"]),
         label=str(response.attrs["quantity"]),
-        excitation=np.asarray(recording.data["excitation"])[keep],
+        excitation=np.asarray(recording.inputs[0])[every][keep] if recording.inputs else None,
         inputs={"case": case.digest, recording.name: recording.digest},
         notes=tuple(notes),
     )
+
+
+def _paced(x: Array) -> slice:
+    """Return which samples are those of a sensor that is read in every k-th row."""
+    taken = np.flatnonzero(np.isfinite(x))
+    step = int(np.median(np.diff(taken))) if len(taken) > 1 else 1
+    return slice(int(taken[0]), None, step) if step > 1 else slice(None)
 
 
 def _whole_stretch(x: Array, notes: list[str]) -> slice:
