@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from lostmotion.report import style
+from lostmotion.report.evidence import Evidence
 from lostmotion.report.words import Scale, with_unit
 from lostmotion.results import Array
 
@@ -26,6 +27,33 @@ class Curve(NamedTuple):
     amplitude: Array
     frequency: Array
     decrement: Array
+
+
+def figure_of(evidence: Evidence) -> Figure | None:
+    """Return the figure of the decays of a diagnosis, or None where none was measured."""
+    measured, before, after = (curves_of(evidence, name) for name in ("measured", "before", "after"))
+    unit = str(evidence.fact("decay", "unit") or evidence.response_unit)
+    return draw(measured, before, after, quantity=f"{evidence.response} amplitude", unit=unit)
+
+
+def caption_of(evidence: Evidence) -> str:
+    """Return what to see in the figure of the decays of a diagnosis."""
+    return caption(len(curves_of(evidence, "measured")), struck=not evidence.fact("drive", "free"))
+
+
+def words(evidence: Evidence) -> str:
+    """Return what a diagnosis says of free decays, or why it measured none; an empty string where it says nothing."""
+    return str(evidence.fact("decay", "says") or "")
+
+
+def curves_of(evidence: Evidence, name: str) -> list[Curve]:
+    """Return the decays of the recording ("measured") or of a model ("before", "after"), those of equal lists only."""
+    found = []
+    for entry in evidence.fact("decay", name) or []:
+        lists = [entry.get(field) for field in Curve._fields] if isinstance(entry, Mapping) else []
+        if lists and all(isinstance(one, list) and one and len(one) == len(lists[0]) for one in lists):
+            found.append(Curve(*(np.array(one, dtype=float) for one in lists)))
+    return found
 
 
 def draw(
@@ -62,11 +90,12 @@ def draw(
     return figure
 
 
-def caption(hits: int = 1) -> str:
-    """Return what to see in the figure of so many hits."""
-    many = f" of {hits} hits" if hits > 1 else ""
+def caption(decays: int = 1, *, struck: bool = True) -> str:
+    """Return what to see in the figure of so many decays, after hits of a hammer if the machine was `struck`."""
+    after = " after each hit" if struck else ""
+    many = f" of {decays} decays{after}" if decays > 1 else f" of the decay{after.replace('each', 'the')}"
     return (
-        f"Each dot is a cycle of the decay{many}: time runs from right to left. Viscous damping and a linear spring "
+        f"Each dot is a cycle{many}, lines are free runs of the model from the same start: time runs from right to left. Viscous damping and a linear spring "
         "give level lines. A decrement that rises to the left is dry friction; one that rises to the right, drag or a "
         "joint that slips. A frequency that falls to the right is a spring that softens with the amplitude."
     )

@@ -39,11 +39,15 @@ def draw(evidence: Evidence) -> Figure | None:
 def caption(evidence: Evidence) -> str:
     """Return what to see in the figure."""
     valid = evidence.fact("valid_prediction_time")
+    floor = (
+        " The noise floor is what the right model would reach from states known no better than these: a curve that "
+        "keeps to it has nothing left to gain."
+    )
+    floor = floor if evidence.has("growth_floor") else ""
     marks = "; the dotted lines mark how long each prediction is valid" if valid else ""
     return (
         "Error of free-running predictions of held-out data over the standard deviation of the response, against the "
-        f"time since the last filtered state{marks}. The noise floor is what the right model would reach from states "
-        "known no better than these: a curve that keeps to it has nothing left to gain."
+        f"time since the last filtered state{marks}." + floor
     )
 
 

@@ -10,6 +10,7 @@ from typing import NamedTuple
 from markupsafe import Markup
 
 from lostmotion.report import (
+    decay,
     growth,
     learned,
     missing,
@@ -18,6 +19,7 @@ from lostmotion.report import (
     posteriors,
     prediction,
     ranking,
+    sensors,
     show,
     style,
     tables,
@@ -35,13 +37,19 @@ class Drawn(NamedTuple):
     caption: str
     table: tables.Table | None
     kind: str = "tight"
+    words: str = ""
 
 
-TABLES = {"parameters": tables.parameters, "show": show.table}
+TABLES = {"parameters": tables.parameters, "sensors": sensors.table, "show": show.table}
+WORDS = {"decay": decay.words}
+TITLES = {"portraits": portraits.title}
+"""What stands above the figure of a section, and titles that depend on what is drawn."""
 PROSE = ("show",)
 """Sections of which the table holds sentences, which have to be broken."""
 SECTIONS = (
     Section("prediction", "Recording and prediction", prediction.draw, prediction.caption),
+    Section("decay", "Free decay", decay.figure_of, decay.caption_of),
+    Section("sensors", "All sensors", sensors.draw, sensors.caption),
     Section("missing", "The force that the model does not explain", missing.draw, missing.caption),
     Section("learned", "The force that was learned", learned.draw, learned.caption),
     Section("ranking", "Which physics it may be", ranking.draw, ranking.caption),
@@ -78,16 +86,18 @@ def render(evidence: Evidence) -> str:
 
 
 def _drawn(evidence: Evidence) -> Iterator[Drawn]:
-    """Return the sections that have a figure or a table."""
+    """Return the sections that have a figure, a table or words."""
     for section in SECTIONS:
         figure = section.draw(evidence)
         table = TABLES[section.name](evidence) if section.name in TABLES else None
-        if figure is not None or (table and table.rows):
+        words = WORDS[section.name](evidence) if section.name in WORDS else ""
+        if figure is not None or (table and table.rows) or words:
             # The markup is drawn by matplotlib, which escapes the words it is given.
             markup = style.embedded(figure, section.name) if figure else Markup()
             caption = section.caption(evidence) if figure else ""
             kind = "prose" if section.name in PROSE else "tight"
-            yield Drawn(section.name, section.title, markup, caption, table, kind)
+            title = TITLES[section.name](evidence) if section.name in TITLES else section.title
+            yield Drawn(section.name, title, markup, caption, table, kind, words)
 
 
 def _provenance(evidence: Evidence) -> str:

@@ -92,6 +92,11 @@ def figures(value: Any, digits: int = 3) -> str:
     return text.rstrip("0").rstrip(".") if "." in text else text
 
 
+def span(number: float, unit: str) -> str:
+    """Return a length in a unit that is written in the plural: "one natural period", "0.5 Lyapunov times"."""
+    return f"{number:g} {unit}" if number != 1 else f"one {unit.rstrip('s')}"
+
+
 def power_of_ten(value: float) -> str:
     """Return a positive number as the tick of a logarithmic axis: `1`, `10⁻⁵`, `2·10⁻⁵`."""
     power = math.floor(math.log10(value) + 1e-9)

@@ -15,7 +15,7 @@ from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.predict import free_run, observed
 from lostmotion.quantities import quantity_of, unit_of
 from lostmotion.recording.doubts import is_impulsive
-from lostmotion.report.words import readable
+from lostmotion.report.words import readable, spoken
 from lostmotion.signals.decay import Decay, decay_of
 from lostmotion.signals.impacts import hits_of, onsets_of
 from lostmotion.signals.trends import says
@@ -27,7 +27,7 @@ KEPT = ("time", "amplitude", "frequency", "decrement", "damping_ratio")
 DIGITS = 5
 BOUND = 1e3
 """A free run beyond so many times the largest reading runs away."""
-PARTS, FEWEST = 4, 3
+PARTS, FEWEST = 8, 3
 """Parts of a decay in which a model is compared with the recording, and the fewest cycles of a part."""
 REACH = 1.2
 """Ratio of amplitudes over which the ends of a decay of a model are carried on."""
@@ -157,7 +157,7 @@ def _named(d: Diagnosis, version: str) -> str:
         return "the model"
     if version == "before":
         return "the nominal model"
-    terms = [term_of(d.after.problem, key)[0].name.replace("_", " ") for key in d.named]
+    terms = [spoken(term_of(d.after.problem, key)[0].name) for key in d.named]
     terms += ["what was learned"] if d.learned else []
     return f"the model with {' and '.join([', '.join(terms[:-1]), terms[-1]] if len(terms) > 1 else terms)}"
 
@@ -190,7 +190,7 @@ def _range(values: Array, what: str, unit: str = "") -> str:
 
 
 def off(seen: Decay, made: Decay, name: str) -> float:
-    """Return how far a model is from the recorded `name` at most, as a share, over four parts of the decay.
+    """Return how far a model is from the recorded `name` at most, as a share, over eight parts of the decay at most.
 
     Only amplitudes count that both have; NaN where these are too few. Loud cycles weigh more, as the noise has it.
     """

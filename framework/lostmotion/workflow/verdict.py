@@ -11,12 +11,15 @@ from lostmotion.inference.candidates import term_of
 from lostmotion.inference.fit import Fit
 from lostmotion.likelihood.system import key_of
 from lostmotion.quantities import quantity_of, unit_of
+from lostmotion.report.words import span
 from lostmotion.stages.compare import Prediction
 from lostmotion.stages.diagnose import Diagnosis
 from lostmotion.workflow.findings import Outcome, found_in, intervals
 from lostmotion.workflow.unknowns import unknown_odds, where
 
 WORTH_NAMING = 0.01
+SMALLEST = 1e-99
+"""A p-value below this is not told from nothing."""
 
 
 def verdict(outcome: Outcome) -> dict[str, Any]:
@@ -62,6 +65,7 @@ def _setting(outcome: Outcome) -> dict[str, Any]:
             "unit": units[2],
             "of": d.yardstick,
             "frequency": 1.0 / (period * d.shown.dt) if period else None,
+            "free": d.shown.free,
         },
         "units": {"position": units[0], "velocity": units[1], "force": units[2], "time": "s"},
         "response": {"quantity": quantity_of(d.shown.channel)},
@@ -81,9 +85,8 @@ def _setting(outcome: Outcome) -> dict[str, Any]:
 
 def _white(p: float) -> str:
     if p < 0.01:
-        return (
-            f"One-step errors are not white (Ljung-Box p = {p:.2g}): they still hold something that can be predicted."
-        )
+        chance = f"p = {p:.2g}" if p > SMALLEST else f"p < {SMALLEST:g}"
+        return f"One-step errors are not white (Ljung-Box {chance}): they still hold something that can be predicted."
     return f"One-step errors cannot be told from white noise (Ljung-Box p = {p:.2g})."
 
 
@@ -164,9 +167,14 @@ def _confused(d: Diagnosis) -> list[dict[str, Any]]:
         key = key_of(term)
         p = 0.0 if d.learned else d.selection.inclusion(key)
         if key not in d.found and p > WORTH_NAMING:
-            says = f"This recording gives {term.name} a probability of {p:.2f}: another drive level would decide."
+            says = f"This recording gives {term.name} a probability of {p:.2f}: {other_level(d)} would decide."
             rows.append({"mechanism": term.name, "at": term.at, "probability": p, "says": says})
     return rows + [row for key in d.named for row in _equal(d, key)]
+
+
+def other_level(d: Diagnosis) -> str:
+    """Return what recording may tell two laws apart that are alike at one size of the motion."""
+    return "a decay from a larger or smaller start" if d.shown.free else "another drive level"
 
 
 def _equal(d: Diagnosis, key: str) -> list[dict[str, Any]]:
@@ -197,12 +205,12 @@ def says(outcome: Outcome, found: list[dict[str, Any]]) -> list[str]:
     """Return the opening sentences of the report."""
     d = outcome.diagnosis
     fit, horizon = _fit(outcome), outcome.horizon
-    span = f"{horizon.number:g} {horizon.unit}" if horizon.number != 1 else f"one {horizon.unit.rstrip('s')}"
+    time = span(horizon.number, horizon.unit)
     if not found:
         error = fit["before"]["heldout_nrmse"]
         return [
             "Nothing is missing that this recording can show.",
-            f"The nominal model predicts held-out data over {span} to {error:.1%} of the response; the noise alone is"
+            f"The nominal model predicts held-out data over {time} to {error:.1%} of the response; the noise alone is"
             f" {fit['noise_floor_nrmse']:.1%}.",
         ]
     if not d.found:
@@ -215,7 +223,7 @@ def says(outcome: Outcome, found: list[dict[str, Any]]) -> list[str]:
     old, new = _unexplained(d, after=False), _unexplained(d, after=True)
     opening.append(
         f"With {'it' if len(found) == 1 else 'them'} the unexplained force falls from {old['rms']:.3g} to"
-        f" {new['rms']:.2g} {new['unit']} (rms), and the free-running prediction error of held-out data over {span}"
+        f" {new['rms']:.2g} {new['unit']} (rms), and the free-running prediction error of held-out data over {time}"
         f" from {fit['before']['heldout_nrmse']:.1%} to {fit['after']['heldout_nrmse']:.1%} of the response; the noise"
         f" alone is {fit['noise_floor_nrmse']:.1%}."
     )
