@@ -19,6 +19,8 @@ WIDE = 8.0
 OUTER = (2.0, 98.0)
 """Percentiles of the measured values between which they are shown at least: the last cycles scatter widely."""
 ROOM = 0.6
+FEW = 80
+"""Cycles of a decay up to which its dots are drawn large."""
 
 
 class Curve(NamedTuple):
@@ -96,8 +98,10 @@ def caption(decays: int = 1, *, struck: bool = True) -> str:
     many = f" of {decays} decays{after}" if decays > 1 else f" of the decay{after.replace('each', 'the')}"
     return (
         f"Each dot is a cycle{many}, lines are free runs of the model from the same start: time runs from right to left. Viscous damping and a linear spring "
-        "give level lines. A decrement that rises to the left is dry friction; one that rises to the right, drag or a "
-        "joint that slips. A frequency that falls to the right is a spring that softens with the amplitude."
+        "give level lines. A decrement that rises to the left is dry friction, or viscous damping under a "
+        "spring that hardens; one that rises to the right, drag or a "
+        "joint that slips. A frequency that rises to the right is a spring that hardens with the amplitude, one that "
+        "falls there a spring that softens. Where the motion dies within a few cycles, frequencies are blurred."
     )
 
 
@@ -110,7 +114,7 @@ def _draw(axes: Axes, curves: Sequence[Curve], field: str, scale: Scale, *, colo
             getattr(curve, field),
             "." if is_measured else "-",
             color=colour,
-            markersize=3.5,
+            markersize=6.0 if curve.amplitude.size < FEW else 3.5,
             alpha=0.55 if is_measured else 1.0,
             linewidth=1.8,
             label=None if count else words,

@@ -12,7 +12,7 @@ from matplotlib.ticker import LogLocator, NullFormatter
 from lostmotion.report import style
 from lostmotion.report.cast import versions
 from lostmotion.report.evidence import Evidence
-from lostmotion.report.words import figures, percent, sentence
+from lostmotion.report.words import chance, figures, percent, sentence
 
 FEW_DECADES = 300.0
 LOWEST = 1e-5
@@ -124,7 +124,7 @@ def whiteness_caption(evidence: Evidence) -> str:
         words = who.named("model")
         says, p = evidence.fact("whiteness", who.key, "says"), evidence.number("whiteness", who.key, "p")
         if says or np.isfinite(p):
-            said.append(f"{words} (p = {figures(p, 2)}): {says}" if says else f"{words}: p = {figures(p, 2)}.")
+            said.append(f"{words} ({chance(p)}): {says}" if says else f"{words}: {chance(p)}.")
     opening = "Autocorrelation of the innovations, the part of each sample that the model did not expect."
     return " ".join(
         [opening, "White ones stay within the grey band but for one lag in twenty.", *(sentence(part) for part in said)]

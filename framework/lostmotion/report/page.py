@@ -26,6 +26,7 @@ from lostmotion.report import (
 )
 from lostmotion.report.evidence import Evidence, read_evidence
 from lostmotion.report.pages import Section, template, written
+from lostmotion.report.words import typeset
 
 
 class Drawn(NamedTuple):
@@ -74,7 +75,7 @@ def render(evidence: Evidence) -> str:
     return template("diagnosis.html.j2").render(
         title=str(evidence.fact("title") or "Diagnosis"),
         badge=opening.badge(evidence),
-        answer=opening.answer(evidence),
+        answer=[typeset(part) for part in opening.answer(evidence)],
         model=evidence.fact("model") or {},
         numbers=tables.key_numbers(evidence),
         mechanisms=tables.mechanisms(evidence),
@@ -97,7 +98,7 @@ def _drawn(evidence: Evidence) -> Iterator[Drawn]:
             caption = section.caption(evidence) if figure else ""
             kind = "prose" if section.name in PROSE else "tight"
             title = TITLES[section.name](evidence) if section.name in TITLES else section.title
-            yield Drawn(section.name, title, markup, caption, table, kind, words)
+            yield Drawn(section.name, title, markup, typeset(caption), table, kind, typeset(words))
 
 
 def _provenance(evidence: Evidence) -> str:

@@ -56,8 +56,10 @@ def caption(evidence: Evidence) -> str:
         if len(_forecasts(evidence)) > 1
         else " Where nothing is missing, the prediction stays on the recording until noise and chaos part them."
     )
+    names = [str(one.get("name")) for one in evidence.fact("sensors") or []]
+    whose = f" of the first sensor, {names[0]}" if len(names) > 1 else ""
     return (
-        "Top: the whole recording, with the part that no fit has seen shaded and the enlarged window outlined. "
+        f"Top: the whole recording{whose}, with the part that no fit has seen shaded and the enlarged window outlined. "
         "Middle: recording and free-running prediction, started anew from a filtered state at each triangle. "
         "Bottom: prediction minus recording." + closing
     )

@@ -14,7 +14,7 @@ from lostmotion.inference.candidates import term_of
 from lostmotion.inference.selection import Visit, related
 from lostmotion.likelihood.system import key_of
 from lostmotion.quantities import unit_of
-from lostmotion.report.words import sentence
+from lostmotion.report.words import sentence, spoken
 from lostmotion.stages.diagnose import Diagnosis
 from lostmotion.stages.experiment import Limits, Proposal, natural_of, propose, usual_limits
 from lostmotion.workflow.verdict import WORTH_NAMING, other_level
@@ -124,7 +124,7 @@ def _opening(term: Term, p: float) -> str:
 
 
 def _called(term: Term) -> str:
-    return term.name.replace("_", " ")
+    return spoken(term.name)
 
 
 def _says(d: Diagnosis, term: Term, p: float, proposal: Proposal) -> str:
