@@ -131,7 +131,9 @@ def draw_window(axes: Axes, evidence: Evidence, window: Window) -> None:
     scale = scale_used(evidence)
     time = evidence.arrays["time"]
     there = _there(seen)
-    axes.plot(time[window.shown][there], scale.factor * seen[there], color=style.RECORDED, linewidth=3, label="recording")
+    axes.plot(
+        time[window.shown][there], scale.factor * seen[there], color=style.RECORDED, linewidth=3, label="recording"
+    )
     for name, colour, words in _forecasts(evidence):
         at, values = _broken(time, evidence.arrays[name], window)
         axes.plot(at, scale.factor * values, color=colour, label=words)

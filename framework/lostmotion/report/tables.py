@@ -9,7 +9,18 @@ import numpy as np
 from lostmotion.report import posteriors
 from lostmotion.report.evidence import Evidence
 from lostmotion.report.opening import found, horizon
-from lostmotion.report.words import DASH, figures, measured, percent, pretty, probability, readable, sentence, spoken, typeset
+from lostmotion.report.words import (
+    DASH,
+    figures,
+    measured,
+    percent,
+    pretty,
+    probability,
+    readable,
+    sentence,
+    spoken,
+    typeset,
+)
 from lostmotion.report.words import interval as in_words
 
 Row = list[str]

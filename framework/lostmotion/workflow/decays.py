@@ -170,7 +170,9 @@ def _beside(who: str, seen: Decay, made: Decay | None) -> str:
     if math.isnan(loss):
         return f"{who} shares too few amplitudes with the recording to be compared"
     if loss < NEAR and pitch < CLOSE:
-        return f"{who} follows the recorded decrement within {_percent(loss)} and the frequency within {_percent(pitch)}"
+        return (
+            f"{who} follows the recorded decrement within {_percent(loss)} and the frequency within {_percent(pitch)}"
+        )
     return (
         f"{who} decays with {_range(made.decrement, 'a decrement')}, up to {_percent(loss)} from the recorded one, and"
         f" {_range(made.frequency, 'a frequency', ' Hz')}, up to {_percent(pitch)} from it"

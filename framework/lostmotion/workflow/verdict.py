@@ -83,7 +83,9 @@ def _setting(outcome: Outcome) -> dict[str, Any]:
 
 def _white(p: float) -> str:
     if p < 0.01:
-        return f"One-step errors are not white (Ljung-Box {chance(p)}): they still hold something that can be predicted."
+        return (
+            f"One-step errors are not white (Ljung-Box {chance(p)}): they still hold something that can be predicted."
+        )
     return f"One-step errors cannot be told from white noise (Ljung-Box p = {p:.2g})."
 
 
