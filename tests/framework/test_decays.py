@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import time
+
 import numpy as np
 import pytest
 
 from lostmotion.likelihood.observation import Observation
-from lostmotion.signals.decay import Decay
+from lostmotion.signals.decay import Decay, decay_of
+from lostmotion.workflow import decays
 from lostmotion.workflow.decays import note_anew, off, stretches_of
 
 DT = 1e-3
@@ -55,8 +58,8 @@ def test_an_input_that_nobody_recorded_is_said_with_its_time():
         (note,) = note_anew(one)
         assert "t_start and t_end" in note
         assert "give it as an input" in note
-        time = float(note.partition("begins anew at ")[2].partition(" s")[0])
-        assert time == pytest.approx(3.0, abs=0.125)
+        at = float(note.partition("begins anew at ")[2].partition(" s")[0])
+        assert at == pytest.approx(3.0, abs=0.125)
         first, second = stretches_of(one)
         assert first == (0, second.start)
         assert second.stop == 6000
@@ -108,3 +111,53 @@ def test_only_amplitudes_that_both_have_are_compared():
     seen = decay(np.geomspace(1.0, 0.1, 40), 0.1, 5.0)
     assert np.isnan(off(seen, decay(np.geomspace(10.0, 2.0, 40), 0.1, 5.0), "decrement"))
     assert off(seen, decay(np.geomspace(1.0, 0.5, 10), 0.11, 5.0), "decrement") == pytest.approx(0.1)
+
+
+class Known:
+    """A fit of which the free run is known: `run` (samples, 2), from whatever start."""
+
+    theta = np.zeros(0)
+
+    def __init__(self, run):
+        self.run, self.problem = run, self
+
+    def on(self, observations):
+        return self
+
+    def smooth(self, theta):
+        return type("Smoothed", (), {"states": np.zeros((6000, 2))})
+
+
+@pytest.mark.parametrize(
+    ("course", "measured"),
+    [
+        (swing(6.0), True),
+        (swing(6.0) + 1e5 * np.arange(6000.0), False),
+        (np.where(np.arange(6000) < 400, swing(6.0), np.inf), False),
+        (np.where(np.arange(6000) < 400, swing(6.0), np.nan), False),
+        (1e250 * swing(6.0), False),
+        (np.exp(-np.arange(6000) / 500.0), False),
+        (np.zeros(6000), False),
+    ],
+)
+def test_a_run_that_diverges_or_creeps_is_no_decay(monkeypatch, course, measured):
+    monkeypatch.setattr(decays, "free_run", lambda problem, theta, y0, start, steps: problem.run[start : start + steps])
+    monkeypatch.setattr(decays, "observed", lambda problem, theta, states, where: states[:, 0])
+    one = observation(noisy(swing(6.0), np.random.default_rng(5)))
+    (stretch,) = stretches_of(one)
+    seen = decay_of(one.response, DT)
+    ((_, made),) = decays._of_model(Known(np.stack([course, course], axis=1)), one, [(stretch, seen)])
+    assert (made is not None) == measured
+    if measured:
+        assert off(seen, made, "decrement") < 0.03
+
+
+def test_ten_hits_and_a_long_ring_take_less_than_a_second():
+    """Cycles are passed over rather than fitted one by one: 3000 cycles, as in ten hits of 300."""
+    response = noisy(swing(60.0, damping=2e-4, frequency=50.0), np.random.default_rng(6), 1e-4)
+    begun = time.perf_counter()
+    found = decay_of(response, DT, most=decays.MOST_CYCLES)
+    assert time.perf_counter() - begun < 1.0
+    assert 100 < found.time.size <= decays.MOST_CYCLES
+    assert np.median(found.decrement) == pytest.approx(2.0 * np.pi * 2e-4, abs=5e-5)
+    assert np.median(found.frequency) == pytest.approx(50.0, rel=1e-4)

@@ -53,7 +53,8 @@ def curves_of(evidence: Evidence, name: str) -> list[Curve]:
     found = []
     for entry in evidence.fact("decay", name) or []:
         lists = [entry.get(field) for field in Curve._fields] if isinstance(entry, Mapping) else []
-        if lists and all(isinstance(one, list) and one and len(one) == len(lists[0]) for one in lists):
+        lengths = {len(one) if isinstance(one, list) else 0 for one in lists}
+        if len(lengths) == 1 and lengths != {0}:
             found.append(Curve(*(np.array(one, dtype=float) for one in lists)))
     return found
 
@@ -94,14 +95,14 @@ def draw(
 
 def caption(decays: int = 1, *, struck: bool = True) -> str:
     """Return what to see in the figure of so many decays, after hits of a hammer if the machine was `struck`."""
-    after = " after each hit" if struck else ""
-    many = f" of {decays} decays{after}" if decays > 1 else f" of the decay{after.replace('each', 'the')}"
+    which = f"of {decays} decays" if decays > 1 else "of the decay"
+    after = f" after {'each' if decays > 1 else 'the'} hit" if struck else ""
     return (
-        f"Each dot is a cycle{many}, lines are free runs of the model from the same start: time runs from right to left. Viscous damping and a linear spring "
-        "give level lines. A decrement that rises to the left is dry friction, or viscous damping under a "
-        "spring that hardens; one that rises to the right, drag or a "
-        "joint that slips. A frequency that rises to the right is a spring that hardens with the amplitude, one that "
-        "falls there a spring that softens. Where the motion dies within a few cycles, frequencies are blurred."
+        f"Each dot is a cycle {which}{after}, lines are free runs of the model from the same start: time runs from "
+        "right to left. Viscous damping and a linear spring give level lines. A decrement that rises to the left is "
+        "dry friction, or viscous damping under a spring that hardens; one that rises to the right, drag or a joint "
+        "that slips. A frequency that rises to the right is a spring that hardens with the amplitude, one that falls "
+        "there a spring that softens. Where the motion dies within a few cycles, frequencies are blurred."
     )
 
 

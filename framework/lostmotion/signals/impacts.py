@@ -160,8 +160,9 @@ def onsets_of(values: ArrayLike, dt: float) -> tuple[int, ...]:
     """Return the sample numbers at which a vibration begins anew in a response (n,), taken every `dt` s.
 
     There the largest deviation from the median within half a period of the strongest frequency is 2.5 times that of the
-    eight periods before, and half a period to two periods later still 1.5 times, so a lost sample is none. Where the first eight periods
-    are 2.5 times as large as the quiet tenth of all, there is an onset in them, at the first sample if they begin loud.
+    eight periods before, and half a period to two periods later still 1.5 times, so a lost sample is none. Where the
+    first eight periods are 2.5 times as large as the quiet tenth of all, there is an onset in them, at the first sample
+    if they begin loud.
     A hit into a vibration that is still loud is not seen.
     """
     size = np.abs(_checked(values, dt))

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from lostmotion.contracts import Array
 from lostmotion.inference.candidates import term_of
@@ -29,6 +30,8 @@ BOUND = 1e3
 """A free run beyond so many times the largest reading runs away."""
 PARTS, FEWEST = 8, 3
 """Parts of a decay in which a model is compared with the recording, and the fewest cycles of a part."""
+KNOWN, SURE, OVERLAP = 0.02, 3.0, 5
+"""Relative error up to which a part is known; errors that make a difference; cycles that share their noise."""
 REACH = 1.2
 """Ratio of amplitudes over which the ends of a decay of a model are carried on."""
 LEVEL, NEAR, CLOSE = 0.05, 0.15, 0.02
@@ -194,7 +197,9 @@ def _range(values: Array, what: str, unit: str = "") -> str:
 def off(seen: Decay, made: Decay, name: str) -> float:
     """Return how far a model is from the recorded `name` at most, as a share, over eight parts of the decay at most.
 
-    Only amplitudes count that both have; NaN where these are too few. Loud cycles weigh more, as the noise has it.
+    Only amplitudes count that both have; NaN where these are too few. Loud cycles weigh more, as the noise has it. A
+    part counts where its mean is known to 2 % (neighbouring cycles share their noise), or the model is three standard
+    errors away from it; where none does, all cycles make one part.
     """
     order = np.argsort(made.amplitude)
     size = made.amplitude[order]
@@ -202,7 +207,15 @@ def off(seen: Decay, made: Decay, name: str) -> float:
     if shared.size < FEWEST:
         return math.nan
     expected = np.interp(np.log(seen.amplitude[shared]), np.log(size), getattr(made, name)[order])
-    weights, values = seen.amplitude[shared] ** 2, getattr(seen, name)[shared]
+    values, errors = getattr(seen, name)[shared], getattr(seen, f"{name}_error")[shared]
+    weights = seen.amplitude[shared] ** 2
+
+    def part(inside: NDArray[np.intp]) -> tuple[float, bool]:
+        model, true = (float(np.average(v[inside], weights=weights[inside])) for v in (expected, values))
+        error = math.sqrt(OVERLAP * float(np.sum((weights * errors)[inside] ** 2))) / float(np.sum(weights[inside]))
+        apart, scale = abs(model - true), max(abs(true), 1e-300)
+        return apart / scale, error < KNOWN * scale or apart > SURE * error
+
     parts = np.array_split(np.arange(shared.size), min(PARTS, shared.size // FEWEST))
-    means = [(np.average(expected[p], weights=weights[p]), np.average(values[p], weights=weights[p])) for p in parts]
-    return max(float(abs(model / max(abs(true), 1e-300) - math.copysign(1.0, true))) for model, true in means)
+    counted = [share for share, counts in map(part, parts) if counts]
+    return max(counted) if counted else part(np.arange(shared.size))[0]
