@@ -156,7 +156,7 @@ def test_what_was_learned_is_drawn_with_its_band_and_its_proposal(tmp_path):
     }
     page = _page(tmp_path, facts)
     assert "section-learned" in page
-    assert "A proposal, not a finding. It reads 1e+06 N/m^3 x^3." in page
+    assert "A proposal, not a finding. It reads 1·10⁶ N/m³ x³." in page
 
 
 def test_what_noise_would_show_as_well_is_told_from_what_it_would_not(data, tmp_path):
@@ -168,7 +168,9 @@ def test_what_noise_would_show_as_well_is_told_from_what_it_would_not(data, tmp_
 
 def test_a_mismatch_without_sentences_is_told_from_its_numbers(tmp_path):
     page = _page(tmp_path, made.mismatch() | {"says": []})
-    assert _heading(page) == "Dry friction of 3.01 N [2.97, 3.05] opposes the motion, 3.0 % of the drive."
+    assert (
+        _heading(page) == "Dry friction of 3.01 N [2.97, 3.05] opposes the motion, 3.0\N{NO-BREAK SPACE}% of the drive."
+    )
     assert "With it the unexplained force falls from 3.1 N to 0.05 N" in page
 
 

@@ -2,9 +2,25 @@
 
 from __future__ import annotations
 
+import importlib.util
+import re
+from pathlib import Path
+from types import ModuleType
+
 import numpy as np
 
-from lostmotion.report import decay, style
+from lostmotion.report import decay, style, write_report
+from lostmotion.report.evidence import read_evidence
+
+
+def _load() -> ModuleType:
+    spec = importlib.util.spec_from_file_location("report_fixture", Path(__file__).with_name("report_fixture.py"))
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+made = _load()
 
 
 def curve(bend=0.0, scatter=0.0):
@@ -45,5 +61,65 @@ def test_wild_cycles_and_models_do_not_set_the_scale():
 
 def test_without_a_decay_there_is_no_figure():
     assert decay.draw([], unit="m") is None
-    assert "3 hits" in decay.caption(3)
-    assert "hits" not in decay.caption()
+    assert "3 decays after each hit" in decay.caption(3)
+    assert "after the hit" in decay.caption()
+    assert "hit" not in decay.caption(struck=False)
+
+
+def listed(one):
+    """Return a curve as `diagnosis.json` has it."""
+    return {name: getattr(one, name).tolist() for name in decay.Curve._fields}
+
+
+DECAY = {
+    "says": "The frequency stays at 24 Hz <i>; the model follows within 4 %.",
+    "unit": "m",
+    "measured": [listed(curve(-50.0, 0.01)), listed(curve(-50.0, 0.01))],
+    "before": [listed(curve())],
+    "after": [listed(curve(-50.0))],
+}
+
+
+def page_of(folder, facts):
+    made.write(folder, facts, made.arrays(periods=20))
+    return write_report(folder).read_text(encoding="utf-8")
+
+
+def test_the_page_shows_decays_after_the_prediction(tmp_path):
+    page = page_of(tmp_path, made.mismatch() | {"decay": DECAY})
+    assert page.index("section-prediction") < page.index("section-decay") < page.index("section-missing")
+    assert "The frequency stays at 24 Hz &lt;i&gt;; the model follows within 4\N{NO-BREAK SPACE}%." in page
+    assert "Each dot is a cycle of 2 decays after each hit" in page
+
+
+def test_a_decay_that_could_not_be_measured_is_said_without_a_figure(tmp_path):
+    page = page_of(tmp_path, made.mismatch() | {"decay": {"says": "No free decay could be measured."}})
+    section = page.partition('id="section-decay"')[2].partition("</section>")[0]
+    assert "No free decay could be measured." in section
+    assert "<figure>" not in section
+
+
+def test_a_recording_without_decays_has_no_section(tmp_path):
+    assert "section-decay" not in page_of(tmp_path, made.mismatch())
+
+
+def test_lists_of_different_lengths_are_not_drawn(tmp_path):
+    broken = {**listed(curve()), "frequency": [24.0]}
+    evidence = read_evidence(made.write(tmp_path, made.mismatch() | {"decay": DECAY | {"measured": [broken]}}))
+    assert decay.curves_of(evidence, "measured") == []
+    assert decay.figure_of(evidence) is None
+
+
+def test_where_nothing_drives_the_page_speaks_of_no_drive(tmp_path):
+    facts = made.mismatch() | {"decay": DECAY}
+    facts["drive"] = {"amplitude": 3.0, "unit": "N", "of": "the inertial force", "frequency": None, "free": True}
+    data = made.arrays(periods=20)
+    data = data.drop_vars([name for name in data.variables if name.startswith("section_")] + ["excitation"])
+    made.write(tmp_path, facts, data)
+    page = write_report(tmp_path).read_text(encoding="utf-8")
+    words = re.sub(r"<figure>.*?<figcaption>|<details>.*", "", page, flags=re.DOTALL)
+    assert "<h2>Phase portrait</h2>" in page
+    assert "Its share of the inertial force" in page
+    assert "Poincar" not in words
+    assert "winds inwards" in words
+    assert "hit" not in words.partition("Free decay")[2].partition("</section>")[0].replace("white", "")

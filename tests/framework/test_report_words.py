@@ -7,6 +7,7 @@ import pytest
 from lostmotion.report.words import (
     DASH,
     Scale,
+    chance,
     figures,
     interval,
     measured,
@@ -14,7 +15,9 @@ from lostmotion.report.words import (
     pretty,
     probability,
     readable,
+    span,
     spoken,
+    typeset,
 )
 
 
@@ -79,3 +82,24 @@ def test_names_units_and_shares():
 @pytest.mark.parametrize(("value", "said"), [(1.0, "> 0.999"), (0.0, "< 0.001"), (0.97, "0.970"), (None, DASH)])
 def test_a_probability_is_never_rounded_to_certainty(value, said):
     assert probability(value) == said
+
+
+@pytest.mark.parametrize(
+    ("text", "page"),
+    [
+        ("up to 54 % of it", "up to 54\N{NO-BREAK SPACE}% of it"),
+        ("9.992e+05 N/m^3 [9.977e+05, 1e-06]", "9.992·10⁵ N/m³ [9.977·10⁵, 1·10⁻⁶]"),
+        ("5.2 N s^2/m^2, 64% +- 10%", "5.2 N s²/m², 64% ± 10%"),
+        ("run1e2x and 2^8", "run1e2x and 2^8"),
+    ],
+)
+def test_sentences_are_set_as_on_a_page(text, page):
+    assert typeset(text) == page
+
+
+def test_lengths_and_p_values_are_said_in_words():
+    assert span(1.0, "natural periods") == "one natural period"
+    assert span(0.5, "Lyapunov times") == "0.5 Lyapunov times"
+    assert chance(0.031) == "p = 0.031"
+    assert chance(0.0) == "p < 1e-99"
+    assert chance(None) == f"p = {DASH}"

@@ -117,7 +117,8 @@ def summary(table: Mapping[str, Array], force: Array, found: Mapping[str, Share]
     values = {name: share.value for name, share in found.items()}
     known = [name for name in significant(found) if values[name] >= WORTH_SAYING]
     if not known:
-        return "no structure over position, velocity, phase or time that noise would not show as well"
+        asked = [name for name in ("position", "velocity", "phase", "time") if name in table]
+        return f"no structure over {', '.join(asked[:-1])} or {asked[-1]} that noise would not show as well"
     name = known[0]
     if name.startswith("velocity"):
         sign = name.replace("velocity", "sign of velocity")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from lostmotion.report import style
+from lostmotion.report.evidence import Evidence
 from lostmotion.report.words import Scale, with_unit
 from lostmotion.results import Array
 
@@ -18,6 +19,8 @@ WIDE = 8.0
 OUTER = (2.0, 98.0)
 """Percentiles of the measured values between which they are shown at least: the last cycles scatter widely."""
 ROOM = 0.6
+FEW = 80
+"""Cycles of a decay up to which its dots are drawn large."""
 
 
 class Curve(NamedTuple):
@@ -26,6 +29,34 @@ class Curve(NamedTuple):
     amplitude: Array
     frequency: Array
     decrement: Array
+
+
+def figure_of(evidence: Evidence) -> Figure | None:
+    """Return the figure of the decays of a diagnosis, or None where none was measured."""
+    measured, before, after = (curves_of(evidence, name) for name in ("measured", "before", "after"))
+    unit = str(evidence.fact("decay", "unit") or evidence.response_unit)
+    return draw(measured, before, after, quantity=f"{evidence.response} amplitude", unit=unit)
+
+
+def caption_of(evidence: Evidence) -> str:
+    """Return what to see in the figure of the decays of a diagnosis."""
+    return caption(len(curves_of(evidence, "measured")), struck=not evidence.fact("drive", "free"))
+
+
+def words(evidence: Evidence) -> str:
+    """Return what a diagnosis says of free decays, or why it measured none; an empty string where it says nothing."""
+    return str(evidence.fact("decay", "says") or "")
+
+
+def curves_of(evidence: Evidence, name: str) -> list[Curve]:
+    """Return the decays of the recording ("measured") or of a model ("before", "after"), those of equal lists only."""
+    found = []
+    for entry in evidence.fact("decay", name) or []:
+        lists = [entry.get(field) for field in Curve._fields] if isinstance(entry, Mapping) else []
+        lengths = {len(one) if isinstance(one, list) else 0 for one in lists}
+        if len(lengths) == 1 and lengths != {0}:
+            found.append(Curve(*(np.array(one, dtype=float) for one in lists)))
+    return found
 
 
 def draw(
@@ -62,13 +93,16 @@ def draw(
     return figure
 
 
-def caption(hits: int = 1) -> str:
-    """Return what to see in the figure of so many hits."""
-    many = f" of {hits} hits" if hits > 1 else ""
+def caption(decays: int = 1, *, struck: bool = True) -> str:
+    """Return what to see in the figure of so many decays, after hits of a hammer if the machine was `struck`."""
+    which = f"of {decays} decays" if decays > 1 else "of the decay"
+    after = f" after {'each' if decays > 1 else 'the'} hit" if struck else ""
     return (
-        f"Each dot is a cycle of the decay{many}: time runs from right to left. Viscous damping and a linear spring "
-        "give level lines. A decrement that rises to the left is dry friction; one that rises to the right, drag or a "
-        "joint that slips. A frequency that falls to the right is a spring that softens with the amplitude."
+        f"Each dot is a cycle {which}{after}, lines are free runs of the model from the same start: time runs from "
+        "right to left. Viscous damping and a linear spring give level lines. A decrement that rises to the left is "
+        "dry friction, or viscous damping under a spring that hardens; one that rises to the right, drag or a joint "
+        "that slips. A frequency that rises to the right is a spring that hardens with the amplitude, one that falls "
+        "there a spring that softens. Where the motion dies within a few cycles, frequencies are blurred."
     )
 
 
@@ -81,7 +115,7 @@ def _draw(axes: Axes, curves: Sequence[Curve], field: str, scale: Scale, *, colo
             getattr(curve, field),
             "." if is_measured else "-",
             color=colour,
-            markersize=3.5,
+            markersize=6.0 if curve.amplitude.size < FEW else 3.5,
             alpha=0.55 if is_measured else 1.0,
             linewidth=1.8,
             label=None if count else words,

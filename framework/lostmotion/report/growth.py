@@ -12,7 +12,7 @@ from matplotlib.ticker import LogLocator, NullFormatter
 from lostmotion.report import style
 from lostmotion.report.cast import versions
 from lostmotion.report.evidence import Evidence
-from lostmotion.report.words import figures, percent, sentence
+from lostmotion.report.words import chance, figures, percent, sentence
 
 FEW_DECADES = 300.0
 LOWEST = 1e-5
@@ -39,11 +39,15 @@ def draw(evidence: Evidence) -> Figure | None:
 def caption(evidence: Evidence) -> str:
     """Return what to see in the figure."""
     valid = evidence.fact("valid_prediction_time")
+    floor = (
+        " The noise floor is what the right model would reach from states known no better than these: a curve that "
+        "keeps to it has nothing left to gain."
+    )
+    floor = floor if evidence.has("growth_floor") else ""
     marks = "; the dotted lines mark how long each prediction is valid" if valid else ""
     return (
         "Error of free-running predictions of held-out data over the standard deviation of the response, against the "
-        f"time since the last filtered state{marks}. The noise floor is what the right model would reach from states "
-        "known no better than these: a curve that keeps to it has nothing left to gain."
+        f"time since the last filtered state{marks}." + floor
     )
 
 
@@ -120,7 +124,7 @@ def whiteness_caption(evidence: Evidence) -> str:
         words = who.named("model")
         says, p = evidence.fact("whiteness", who.key, "says"), evidence.number("whiteness", who.key, "p")
         if says or np.isfinite(p):
-            said.append(f"{words} (p = {figures(p, 2)}): {says}" if says else f"{words}: p = {figures(p, 2)}.")
+            said.append(f"{words} ({chance(p)}): {says}" if says else f"{words}: {chance(p)}.")
     opening = "Autocorrelation of the innovations, the part of each sample that the model did not expect."
     return " ".join(
         [opening, "White ones stay within the grey band but for one lag in twenty.", *(sentence(part) for part in said)]

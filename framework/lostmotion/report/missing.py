@@ -39,7 +39,7 @@ def caption(evidence: Evidence) -> str:
     """Return what to see in the figure."""
     summary = evidence.fact("where", "summary")
     opening = f"The missing force: {summary}. " if summary else ""
-    body = f"Lines are the mean in each bin, bands hold 95 % of the samples. {_tested(evidence)}"
+    body = f"Lines are the mean in each bin, bands hold 95 % of the samples. {_tested(evidence)}{_sought(evidence)}"
     if len(versions(evidence)) == 1 or not evidence.has("after_mean"):
         return f"{opening}{body}A force that was left out would show as a curve that leaves zero."
     return f"{opening}{body}" + (
@@ -47,6 +47,13 @@ def caption(evidence: Evidence) -> str:
         "taken out, blue what is left with it"
         + (", and the dashed green line is the law that was learnt." if evidence.has("law_mean") else ".")
     )
+
+
+def _sought(evidence: Evidence) -> str:
+    """Return where the force is sought, for machines of several bodies."""
+    several = evidence.number("where", "bodies") > 1
+    said = "It is sought on the first body: a force that acts elsewhere shows only through what it does there. "
+    return said if several else ""
 
 
 def _tested(evidence: Evidence) -> str:

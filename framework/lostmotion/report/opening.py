@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 from lostmotion.report.evidence import Evidence
-from lostmotion.report.words import DASH, measured, percent, sentence, spoken
+from lostmotion.report.words import DASH, measured, percent, sentence, span, spoken
 
 ADEQUATE = "Nothing is missing that this recording can show."
 
@@ -75,7 +75,7 @@ def horizon(evidence: Evidence) -> str:
         return ""
     chaotic = any(evidence.number("lyapunov", when) > 0 for when in ("before", "after"))
     unit = evidence.fact("fit", "horizon_unit") or ("Lyapunov times" if chaotic else "drive periods")
-    return f" over {length:g} {unit}"
+    return f" over {span(length, str(unit))}"
 
 
 def confused(evidence: Evidence) -> list[str]:

@@ -10,6 +10,7 @@ from typing import NamedTuple
 from markupsafe import Markup
 
 from lostmotion.report import (
+    decay,
     growth,
     learned,
     missing,
@@ -18,12 +19,14 @@ from lostmotion.report import (
     posteriors,
     prediction,
     ranking,
+    sensors,
     show,
     style,
     tables,
 )
 from lostmotion.report.evidence import Evidence, read_evidence
 from lostmotion.report.pages import Section, template, written
+from lostmotion.report.words import typeset
 
 
 class Drawn(NamedTuple):
@@ -35,13 +38,19 @@ class Drawn(NamedTuple):
     caption: str
     table: tables.Table | None
     kind: str = "tight"
+    words: str = ""
 
 
-TABLES = {"parameters": tables.parameters, "show": show.table}
+TABLES = {"parameters": tables.parameters, "sensors": sensors.table, "show": show.table}
+WORDS = {"decay": decay.words}
+TITLES = {"portraits": portraits.title}
+"""What stands above the figure of a section, and titles that depend on what is drawn."""
 PROSE = ("show",)
 """Sections of which the table holds sentences, which have to be broken."""
 SECTIONS = (
     Section("prediction", "Recording and prediction", prediction.draw, prediction.caption),
+    Section("decay", "Free decay", decay.figure_of, decay.caption_of),
+    Section("sensors", "All sensors", sensors.draw, sensors.caption),
     Section("missing", "The force that the model does not explain", missing.draw, missing.caption),
     Section("learned", "The force that was learned", learned.draw, learned.caption),
     Section("ranking", "Which physics it may be", ranking.draw, ranking.caption),
@@ -66,7 +75,7 @@ def render(evidence: Evidence) -> str:
     return template("diagnosis.html.j2").render(
         title=str(evidence.fact("title") or "Diagnosis"),
         badge=opening.badge(evidence),
-        answer=opening.answer(evidence),
+        answer=[typeset(part) for part in opening.answer(evidence)],
         model=evidence.fact("model") or {},
         numbers=tables.key_numbers(evidence),
         mechanisms=tables.mechanisms(evidence),
@@ -78,16 +87,18 @@ def render(evidence: Evidence) -> str:
 
 
 def _drawn(evidence: Evidence) -> Iterator[Drawn]:
-    """Return the sections that have a figure or a table."""
+    """Return the sections that have a figure, a table or words."""
     for section in SECTIONS:
         figure = section.draw(evidence)
         table = TABLES[section.name](evidence) if section.name in TABLES else None
-        if figure is not None or (table and table.rows):
+        words = WORDS[section.name](evidence) if section.name in WORDS else ""
+        if figure is not None or (table and table.rows) or words:
             # The markup is drawn by matplotlib, which escapes the words it is given.
             markup = style.embedded(figure, section.name) if figure else Markup()
             caption = section.caption(evidence) if figure else ""
             kind = "prose" if section.name in PROSE else "tight"
-            yield Drawn(section.name, section.title, markup, caption, table, kind)
+            title = TITLES[section.name](evidence) if section.name in TITLES else section.title
+            yield Drawn(section.name, title, markup, typeset(caption), table, kind, typeset(words))
 
 
 def _provenance(evidence: Evidence) -> str:

@@ -42,6 +42,11 @@ def draw(evidence: Evidence) -> Figure | None:
     return figure
 
 
+def title(evidence: Evidence) -> str:
+    """Return the heading: without a drive period there are no sections."""
+    return "Phase portrait and Poincaré section" if _columns(evidence, "section") else "Phase portrait"
+
+
 def caption(evidence: Evidence) -> str:
     """Return what to see in the figure."""
     parts = []
@@ -49,7 +54,13 @@ def caption(evidence: Evidence) -> str:
         parts.append("phase portraits")
     if evidence.has("section_recorded_x"):
         parts.append("Poincaré sections, one point for each drive period (pale dots: the recording)")
-    return sentence(" and ".join(parts)) + (
+    opening = sentence(" and ".join(parts))
+    if evidence.fact("drive", "free"):
+        return (
+            f"{opening}. All panels share their axes. A model with the right physics winds inwards along the same turns"
+            " as the recording, and comes to rest at the same place."
+        )
+    return opening + (
         ". All panels of a row share their axes. A model with the right physics fills the same region with the same "
         "folds; in chaos the orbits themselves need not agree point by point."
     )

@@ -56,8 +56,10 @@ def caption(evidence: Evidence) -> str:
         if len(_forecasts(evidence)) > 1
         else " Where nothing is missing, the prediction stays on the recording until noise and chaos part them."
     )
+    names = [str(one.get("name")) for one in evidence.fact("sensors") or []]
+    whose = f" of the first sensor, {names[0]}" if len(names) > 1 else ""
     return (
-        "Top: the whole recording, with the part that no fit has seen shaded and the enlarged window outlined. "
+        f"Top: the whole recording{whose}, with the part that no fit has seen shaded and the enlarged window outlined. "
         "Middle: recording and free-running prediction, started anew from a filtered state at each triangle. "
         "Bottom: prediction minus recording." + closing
     )
@@ -83,10 +85,17 @@ def _around(evidence: Evidence, record: NDArray[np.intp], centre: int) -> NDArra
     time = evidence.arrays["time"][record]
     frequency = evidence.number("drive", "frequency")
     whole = float(time[-1] - time[0])
-    length = min(whole, PERIODS_SHOWN / frequency if frequency > 0 else whole / 8)
+    cycle = 1.0 / frequency if frequency > 0 else _natural_period(evidence)
+    length = min(whole, PERIODS_SHOWN * cycle if cycle > 0 else whole / 8)
     start = min(max(float(evidence.arrays["time"][centre]) - length / 12, time[0]), time[-1] - length)
     shown: NDArray[np.intp] = record[(time >= start) & (time <= start + length)]
     return shown
+
+
+def _natural_period(evidence: Evidence) -> float:
+    """Return the natural period (s) where predictions are judged over so many of them, else NaN."""
+    is_unit = evidence.fact("fit", "horizon_unit") == "natural periods"
+    return evidence.number("fit", "horizon_unit_time") if is_unit else float("nan")
 
 
 def draw_overview(axes: Axes, evidence: Evidence, window: Window) -> None:
@@ -121,7 +130,10 @@ def draw_window(axes: Axes, evidence: Evidence, window: Window) -> None:
     seen = evidence.arrays["response"][window.shown]
     scale = scale_used(evidence)
     time = evidence.arrays["time"]
-    axes.plot(time[window.shown], scale.factor * seen, color=style.RECORDED, linewidth=3, label="recording")
+    there = _there(seen)
+    axes.plot(
+        time[window.shown][there], scale.factor * seen[there], color=style.RECORDED, linewidth=3, label="recording"
+    )
     for name, colour, words in _forecasts(evidence):
         at, values = _broken(time, evidence.arrays[name], window)
         axes.plot(at, scale.factor * values, color=colour, label=words)
@@ -140,9 +152,16 @@ def draw_error(axes: Axes, evidence: Evidence, window: Window) -> None:
     axes.axhline(0, color=style.RECORDED, linewidth=0.8)
     for name, colour, _ in _forecasts(evidence):
         at, values = _broken(time, errors[name], window)
-        axes.plot(at, scale.factor * values, color=colour)
+        there = _there(values)
+        axes.plot(at[there], scale.factor * values[there], color=colour)
     axes.set_ylim(style.span_of(scale.factor * shown, 0.08))
     _finish(axes, evidence, window, with_unit("error", scale.unit))
+
+
+def _there(values: Array) -> NDArray[np.bool_]:
+    """Return what to draw of values (n,): all, with gaps at NaN, or finite ones alone of a sensor read more rarely."""
+    finite = np.isfinite(values)
+    return finite if np.mean(finite) < 0.6 else np.ones_like(finite)
 
 
 def _forecasts(evidence: Evidence) -> list[tuple[str, str, str]]:

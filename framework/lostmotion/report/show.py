@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from lostmotion.report.evidence import Evidence
 from lostmotion.report.tables import Table
-from lostmotion.report.words import DASH, figures, percent, pretty
+from lostmotion.report.words import DASH, chance, figures, percent, pretty
 
 NAMES = {
     "heldout_log_score": "Held-out log score per sample",
@@ -58,7 +58,7 @@ def _cell(name: str, entry: Any) -> str:
     if name == "heldout_log_score":
         return figures(entry, 4)
     if name == "whiteness":
-        return f"p = {figures(entry.get('p'), 2)}"
+        return chance(entry.get("p"))
     if name == "attractor_distance":
         p = entry.get("p")
         return DASH if p is None else f"{figures(entry.get('value'), 2)} {_whole(f'(p = {figures(p, 2)})')}"

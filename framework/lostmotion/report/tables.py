@@ -9,7 +9,18 @@ import numpy as np
 from lostmotion.report import posteriors
 from lostmotion.report.evidence import Evidence
 from lostmotion.report.opening import found, horizon
-from lostmotion.report.words import DASH, figures, measured, percent, pretty, probability, readable, sentence, spoken
+from lostmotion.report.words import (
+    DASH,
+    figures,
+    measured,
+    percent,
+    pretty,
+    probability,
+    readable,
+    sentence,
+    spoken,
+    typeset,
+)
 from lostmotion.report.words import interval as in_words
 
 Row = list[str]
@@ -32,7 +43,7 @@ def _trimmed(head: Row, rows: list[Row]) -> Table:
 def mechanisms(evidence: Evidence) -> Table:
     """Return mechanism, probability, and what is said of it."""
     rows = [
-        [_named(entry), probability(entry.get("probability")), str(entry.get("says") or "")]
+        [_named(entry), probability(entry.get("probability")), typeset(str(entry.get("says") or ""))]
         for entry in found(evidence)
     ]
     return _trimmed(["Mechanism found", "Probability", "In words"], rows)
@@ -44,7 +55,7 @@ def key_numbers(evidence: Evidence) -> Table:
         ["Unexplained force, r.m.s.", *_forces(evidence), DASH],
         [f"Its share of {evidence.fact('drive', 'of') or 'the drive'}", *_shares(evidence), DASH],
         [f"Prediction error{horizon(evidence)}", *_fit(evidence, "heldout_nrmse", percent), _floor(evidence)],
-        ["Held-out log score per sample", *_fit(evidence, "heldout_log_score", figures), DASH],
+        ["Held-out log score per sample", *_fit(evidence, "heldout_log_score", _score), DASH],
         ["Predictions are valid for", *(_valid(evidence, when) for when in ("before", "after", "floor"))],
         ["Largest Lyapunov exponent", *(_exponent(evidence, when) for when in ("before", "after")), DASH],
     ]
@@ -104,6 +115,10 @@ def _placed(evidence: Evidence, before: str, after: str) -> Row:
 
 def _fit(evidence: Evidence, key: str, shown: Any) -> Row:
     return [shown(evidence.number("fit", when, key)) for when in ("before", "after")]
+
+
+def _score(value: float) -> str:
+    return figures(value, 4)
 
 
 def _floor(evidence: Evidence) -> str:

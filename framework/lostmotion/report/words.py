@@ -35,6 +35,8 @@ PROPER = {
     "ghkss": "GHKSS",
 }
 DASH = "–"
+SMALLEST = 1e-99
+"""A p-value below this is not told from nothing."""
 
 
 class Scale(NamedTuple):
@@ -64,6 +66,13 @@ def with_unit(name: str, unit: str) -> str:
     return f"{name} ({pretty(unit)})" if pretty(unit) else name
 
 
+def typeset(text: str) -> str:
+    """Return a sentence as it stands on a page: raised powers, powers of ten, and no line break before "%"."""
+    powers = re.sub(r"(?<=\d)e([+-]?)0*(\d+)\b", lambda m: f"·10{(m[1].strip('+') + m[2]).translate(RAISED)}", text)
+    raised = re.sub(r"(?<=[A-Za-z])\^(-?\d+)", lambda m: m[1].translate(RAISED), powers)
+    return raised.replace(" +- ", " ± ").replace(" %", "\N{NO-BREAK SPACE}%")
+
+
 def spoken(name: str) -> str:
     """Return a name such as `coulomb_friction` as words: `Coulomb friction`."""
     return (
@@ -90,6 +99,11 @@ def figures(value: Any, digits: int = 3) -> str:
         return f"{mantissa.rstrip('0').rstrip('.') if '.' in mantissa else mantissa}e{int(exponent)}"
     text = _signed(f"{value:.{max(0, digits - 1 - power)}f}")
     return text.rstrip("0").rstrip(".") if "." in text else text
+
+
+def span(number: float, unit: str) -> str:
+    """Return a length in a unit that is written in the plural: "one natural period", "0.5 Lyapunov times"."""
+    return f"{number:g} {unit}" if number != 1 else f"one {unit.rstrip('s')}"
 
 
 def power_of_ten(value: float) -> str:
@@ -126,6 +140,12 @@ def probability(value: Any) -> str:
     if value > 0.999:
         return "> 0.999"
     return "< 0.001" if value < 0.001 else f"{value:.3f}"
+
+
+def chance(p: Any) -> str:
+    """Return a p-value as `p = 0.03`: one that is no more than rounding is said to be small, and not nothing."""
+    known = isinstance(p, int | float) and math.isfinite(p)
+    return f"p < {figures(SMALLEST)}" if known and p < SMALLEST else f"p = {figures(p, 2)}"
 
 
 def interval(entry: Mapping[str, Any] | None, shown: Scale | None = None) -> str:

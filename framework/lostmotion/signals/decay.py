@@ -91,7 +91,9 @@ class _Cycle(NamedTuple):
     errors: Array
 
 
-def decay_of(values: ArrayLike, dt: float, *, noise: float | None = None, near: float | None = None) -> Decay | None:
+def decay_of(
+    values: ArrayLike, dt: float, *, noise: float | None = None, near: float | None = None, most: int = MOST
+) -> Decay | None:
     """Return the decay of the dominating mode in the readings (n,), taken every `dt` s, or None where there is none.
 
     Position, velocity and acceleration will do alike; samples that are NaN are left out. The readings should begin
@@ -99,7 +101,7 @@ def decay_of(values: ArrayLike, dt: float, *, noise: float | None = None, near: 
     amplitude above three times the `noise` (standard deviation, in the unit of the readings; estimated from the
     spectrum about the mode in the second half of the readings where it is not given), whose amplitude falls by 10 % or
     more and by 5 standard errors, and on its way never rises again by more than a quarter of that fall (logarithms).
-    It must begin at once, and stay within the noise once it is there. Of more than 2000 cycles some are passed over.
+    It must begin at once, and stay within the noise once it is there. Of more than `most` cycles some are passed over.
     So noise, a steady vibration and the beat of two modes are none. A resonance that noise drives may fall for a while
     by chance, and then looks like a decay. `near` (Hz) asks for the mode next to a frequency, not for the
     dominating one.
@@ -126,9 +128,10 @@ def decay_of(values: ArrayLike, dt: float, *, noise: float | None = None, near: 
         return None
     level = _noise(filled, dt, overall) if noise is None else float(noise)
     end = _rests(filled, level, max(2, round(1.0 / (overall * dt))))
-    cycles = _alone((readings - rest)[:end], dt, overall)
+    hop = math.ceil(end * dt * overall / max(most, 1))
+    cycles = _alone((readings - rest)[:end], dt, overall, hop)
     if not _explained(cycles, level):
-        cycles = list(_beside((readings - rest)[:end], dt, *_neighbours(filled, dt, overall, lines)))
+        cycles = list(_beside((readings - rest)[:end], dt, *_neighbours(filled, dt, overall, lines), hop=hop))
     return _accepted(cycles, level)
 
 
@@ -237,15 +240,18 @@ def _rests(x: Array, noise: float, period: int) -> int:
     return x.size if last == moving.size else last + 1
 
 
-def _alone(x: Array, dt: float, overall: float) -> list[_Cycle]:
-    """Return what is fitted about the middle of each cycle of `x` (n,) if there is one mode; NaN marks lost samples."""
+def _alone(x: Array, dt: float, overall: float, hop: int) -> list[_Cycle]:
+    """Return what is fitted about the middle of every `hop`-th cycle of `x` (n,) if there is one mode.
+
+    NaN marks lost samples.
+    """
     window = _Window(0.5 / overall, REACH / overall, 2)
     tried = (_cycle(x, dt, window, complex(0.0, 2.0 * math.pi * overall * factor)) for factor in STARTS)
     firsts = [cycle for cycle in tried if cycle is not None]
     if not firsts:
         return []
     exponent = min(firsts, key=lambda cycle: cycle.rest).exponent
-    found, centre, hop = [], math.pi / exponent.imag, _hop(x, dt, overall)
+    found, centre = [], math.pi / exponent.imag
     while centre < x.size * dt:
         period = 2.0 * math.pi / exponent.imag
         cycle = _cycle(x, dt, _Window(centre, REACH * period, 2), exponent)
@@ -256,11 +262,6 @@ def _alone(x: Array, dt: float, overall: float) -> list[_Cycle]:
     return found
 
 
-def _hop(x: Array, dt: float, frequency: float) -> int:
-    """Return how many cycles lie between two that are looked at."""
-    return math.ceil(x.size * dt * frequency / MOST)
-
-
 def _explained(cycles: list[_Cycle], noise: float) -> bool:
     """Return whether a single mode leaves nothing but noise in the cycles that are loud enough."""
     loud = [cycle for cycle in cycles if cycle.amplitude > LOUD * noise]
@@ -268,13 +269,13 @@ def _explained(cycles: list[_Cycle], noise: float) -> bool:
     return len(left) >= FEWEST_CYCLES and float(np.mean(left)) > 0.75
 
 
-def _beside(x: Array, dt: float, first: float, apart: float, height: float) -> Iterator[_Cycle]:
-    """Yield what is fitted about the middle of each cycle of `x` (n,), where there are modes at a distance (Hz).
+def _beside(x: Array, dt: float, first: float, apart: float, height: float, *, hop: int) -> Iterator[_Cycle]:
+    """Yield what is fitted about the middle of every `hop`-th cycle of `x` (n,), beside modes at a distance (Hz).
 
     The windows are symmetric and so long that their taper separates the modes: the longer the higher the others are.
     """
     wanted = 3.0 * height**0.3 / apart
-    exponent, centre, hop = complex(0.0, 2.0 * math.pi * first), 0.5 / first, _hop(x, dt, first)
+    exponent, centre = complex(0.0, 2.0 * math.pi * first), 0.5 / first
     while centre < x.size * dt:
         period = 2.0 * math.pi / exponent.imag
         reach = min(max(REACH * period, wanted), centre, x.size * dt - centre)

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from scipy.ndimage import maximum_filter1d
 
 from lostmotion.errors import DataError
 
@@ -158,9 +159,10 @@ def _second(pulses: Array, pulse: tuple[int, int], end: int, noise: float) -> in
 def onsets_of(values: ArrayLike, dt: float) -> tuple[int, ...]:
     """Return the sample numbers at which a vibration begins anew in a response (n,), taken every `dt` s.
 
-    There the largest deviation from the median within two periods of the strongest frequency is 2.5 times that of the
-    eight periods before, and still 1.5 times a period later, so a lost sample is none. Where the first eight periods
-    are 2.5 times as large as the quiet tenth of all, there is an onset in them, at the first sample if they begin loud.
+    There the largest deviation from the median within half a period of the strongest frequency is 2.5 times that of the
+    eight periods before, and half a period to two periods later still 1.5 times, so a lost sample is none. Where the
+    first eight periods are 2.5 times as large as the quiet tenth of all, there is an onset in them, at the first sample
+    if they begin loud.
     A hit into a vibration that is still loud is not seen.
     """
     size = np.abs(_checked(values, dt))
@@ -170,15 +172,23 @@ def onsets_of(values: ArrayLike, dt: float) -> tuple[int, ...]:
         return ()
     blocks = size[: size.size // past * past].reshape(-1, past).max(axis=1)
     quiet = float(np.quantile(blocks, 0.1))
-    before = np.lib.stride_tricks.sliding_window_view(size, past).max(axis=1)
+    at_once = max(2, ahead // 4)
+    before, soon = _largest(size, past), _largest(size, at_once)
     found = [_first(size[:past], period)] if blocks[0] > RISE * quiet else []
-    loud = past + np.flatnonzero(size[past:] > RISE * np.maximum(before[:-1], quiet))
-    for place in loud.tolist():
+    rising = past + np.flatnonzero(soon[past:] > RISE * np.maximum(before[:-past], quiet))
+    for place in rising.tolist():
         level = float(before[place - past])
-        later = size[place + ahead // 4 : place + ahead].max(initial=0.0)
-        if later > 1.5 * level and (not found or place >= found[-1] + past):
-            found.append(place - int(np.argmax(size[max(0, place - ahead) : place + 1][::-1] <= level)) + 1)
+        loud = place + int(np.argmax(size[place : place + at_once] > RISE * max(level, quiet)))
+        onset = loud - int(np.argmax(size[max(0, loud - ahead) : loud + 1][::-1] <= level)) + 1
+        later = size[loud + at_once : loud + ahead].max(initial=0.0)
+        if later > 1.5 * level and (not found or onset >= found[-1] + past):
+            found.append(onset)
     return tuple(found)
+
+
+def _largest(size: Array, width: int) -> Array:
+    """Return the largest of so many samples from each one on, (n,)."""
+    return np.asarray(maximum_filter1d(size, width, mode="constant", cval=0.0, origin=-(width // 2)))
 
 
 def _first(size: Array, period: float) -> int:

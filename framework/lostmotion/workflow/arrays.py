@@ -56,7 +56,6 @@ def _series(outcome: Outcome) -> dict[str, Column]:
         heldout[: shown.samples - d.held[0].samples] = 0.0
     time = ("time",)
     table = {
-        "excitation": Column(time, shown.excitation, unit_of(model.inputs[shown.lead], model.motion), "measured input"),
         "response": Column(time, shown.response, seen, f"recorded {shown.sensors[0].label}"),
         "heldout": Column(time, heldout, "1", "1 where no fit has seen the data"),
         "record": Column(time, np.zeros(shown.samples), "1", "number of the recording"),
@@ -67,6 +66,9 @@ def _series(outcome: Outcome) -> dict[str, Column]:
         "forecast_before": Column(time, outcome.before.forecasts[:, 0], seen, f"{PREDICTED} nominal model"),
         "restart": Column(time, outcome.before.restarts, "1", "1 where a free run begins"),
     }
+    if not shown.free:
+        unit = unit_of(model.inputs[shown.lead], model.motion)
+        table["excitation"] = Column(time, shown.excitation, unit, "measured input")
     if d.left is not None:
         left = d.left.missing
         table["left_force"] = Column(time, left.force, units["force"], "force left unexplained")

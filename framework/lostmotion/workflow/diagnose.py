@@ -20,6 +20,7 @@ from lostmotion.stages.diagnose import Diagnosis, diagnose
 from lostmotion.storage import folder_for, save_arrays, save_json
 from lostmotion.workflow.arrays import arrays_of
 from lostmotion.workflow.attractors import motions_of
+from lostmotion.workflow.decays import decay_in
 from lostmotion.workflow.evidences import evidence_of
 from lostmotion.workflow.findings import Outcome, draws_of
 from lostmotion.workflow.mixed import draws_after
@@ -64,11 +65,13 @@ def run_diagnosis(
     say("evidence by sampling")
     evidence = evidence_of(diagnosis, np.random.default_rng([seed, EVIDENCE]))
     said = verdict(outcome)
+    decay = decay_in(diagnosis)
     content = {
         "title": prepared.case.title,
         **said,
         "confused_with": confused_with(diagnosis, said["confused_with"], proposals),
         "show": show,
+        **({"decay": decay} if decay else {}),
         "evidence": evidence,
         **_background(prepared, outcome, seed),
     }

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from lostmotion.contracts import Array, Term
+from lostmotion.contracts import Array, Model, Term
 from lostmotion.inference.candidates import term_of
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.mixture import draws
@@ -75,6 +75,8 @@ def _entry(outcome: Outcome, key: str, after: Mapping[str, Interval]) -> dict[st
     held = {s.key: float(known[system.index[s.key]]) for s in slots}
     own = {s.param.name: after.get(s.key) or _of(np.full(1, held[s.key]), s.unit) for s in slots}
     sentence = term.physics.format(**{name: str(i) for name, i in own.items()})
+    if term.at in elsewhere(system.model):
+        sentence += f" at the {term.at}"
     share = float(np.max(np.abs(d.laws[key]))) / d.after.problem.scales.force
     return {
         "mechanism": term.name,
@@ -84,6 +86,12 @@ def _entry(outcome: Outcome, key: str, after: Mapping[str, Interval]) -> dict[st
         "share_of_drive": share,
         "says": f"{sentence}, up to {100.0 * share:.2g} % of {d.yardstick}.",
     }
+
+
+def elsewhere(model: Model) -> set[str]:
+    """Return the names of the places at which a force acts on another body than the first."""
+    first = model.interfaces[0]
+    return {place.name for place in model.interfaces if place.row != first.row or place.against != first.against}
 
 
 def _mark(d: Diagnosis, key: str) -> dict[str, Any]:

@@ -9,6 +9,7 @@ import numpy as np
 from lostmotion.inference.fit import Fit
 from lostmotion.likelihood.space import is_level
 from lostmotion.stages.diagnose import Diagnosis
+from lostmotion.workflow.decays import note_anew
 from lostmotion.workflow.findings import Outcome
 
 FAR = 5.0
@@ -20,7 +21,13 @@ def notes_of(outcome: Outcome, said: Sequence[str]) -> list[str]:
     """Return the notes of a diagnosis: what the recordings `said` of themselves, and what a reader should doubt."""
     d = outcome.diagnosis
     doubts = [*fleeting(d.after), *_declined(d), *_on_the_edge(d), *_far_off(outcome), *_drifting(d), *_slow(d)]
-    return [*said, *doubts]
+    return [*said, *_unrecorded(d), *doubts]
+
+
+def _unrecorded(d: Diagnosis) -> list[str]:
+    """Return a note for each recording without an input that something drove all the same."""
+    recordings = (*d.train, *d.held) if d.shown is d.held[0] else (d.shown,)
+    return [note for observation in recordings for note in note_anew(observation)]
 
 
 def fleeting(fit: Fit) -> list[str]:

@@ -14,9 +14,10 @@ from lostmotion.inference.candidates import term_of
 from lostmotion.inference.selection import Visit, related
 from lostmotion.likelihood.system import key_of
 from lostmotion.quantities import unit_of
+from lostmotion.report.words import sentence, spoken
 from lostmotion.stages.diagnose import Diagnosis
 from lostmotion.stages.experiment import Limits, Proposal, natural_of, propose, usual_limits
-from lostmotion.workflow.verdict import WORTH_NAMING
+from lostmotion.workflow.verdict import WORTH_NAMING, other_level
 
 RELATED = math.log(20.0)
 """A relative of what was found is named where the evidence, without the price of its parameters, is so close; laws of
@@ -84,7 +85,7 @@ def confused_with(d: Diagnosis, rows: Sequence[Mapping[str, Any]], proposals: Pr
         p = d.selection.inclusion(key)
         row = {"mechanism": term.name, "at": term.at, "probability": p}
         if proposal is None:
-            told[term.name, term.at] = {**row, "says": f"{_opening(term, p)} Another drive level would decide."}
+            told[term.name, term.at] = {**row, "says": f"{_opening(term, p)} {sentence(other_level(d))} would decide."}
         else:
             says = _says(d, term, p, proposal)
             told[term.name, term.at] = {**row, "excitation": _excitation(d, proposal), "says": says}
@@ -123,7 +124,7 @@ def _opening(term: Term, p: float) -> str:
 
 
 def _called(term: Term) -> str:
-    return term.name.replace("_", " ")
+    return spoken(term.name)
 
 
 def _says(d: Diagnosis, term: Term, p: float, proposal: Proposal) -> str:

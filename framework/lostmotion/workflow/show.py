@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -21,9 +21,10 @@ from lostmotion.stages.compare import Prediction, exponent_blocks
 from lostmotion.stages.embed import embed
 from lostmotion.stages.quantify import quantify
 from lostmotion.workflow.attractors import Apart, distances_between
+from lostmotion.workflow.decays import stretches_of
 from lostmotion.workflow.findings import Outcome
 from lostmotion.workflow.motion import returned
-from lostmotion.workflow.show_words import said
+from lostmotion.workflow.show_words import TRANSIENT, said
 
 EMBEDDER, DIMENSION = "ami_cao", "correlation_dimension"
 PAIRS = 250_000
@@ -52,8 +53,9 @@ def shown(seen: Seen, rng: np.random.Generator) -> dict[str, Any]:
     both = {"before": (outcome.before, d.before)}
     if d.found:
         both["after"] = (outcome.after, d.after)
-    apart, strobed = distances_between(seen.motions, d.shown, rng)
-    dimensions = _dimensions(seen, rng)
+    dies = bool(stretches_of(d.shown))
+    apart, strobed = (_no_distances(both), False) if dies else distances_between(seen.motions, d.shown, rng)
+    dimensions = _no_dimensions(both) if dies else _dimensions(seen, rng)
     table: dict[str, Any] = {}
     for name, (prediction, _) in both.items():
         table[name] = {
@@ -87,7 +89,16 @@ def shown(seen: Seen, rng: np.random.Generator) -> dict[str, Any]:
         "whiteness": "1",
     }
     table["horizon"] = {"value": outcome.horizon.number, "unit": unit}
-    return {**table, "says": said(table, strobed)}
+    return {**table, "says": said(table, strobed, driven=not d.shown.free)}
+
+
+def _no_distances(names: Iterable[str]) -> dict[str, Apart]:
+    """Return that motions which die away have no attractor to compare."""
+    return dict.fromkeys((*names, "noise_floor"), Apart(math.nan, math.nan, TRANSIENT))
+
+
+def _no_dimensions(names: Iterable[str]) -> dict[str, Estimate]:
+    return dict.fromkeys((*names, "recorded"), Estimate.refused(TRANSIENT, "The motion dies away."))
 
 
 def _distance(apart: Apart) -> dict[str, Any]:

@@ -6,19 +6,23 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
+from lostmotion.report.words import span
+
 LUCK = 0.01
+TRANSIENT = "transient"
+"""The status of a measure of attractors where the motion dies away: nothing is said of it."""
 Table = Mapping[str, Any]
 
 
-def said(table: Table, strobed: bool) -> dict[str, str]:
-    """Return a sentence for each measure that stands in the table."""
+def said(table: Table, strobed: bool, *, driven: bool = True) -> dict[str, str]:
+    """Return a sentence for each measure that stands in the table; `driven` says whether an input was recorded."""
     last = "after" if "after" in table else "before"
     return {
         "heldout_log_score": _score(table, last),
         "free_run_error": _error(table, last),
         "valid_prediction_time": _valid(table, last),
         "attractor_distance": _apart(table, last, strobed),
-        "largest_exponent": _exponent(table, last),
+        "largest_exponent": _exponent(table, last, driven=driven),
         "d2": _dimension(table, last),
         "whiteness": _white(table, last),
     }
@@ -42,7 +46,7 @@ def _score(table: Table, last: str) -> str:
 def _error(table: Table, last: str) -> str:
     ratio = _number(table, last, "free_run_error") / max(_number(table, "noise_floor", "free_run_error"), 1e-300)
     horizon = table["horizon"]
-    opening = f"Free runs over {horizon['value']:g} {horizon['unit']}, over the deviation of the response"
+    opening = f"Free runs over {span(horizon['value'], horizon['unit'])}, over the deviation of the response"
     if ratio < 1.2:
         return f"{opening}: no more than the measurement noise."
     return f"{opening}: {ratio:.2g} times the measurement noise."
@@ -59,6 +63,8 @@ def _apart(table: Table, last: str, strobed: bool) -> str:
     where = "Poincaré sections once each drive period" if strobed else "looks at position and velocity"
     opening = f"Energy distance between {where} of recording and free run"
     entry = table[last]["attractor_distance"]
+    if entry["status"] == TRANSIENT:
+        return ""
     if entry["status"] == "too_short":
         return f"{opening}: the recording holds too few points."
     if entry["status"] != "ok":
@@ -69,17 +75,20 @@ def _apart(table: Table, last: str, strobed: bool) -> str:
     return f"{opening}: no farther apart than chance would have it (p = {entry['p']:.2g}); {closing}."
 
 
-def _exponent(table: Table, last: str) -> str:
+def _exponent(table: Table, last: str, *, driven: bool) -> str:
+    opening = "Of the model under the recorded drive" if driven else "Of the model along its free run"
     value, low, high = (_number(table, last, "largest_exponent", k) for k in ("value", "low", "high"))
     if math.isnan(low):
-        return "Of the model under the recorded drive; the recording is too short for an interval."
+        return f"{opening}; the recording is too short for an interval."
     kind = "near runs part: chaos" if low > 0.0 else "near runs close up" if high < 0.0 else "its sign is open"
-    return f"Of the model under the recorded drive, with the scatter over ten blocks: {kind} ({value:.3g} 1/s)."
+    return f"{opening}, with the scatter over ten blocks: {kind} ({value:.3g} 1/s)."
 
 
 def _dimension(table: Table, last: str) -> str:
     recorded, model = table["noise_floor"]["d2"], table[last]["d2"]
     opening = "Of the recording (as noise floor) and of free runs without noise"
+    if recorded["status"] == TRANSIENT:
+        return ""
     for entry, whose in ((recorded, "the recording"), (model, "the free run")):
         if entry["status"] not in ("ok", "uncertain"):
             return f"{opening}; {whose}: {entry['says']}"

@@ -11,9 +11,10 @@ from lostmotion.inference.candidates import term_of
 from lostmotion.inference.fit import Fit
 from lostmotion.likelihood.system import key_of
 from lostmotion.quantities import quantity_of, unit_of
+from lostmotion.report.words import chance, span, spoken
 from lostmotion.stages.compare import Prediction
 from lostmotion.stages.diagnose import Diagnosis
-from lostmotion.workflow.findings import Outcome, found_in, intervals
+from lostmotion.workflow.findings import Outcome, elsewhere, found_in, intervals
 from lostmotion.workflow.unknowns import unknown_odds, where
 
 WORTH_NAMING = 0.01
@@ -32,7 +33,7 @@ def verdict(outcome: Outcome) -> dict[str, Any]:
         "confused_with": _confused(d),
         "unexplained": _unexplained(d, after=True),
         "unexplained_before": _unexplained(d, after=False),
-        "where": where(d.located, d.learned),
+        "where": {**where(d.located, d.learned), "bodies": _bodies(d)},
         "where_after": where(d.left or d.located),
         "parameters": {
             "before": {k: v.as_dict() for k, v in intervals(d.before, outcome.draws_before).items()},
@@ -62,6 +63,7 @@ def _setting(outcome: Outcome) -> dict[str, Any]:
             "unit": units[2],
             "of": d.yardstick,
             "frequency": 1.0 / (period * d.shown.dt) if period else None,
+            "free": d.shown.free,
         },
         "units": {"position": units[0], "velocity": units[1], "force": units[2], "time": "s"},
         "response": {"quantity": quantity_of(d.shown.channel)},
@@ -82,7 +84,7 @@ def _setting(outcome: Outcome) -> dict[str, Any]:
 def _white(p: float) -> str:
     if p < 0.01:
         return (
-            f"One-step errors are not white (Ljung-Box p = {p:.2g}): they still hold something that can be predicted."
+            f"One-step errors are not white (Ljung-Box {chance(p)}): they still hold something that can be predicted."
         )
     return f"One-step errors cannot be told from white noise (Ljung-Box p = {p:.2g})."
 
@@ -164,9 +166,26 @@ def _confused(d: Diagnosis) -> list[dict[str, Any]]:
         key = key_of(term)
         p = 0.0 if d.learned else d.selection.inclusion(key)
         if key not in d.found and p > WORTH_NAMING:
-            says = f"This recording gives {term.name} a probability of {p:.2f}: another drive level would decide."
+            says = f"This recording gives {spoken(term.name)} a probability of {p:.2f}: {other_level(d)} would decide."
             rows.append({"mechanism": term.name, "at": term.at, "probability": p, "says": says})
     return rows + [row for key in d.named for row in _equal(d, key)]
+
+
+def _bodies(d: Diagnosis) -> int:
+    """Return on how many bodies of the model a force may act."""
+    return len({place.row for place in d.after.problem.system.model.interfaces})
+
+
+def _taken_as(d: Diagnosis) -> str:
+    """Return how the unexplained force is to be read where what was found acts on another body than the first."""
+    at = {term_of(d.after.problem, key)[0].at for key in d.named}
+    others = elsewhere(d.after.problem.system.model)
+    return ", taken as one that acts on the first body," if at & others else ""
+
+
+def other_level(d: Diagnosis) -> str:
+    """Return what recording may tell two laws apart that are alike at one size of the motion."""
+    return "a decay from a larger or smaller start" if d.shown.free else "another drive level"
 
 
 def _equal(d: Diagnosis, key: str) -> list[dict[str, Any]]:
@@ -175,10 +194,11 @@ def _equal(d: Diagnosis, key: str) -> list[dict[str, Any]]:
     if len(d.shown.sensors) > 1:  # what delays one sensor delays no other
         return []
     says = (
-        f"No recording of this machine can tell {{}} from {term.name}: measure the time lag of the channels by itself."
+        f"No recording of this machine can tell {{}} from {spoken(term.name)}: measure the time lag of the channels by"
+        " itself."
     )
     p = d.selection.inclusion(key)
-    return [{"mechanism": n, "at": "", "probability": p, "says": says.format(n)} for n in term.equals]
+    return [{"mechanism": n, "at": "", "probability": p, "says": says.format(spoken(n))} for n in term.equals]
 
 
 def _unexplained(d: Diagnosis, *, after: bool) -> dict[str, Any]:
@@ -197,12 +217,12 @@ def says(outcome: Outcome, found: list[dict[str, Any]]) -> list[str]:
     """Return the opening sentences of the report."""
     d = outcome.diagnosis
     fit, horizon = _fit(outcome), outcome.horizon
-    span = f"{horizon.number:g} {horizon.unit}" if horizon.number != 1 else f"one {horizon.unit.rstrip('s')}"
+    time = span(horizon.number, horizon.unit)
     if not found:
         error = fit["before"]["heldout_nrmse"]
         return [
             "Nothing is missing that this recording can show.",
-            f"The nominal model predicts held-out data over {span} to {error:.1%} of the response; the noise alone is"
+            f"The nominal model predicts held-out data over {time} to {error:.1%} of the response; the noise alone is"
             f" {fit['noise_floor_nrmse']:.1%}.",
         ]
     if not d.found:
@@ -214,8 +234,8 @@ def says(outcome: Outcome, found: list[dict[str, Any]]) -> list[str]:
         opening.append(f"The model leaves out {'both' if len(found) == 2 else f'all {len(found)} of them'}.")
     old, new = _unexplained(d, after=False), _unexplained(d, after=True)
     opening.append(
-        f"With {'it' if len(found) == 1 else 'them'} the unexplained force falls from {old['rms']:.3g} to"
-        f" {new['rms']:.2g} {new['unit']} (rms), and the free-running prediction error of held-out data over {span}"
+        f"With {'it' if len(found) == 1 else 'them'} the unexplained force{_taken_as(d)} falls from {old['rms']:.3g} to"
+        f" {new['rms']:.2g} {new['unit']} (rms), and the free-running prediction error of held-out data over {time}"
         f" from {fit['before']['heldout_nrmse']:.1%} to {fit['after']['heldout_nrmse']:.1%} of the response; the noise"
         f" alone is {fit['noise_floor_nrmse']:.1%}."
     )
