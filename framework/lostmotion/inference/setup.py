@@ -33,6 +33,13 @@ WITHIN = 20.0
 SLACK = 30.0
 """Before the final fits a hill may be this much lower, in log posterior."""
 
+ORDERS = {"position": 0, "velocity": 1, "acceleration": 2}
+"""How often a channel has to be integrated to be a position."""
+SLOWEST = 4
+"""A motion has so many cycles in a recording at least: what is slower in a spectrum leaks there from the window."""
+FAR_ABOVE = 20.0
+"""So many times the noise floor a line of a spectrum must be to count for the motion: one of 10^6 lines of noise is."""
+
 COARSE, FINE = 0.06, 0.015
 """Final estimates take steps a quarter as long as those of the search: a kink makes RK4 first order."""
 
@@ -52,11 +59,10 @@ def scales_of(system: System, observations: Sequence[Observation], known: Array)
 
 
 def _sizes(system: System, observations: Sequence[Observation], known: Array) -> Scales:
-    rate = float(np.median([_rate(t) for t in observations]))
-    size = float(np.median([t.amplitude for t in observations]))
+    rates, lengths = zip(*(_motion(t) for t in observations), strict=True)
+    rate, length = float(np.median(rates)), float(np.median(lengths))
     if observations[0].channel == "force":
-        return Scales(size, float(np.median([t.travel for t in observations])), 1.0 / rate)
-    length = size / rate ** {"position": 0, "velocity": 1, "acceleration": 2}[observations[0].channel]
+        return Scales(length, float(np.median([t.travel for t in observations])), 1.0 / rate)
     if "force" in system.model.inputs:
         force = math.sqrt(2.0) * float(np.sqrt(np.mean([np.var(t.inputs[:, 0]) for t in observations])))
         force = force or float(np.mean([np.abs(t.inputs[:, 0]).max() for t in observations]))
@@ -65,16 +71,28 @@ def _sizes(system: System, observations: Sequence[Observation], known: Array) ->
     return Scales(force, length, 1.0 / rate)
 
 
-def _rate(observation: Observation) -> float:
-    """Return the rms angular frequency (rad/s) of the response above its noise floor."""
+def _motion(observation: Observation) -> tuple[float, float]:
+    """Return the rms angular frequency (rad/s) of the position, and its amplitude in the unit of the channel's place.
+
+    Velocity and acceleration are integrated as spectra, where these stand far above their noise: noise at low
+    frequency would be drift, and the spikes of an acceleration are no motion.
+    """
+    order = ORDERS.get(observation.channel, 0)
     z = np.where(np.isfinite(observation.response), observation.response, np.nanmean(observation.response))
     power = np.abs(np.fft.rfft((z - z.mean()) * np.hanning(len(z)))) ** 2
-    floor = 3.0 * float(np.median(power[-len(power) // 5 :]))
-    power = np.maximum(power - floor, 0.0)
+    floor, whole = float(np.median(power[-len(power) // 5 :])), float(np.sum(power))
+    power = np.where(power > FAR_ABOVE * floor, power, 0.0) if order else np.maximum(power - 3.0 * floor, 0.0)
     omega = 2.0 * math.pi * np.fft.rfftfreq(len(z), observation.dt)
-    return float(math.sqrt(np.sum(power * omega**2) / max(np.sum(power), 1e-300))) or 2.0 * math.pi / (
+    first = SLOWEST if order else 1
+    moved = np.zeros_like(power)
+    moved[first:] = power[first:] / omega[first:] ** (2 * order)
+    rate = math.sqrt(np.sum(moved * omega**2) / max(np.sum(moved), 1e-300)) or 2.0 * math.pi / (
         len(z) * observation.dt
     )
+    if not order:
+        return rate, observation.amplitude
+    share = math.sqrt(np.sum(moved) / max(whole, 1e-300)) or rate**-order
+    return rate, observation.amplitude * share
 
 
 def free_of(slot: Slot, prior: Prior) -> Free:
