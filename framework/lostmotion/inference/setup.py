@@ -14,6 +14,7 @@ from lostmotion.errors import CaseError, ContractError
 from lostmotion.inference.candidates import CREEP, steps_for_sticking
 from lostmotion.inference.fit import Fit, maximise, restarted, warmed
 from lostmotion.inference.modes import Tried, distinct
+from lostmotion.inference.unseen import settled
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.drive import substeps
 from lostmotion.likelihood.levels import LEVELS_TRIED, noise_frees, own_levels, random_level, usual_of
@@ -194,11 +195,17 @@ def search(problem: Problem, rng: np.random.Generator, *, points: int = 48, fina
     beginning = beginnings(problem)
     tried = _tried(problem, beginning, rng, points)
     single = replace(beginning, jobs=1)
-    fits = each(lambda i: maximise(single, tried.starts[i]), tried.best(finalists), problem.jobs)
+    fits = each(lambda i: settled(maximise(single, tried.starts[i])), tried.best(finalists), problem.jobs)
     ranked = sorted(fits, key=lambda f: -f.local.log_posterior)
     chosen = _distinct(ranked)
-    whole = [maximise(stepped(problem, f.theta), warmed(problem, f.theta, 3.0)) for f in chosen]
-    return max(whole, key=lambda f: f.local.log_posterior)
+    return max((_lengthened(problem, f) for f in chosen), key=lambda f: f.local.log_posterior)
+
+
+def _lengthened(problem: Problem, short: Fit, hopeless: float = -math.inf) -> Fit:
+    """Return the fit of whole recordings that begins at one of their beginnings."""
+    begun = zip(problem.observations, short.problem.observations, strict=True)
+    whole = stepped(problem.on(tuple(replace(t, begun=b.begun) for t, b in begun)), short.theta)
+    return settled(maximise(whole, warmed(whole, short.theta, 3.0), hopeless=hopeless))
 
 
 def beginnings(problem: Problem) -> Problem:
@@ -254,12 +261,12 @@ def modes(
     beginning = beginnings(problem)
     tried = _tried(problem, beginning, rng, points)
     single = replace(beginning, jobs=1)
-    peaks = each(lambda i: maximise(single, tried.starts[i]), tried.peaks(finalists), problem.jobs)
+    peaks = each(lambda i: settled(maximise(single, tried.starts[i])), tried.peaks(finalists), problem.jobs)
     short = distinct(peaks, SLACK)
     whole: list[Fit] = []
     for fit in short:
         hopeless = max((f.local.log_posterior for f in whole), default=-math.inf) - 2.0 * SLACK
-        whole.append(maximise(stepped(problem, fit.theta), warmed(problem, fit.theta, 3.0), hopeless=hopeless))
+        whole.append(_lengthened(problem, fit, hopeless))
     hills = distinct([separated(fit, sensor) for fit in whole], SLACK) or [maximise(problem)]
     return _together(hills, max((f.problem for f in hills), key=lambda p: p.nsub))
 

@@ -24,7 +24,8 @@ class Observation:
     """One recording as an engine sees it: `inputs` (samples, inputs) and `readings` (samples, sensors), every `dt` s.
 
     A reading that is NaN was not taken. `begin` is where it starts in the recording, in samples; `held` says that the
-    input is constant between the samples; `tone` is the drive of the whole recording.
+    input is constant between the samples; `tone` is the drive of the whole recording; `begun` are mean (n,) and
+    covariance (n, n) of the states of the model at the first sample, where more is known than the readings there show.
     """
 
     name: str
@@ -35,6 +36,7 @@ class Observation:
     held: bool = False
     begin: int = 0
     tone: Tone = SILENT
+    begun: tuple[Array, Array] | None = None
 
     @classmethod
     def of(cls, name: str, response: Array, inputs: Array, dt: float, channel: str, **more: Any) -> Observation:
@@ -68,7 +70,10 @@ class Observation:
     def part(self, start: int, stop: int) -> Observation:
         """Return the samples from `start` up to `stop` as an observation of its own."""
         cut = slice(start, stop)
-        return replace(self, readings=self.readings[cut], inputs=self.inputs[cut], begin=self.begin + start)
+        begun = None if start else self.begun
+        return replace(
+            self, readings=self.readings[cut], inputs=self.inputs[cut], begin=self.begin + start, begun=begun
+        )
 
     @cached_property
     def drive(self) -> Drive:
