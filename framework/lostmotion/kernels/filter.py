@@ -2,7 +2,9 @@
 
 Statistical linearisation by divided differences over sqrt(3) standard deviations (Norgaard, Poulsen, Ravn,
 Automatica 36 (2000) 1627-1638): the mean takes the curvature of the force into account, so a kink or a jump is seen as
-wide as the state is uncertain. Sensors are taken one after the other, a scalar update each.
+wide as the state is uncertain. Sensors are taken one after the other, a scalar update each; what a sensor shows along
+a bend is less certain by the second differences (their eq. 46): one that feels a kink which the state may or may not
+have reached tells little of the place.
 
 `lostmotion.likelihood.kernels` compiles this text, behind that of `crossing.py`, once for each number of states.
 """
@@ -15,6 +17,7 @@ from lostmotion.kernels.crossing import (
     ALIVE,
     END,
     EXPECTED,
+    LOOSE,
     MIDDLE,
     NEAR,
     NOISE,
@@ -52,13 +55,18 @@ from lostmotion.kernels.vector import (
     whole,
 )  # fmt: skip
 
+BENT = 1.0 / 18.0
+"""The share of a squared second difference over sqrt(3) deviations that is variance: (3 - 1) / (4 * 3^2)."""
 SILENT = 1.0 / (2.0 * math.pi)
 """The variance noted where nothing was read: with an error of zero it adds nothing to a log-likelihood."""
 
 
 @jit
 def linearised(derive, observe, space, wires, work, channel, step, lanes):  # type: ignore[no-untyped-def]
-    """Write what a sensor should show, and its slopes over the states, into `EXPECTED` and `H`; return a failure."""
+    """Write what a sensor should show, and its slopes over the states, into `EXPECTED` and `H`; return a failure.
+
+    `LOOSE` gets the variance that bends add.
+    """
     row = wires[4] + channel
     for o in range(0, lanes, WIDTH):
         store(space, wires[STEP], o, step)
@@ -69,6 +77,7 @@ def linearised(derive, observe, space, wires, work, channel, step, lanes):  # ty
     for o in range(0, lanes, WIDTH):
         store(work, SEEN, o, load(space, row, o))
         store(work, EXPECTED, o, load(space, row, o))
+        store(work, LOOSE, o, 0.0)
     for c in range(N):
         for side in range(2):
             for o in range(0, lanes, WIDTH):
@@ -84,7 +93,9 @@ def linearised(derive, observe, space, wires, work, channel, step, lanes):  # ty
             up, down = load(work, UP, o), load(work, UP + 1, o)
             store(work, H + c, o, (up - down) * half)
             share = 2.0 * load(work, P + c * N + c, o) * half * half
-            store(work, EXPECTED, o, load(work, EXPECTED, o) + (up + down - 2.0 * load(work, SEEN, o)) * share)
+            bend = up + down - 2.0 * load(work, SEEN, o)
+            store(work, EXPECTED, o, load(work, EXPECTED, o) + bend * share)
+            store(work, LOOSE, o, load(work, LOOSE, o) + BENT * bend * bend)
             store(space, wires[1] + c, o, y)
     return failed
 
@@ -125,7 +136,7 @@ def corrected(work, slow, levels, sensor, z, many, own, errors, variances, k, la
     for o in range(0, lanes, WIDTH):
         gauge = load(levels, first + 3, o)
         miss = z - (gauge * load(work, EXPECTED, o) + load(levels, first + 4, o))
-        var = load(levels, first, o)
+        var = load(levels, first, o) + gauge * gauge * load(work, LOOSE, o)
         for a in range(N):
             s = load(work, P + a * N, o) * load(work, H, o)
             for b in range(1, N):
@@ -260,6 +271,7 @@ def filtered(functions, blocks, wiring, inputs, drives, z, sensors, dt, nsub, er
                     for a in range(N):
                         store(work, H + a, o, 1.0 if a == direct else 0.0)
                     store(work, EXPECTED, o, load(work, Y + direct, o))
+                    store(work, LOOSE, o, 0.0)
             else:
                 driven(space, wires, u, which, begin, k, 0.0, dt, lanes)
                 failed |= linearised(derive, observe, space, wires, work, sensors[s, 0], dt / nsub, lanes)
