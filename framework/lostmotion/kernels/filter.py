@@ -2,9 +2,10 @@
 
 Statistical linearisation by divided differences over sqrt(3) standard deviations (Norgaard, Poulsen, Ravn,
 Automatica 36 (2000) 1627-1638): the mean takes the curvature of the force into account, so a kink or a jump is seen as
-wide as the state is uncertain. Sensors are taken one after the other, a scalar update each; what a sensor shows along
-a bend is less certain by the second differences (their eq. 46): one that feels a kink which the state may or may not
-have reached tells little of the place.
+wide as the state is uncertain. Sensors are taken one after the other, a scalar update each. What one shows is
+linearised over five points in each state (Arasaratnam, Haykin, Elliott, Proc. IEEE 95 (2007) 953-977), and is less
+certain by what the line leaves over: a sensor of force, with a kink which the state may or may not have reached, tells
+little of the place. With three points a gain jumps where the last of them reaches the kink.
 
 `lostmotion.likelihood.kernels` compiles this text, behind that of `crossing.py`, once for each number of states.
 """
@@ -55,8 +56,9 @@ from lostmotion.kernels.vector import (
     whole,
 )  # fmt: skip
 
-BENT = 1.0 / 18.0
-"""The share of a squared second difference over sqrt(3) deviations that is variance: (3 - 1) / (4 * 3^2)."""
+NEARER, FARTHER = 1.355626179974266, 2.8569700138728056
+NEARLY, FARLY = 0.22207592200561263, 0.011257411327720683
+"""Gauss-Hermite points beside the mean, in standard deviations, and their weights (Abramowitz, Stegun, table 25.10)."""
 SILENT = 1.0 / (2.0 * math.pi)
 """The variance noted where nothing was read: with an error of zero it adds nothing to a log-likelihood."""
 
@@ -72,31 +74,39 @@ def linearised(derive, observe, space, wires, work, channel, step, lanes):  # ty
         store(space, wires[STEP], o, step)
         for a in range(N):
             store(space, wires[1] + a, o, load(work, Y + a, o))
-            store(work, REACH + a, o, root(3.0 * load(work, P + a * N + a, o)))
+            store(work, REACH + a, o, root(load(work, P + a * N + a, o)))
     failed = call(derive, space, wires, lanes) | call(observe, space, wires, lanes)
     for o in range(0, lanes, WIDTH):
         store(work, SEEN, o, load(space, row, o))
         store(work, EXPECTED, o, load(space, row, o))
         store(work, LOOSE, o, 0.0)
     for c in range(N):
-        for side in range(2):
-            for o in range(0, lanes, WIDTH):
-                y = load(work, Y + c, o)
-                d = load(work, REACH + c, o) + TINY * (1.0 + size(y))
-                store(space, wires[1] + c, o, y + (1.0 - 2.0 * side) * d)
-            failed |= call(derive, space, wires, lanes) | call(observe, space, wires, lanes)
-            for o in range(0, lanes, WIDTH):
-                store(work, UP + side, o, load(space, row, o))
         for o in range(0, lanes, WIDTH):
-            y = load(work, Y + c, o)
-            half = 0.5 / (load(work, REACH + c, o) + TINY * (1.0 + size(y)))
-            up, down = load(work, UP, o), load(work, UP + 1, o)
-            store(work, H + c, o, (up - down) * half)
-            share = 2.0 * load(work, P + c * N + c, o) * half * half
-            bend = up + down - 2.0 * load(work, SEEN, o)
-            store(work, EXPECTED, o, load(work, EXPECTED, o) + bend * share)
-            store(work, LOOSE, o, load(work, LOOSE, o) + BENT * bend * bend)
-            store(space, wires[1] + c, o, y)
+            store(work, H + c, o, 0.0)
+            store(work, MIDDLE, o, 0.0)
+            store(work, END, o, 0.0)
+        for ring in range(2):
+            reach, weight = (NEARER, NEARLY) if ring == 0 else (FARTHER, FARLY)
+            for side in range(2):
+                for o in range(0, lanes, WIDTH):
+                    y = load(work, Y + c, o)
+                    d = reach * load(work, REACH + c, o) + TINY * (1.0 + size(y))
+                    store(space, wires[1] + c, o, y + (1.0 - 2.0 * side) * d)
+                failed |= call(derive, space, wires, lanes) | call(observe, space, wires, lanes)
+                for o in range(0, lanes, WIDTH):
+                    store(work, UP + side, o, load(space, row, o) - load(work, SEEN, o))
+            for o in range(0, lanes, WIDTH):
+                d = reach * load(work, REACH + c, o) + TINY * (1.0 + size(load(work, Y + c, o)))
+                up, down = load(work, UP, o), load(work, UP + 1, o)
+                store(work, H + c, o, load(work, H + c, o) + weight * reach * reach * (up - down) / d)
+                store(work, MIDDLE, o, load(work, MIDDLE, o) + weight * (up + down))
+                store(work, END, o, load(work, END, o) + weight * (up * up + down * down))
+        for o in range(0, lanes, WIDTH):
+            mean, along = load(work, MIDDLE, o), load(work, H + c, o) * load(work, REACH + c, o)
+            left = load(work, END, o) - mean * mean - along * along
+            store(work, EXPECTED, o, load(work, EXPECTED, o) + mean)
+            store(work, LOOSE, o, load(work, LOOSE, o) + select(left < 0.0, 0.0, left))
+            store(space, wires[1] + c, o, load(work, Y + c, o))
     return failed
 
 

@@ -15,7 +15,7 @@ LEVELS_TRIED = (0.3, 0.05, 0.008)
 """Random forces, as shares of the drive, with which starting points are compared: a large one lets the filter follow
 whatever the parameters, a small one tells good parameters from bad ones."""
 
-CREST = 3.0
+CREST = 2.0
 """The noise of an excitation goes with its peak where that is more than so many amplitudes, as with hits of a hammer:
 its sensor was chosen for the hits, however quiet it is between them."""
 

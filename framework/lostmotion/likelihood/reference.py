@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from lostmotion.contracts import Array, Engine
 from lostmotion.kernels.crossing import BENDS, LONG, OWN, PACED, TINY
-from lostmotion.kernels.filter import BENT, SILENT
+from lostmotion.kernels.filter import FARLY, FARTHER, NEARER, NEARLY, SILENT
 from lostmotion.likelihood.drive import Drive
 from lostmotion.likelihood.engine import Dynamics, Innovations, Points, Smoothed
 from lostmotion.likelihood.lanes import fine_steps
@@ -221,12 +221,19 @@ class _Run:
         u, t = self.machine.input(k, 0.0), self.machine.drive.begin + k * self.machine.drive.dt
         self.machine.going(self._fine)
         centre = self.machine.seen(self.y, u, t, channel)
-        reach = np.sqrt(3.0 * np.diag(self.cov)) + TINY * (1.0 + np.abs(self.y))
-        ends = [[self.machine.seen(self.y + s * row, u, t, channel) for row in np.diag(reach)] for s in (1.0, -1.0)]
-        up, down = np.array(ends)
-        bends = up + down - 2.0 * centre
-        bent = np.sum(bends * np.diag(self.cov) / (2.0 * reach**2))
-        return centre + float(bent), (up - down) / (2.0 * reach), BENT * float(bends @ bends)
+        sd = np.sqrt(np.diag(self.cov))
+        slopes, mean, square = np.zeros(len(sd)), np.zeros(len(sd)), np.zeros(len(sd))
+        for far, weight in ((NEARER, NEARLY), (FARTHER, FARLY)):
+            reach = far * sd + TINY * (1.0 + np.abs(self.y))
+            up, down = (
+                np.array([self.machine.seen(self.y + s * row, u, t, channel) for row in np.diag(reach)]) - centre
+                for s in (1.0, -1.0)
+            )
+            slopes += weight * far**2 * (up - down) / reach
+            mean += weight * (up + down)
+            square += weight * (up**2 + down**2)
+        left = np.maximum(square - mean**2 - (slopes * sd) ** 2, 0.0)
+        return centre + float(mean.sum()), slopes, float(left.sum())
 
     def _corrected(self, k: int, sensor: int) -> None:
         """Correct all that is not known by one reading, in which it shows as `look` says."""
