@@ -1,13 +1,13 @@
 """Machines at random of which only the acceleration was recorded: how often intervals cover, and what is named falsely.
 
-    python benchmarks/accelerometers.py --machines 100 --seed 0 --out FOLDER [--jobs 2] [--only cubic,impact]
+    python benchmarks/accelerometers.py --machines 100 --seed 0 --out FOLDER [--jobs 2] [--numbers 0,3]
 
 Each machine is linear, has a cubic spring, or backlash; it is struck by a hammer several times, or driven by a
 multisine. Nothing is hidden: the nominal model is right, so each mechanism that is named is a false alarm. Motions are
 made by DOP853 from equations written anew here, driven by the true force at any time; the recording holds the force at
 the samples with noise of 0.1 % of its peak, and the acceleration with white noise of 0.5 to 2 % of its deviation.
 
-One line of JSON for each machine goes to FOLDER/machines.jsonl as it is done: a run that was stopped goes on from there.
+One line of JSON for each machine goes to a file in FOLDER as it is done: a run that was stopped goes on from there.
 """
 
 from __future__ import annotations
@@ -38,6 +38,8 @@ KINDS, EXCITATIONS = ("linear", "cubic", "backlash"), ("impact", "multisine")
 EXCITATION_NOISE = 1e-3
 """Noise of the measured force as a share of its peak."""
 LINES = 24
+LEAD = 300
+"""A machine under a multisine has been moving for so many samples when the recording begins."""
 
 
 @dataclass(frozen=True)
@@ -79,12 +81,9 @@ def machine_of(seed: int, number: int) -> Machine:
     """Return machine `number` of a campaign: kinds and excitations take turns, all else is drawn."""
     rng = np.random.default_rng([seed, number])
     kind, excitation = KINDS[number % 3], EXCITATIONS[number // 3 % 2]
-    mass, length = float(np.exp(rng.uniform(np.log([0.3, 1e-4]), np.log([5.0, 5e-3])) @ [1.0, 0.0])), 0.0
-    length = math.exp(rng.uniform(math.log(1e-4), math.log(5e-3)))
-    rate, zeta = 2.0 * math.pi * math.exp(rng.uniform(math.log(5.0), math.log(60.0))), math.exp(
-        rng.uniform(math.log(0.005), math.log(0.05))
-    )
-    per_period, samples = math.exp(rng.uniform(math.log(20.0), math.log(100.0))), int(rng.integers(3000, 8001))
+    mass, _, length = np.exp(rng.uniform(*np.log([[0.3, 1.0, 1e-4], [5.0, 2.0, 5e-3]]))).tolist()
+    hertz, zeta, per_period = np.exp(rng.uniform(*np.log([[5.0, 0.005, 20.0], [60.0, 0.05, 100.0]]))).tolist()
+    rate, samples = 2.0 * math.pi * hertz, int(rng.integers(3000, 8001))
     dt = 2.0 * math.pi / rate / per_period
     stiffness, damping = mass * rate**2, 2.0 * zeta * mass * rate
     shape = _hammer_of(rng, dt, per_period, samples) if excitation == "impact" else _multisine_of(rng, rate)
@@ -154,18 +153,12 @@ def moved(machine: Machine) -> Array:
 
     A machine that is struck begins at rest, one under a multisine somewhere in its motion.
     """
-    rates = rates_of(machine)
-    t = np.arange(machine.samples) * machine.dt
-    lead = 0.0
-    if machine.excitation == "multisine":
-        lead = 300 * machine.dt
-    size = machine.peak / max(machine.values.get("k", 0.0), machine.values.get("k0", 0.0))
-    tiny = 1e-9 * size
+    rates, t = rates_of(machine), np.arange(machine.samples) * machine.dt
+    lead = LEAD * machine.dt if machine.excitation == "multisine" else 0.0
+    tiny = 1e-9 * machine.peak / _stiffest(machine)
     step = machine.dt / (4.0 if machine.kind == "backlash" else 2.0)
-    omega = 2.0 * math.pi / (machine.dt * 50.0)
-    seen = solve_ivp(
-        rates, (-lead, t[-1]), [0.0, 0.0], "DOP853", t_eval=t, rtol=1e-9, atol=[tiny, tiny * omega], max_step=step
-    ).y.T
+    tight = {"rtol": 1e-9, "atol": [tiny, tiny * math.sqrt(_stiffest(machine) / machine.values["m"])], "max_step": step}
+    seen = solve_ivp(rates, (-lead, t[-1]), [0.0, 0.0], "DOP853", t_eval=t, **tight).y.T
     return np.column_stack([seen, [rates(now, y)[1] for now, y in zip(t, seen, strict=True)]])
 
 
@@ -190,13 +183,14 @@ def case_of(machine: Machine) -> Any:
     return Case("study", Path(), (), machine.model, known, priors, {}, (), "")
 
 
-def diagnosed(machine: Machine, seed: int) -> dict[str, Any]:
+def one(seed: int, number: int) -> dict[str, Any]:
     """Return what a diagnosis says of a machine, beside the truth."""
     from lostmotion.likelihood.system import System
     from lostmotion.registry import default
     from lostmotion.stages.diagnose import candidates_of, diagnose
     from lostmotion.workflow.findings import draws_of, intervals
 
+    machine = machine_of(seed, number)
     observation, states = recorded(machine, seed)
     registry = default()
     model = registry.make("model", machine.model)
@@ -205,7 +199,6 @@ def diagnosed(machine: Machine, seed: int) -> dict[str, Any]:
     d = diagnose(case_of(machine), [observation], system, rng=np.random.default_rng(0), jobs=1)
     known = intervals(d.after, draws_of(d.after, np.random.default_rng(1)))
     seconds = time.perf_counter() - begin
-    estimates = {k: judged(machine.values[k], known[k]) for k in machine.priors}
     return {
         "number": machine.number,
         "kind": machine.kind,
@@ -215,7 +208,7 @@ def diagnosed(machine: Machine, seed: int) -> dict[str, Any]:
         "found": [*d.named, *(["unknown"] if d.unknown else [])],
         "random_gain": d.random_gain,
         "unexplained": d.unexplained,
-        "estimates": estimates,
+        "estimates": {k: judged(machine.values[k], known[k]) for k in machine.priors},
         "status": d.after.status,
         "seconds": seconds,
     } | _more(d, machine, states, observation)
@@ -227,22 +220,19 @@ def _stiffest(machine: Machine) -> float:
 
 def _more(d: Any, machine: Machine, states: Array, observation: Any) -> dict[str, Any]:
     """Return levels of noise over their truths, and how often the band of the position holds the true one."""
+    from lostmotion.inference.unseen import place_of_body
+
     problem, theta = d.after.problem, d.after.theta
     process, white = problem.noise(theta)
-    whole = problem.on((observation,))
-    seen = whole.smooth(theta)
-    sd = np.sqrt(np.maximum(seen.covariance[:, 0, 0], 0.0))
+    place = place_of_body(d.after, d.shown)
+    true, highest = EXCITATION_NOISE * machine.peak, float(np.abs(states[:, 0]).max())
     return {
-        "random_over_true": math.sqrt(process / machine.dt) / (EXCITATION_NOISE * machine.peak),
+        "random_over_true": math.sqrt(process / machine.dt) / true,
         "noise_over_true": math.sqrt(white) / (machine.noise * float(states[:, 2].std())),
-        "usual_over_true": math.exp(0.5 * problem.scales.usual)
-        / math.sqrt(machine.dt)
-        / (EXCITATION_NOISE * machine.peak),
-        "length_over_true": problem.scales.length / float(np.abs(states[:, 0]).max()),
-        "begun_z": (states[0, :2] / problem.scales.length * np.array([1.0, problem.scales.time])).tolist(),
-        "nsub": problem.nsub,
-        "band": float(np.mean(np.abs(seen.states[:, 0] - states[:, 0]) <= 2.0 * sd)),
-        "band_widest": float(2.0 * sd.max() / np.abs(states[:, 0]).max()),
+        "usual_over_true": math.exp(0.5 * problem.scales.usual) / math.sqrt(machine.dt) / true,
+        "length_over_true": problem.scales.length / highest,
+        "band": float(np.mean(np.abs(place.mean - states[:, 0]) <= 2.0 * place.sd)),
+        "band_widest": float(2.0 * place.sd.max() / highest),
     }
 
 
@@ -259,10 +249,6 @@ def judged(truth: float, interval: Any) -> dict[str, Any]:
     }
 
 
-def one(seed: int, number: int) -> dict[str, Any]:
-    return diagnosed(machine_of(seed, number), seed)
-
-
 def limits(count: int, level: float = 0.95) -> tuple[float, float]:
     """Return between which shares the coverage of `count` true 95 % intervals lies in 95 of 100 campaigns."""
     if not count:
@@ -274,16 +260,11 @@ def limits(count: int, level: float = 0.95) -> tuple[float, float]:
 def summary(rows: Sequence[dict[str, Any]]) -> str:
     """Return coverage and rms z of all, by kind and by excitation, and the false alarms."""
     lines = [f"{'':<22}{'machines':>9}{'covered':>12}{'share':>8}   {'limits at 95 %':<16}{'rms z':>6}{'alarms':>8}"]
-    groups: dict[str, Callable[[dict[str, Any]], bool]] = {"all": lambda _: True}
-    for kind in KINDS:
-        groups[kind] = lambda r, kind=kind: r["kind"] == kind  # type: ignore[misc]
-    for excitation in EXCITATIONS:
-        groups[excitation] = lambda r, e=excitation: r["excitation"] == e  # type: ignore[misc]
-    for kind in KINDS:
-        for e in EXCITATIONS:
-            groups[f"{kind}, {e}"] = lambda r, k=kind, e=e: (r["kind"], r["excitation"]) == (k, e)  # type: ignore[misc]
-    for name, inside in groups.items():
-        chosen = [r for r in rows if inside(r)]
+    groups = {"all": list(rows)}
+    groups |= {kind: [r for r in rows if r["kind"] == kind] for kind in KINDS}
+    groups |= {e: [r for r in rows if r["excitation"] == e] for e in EXCITATIONS}
+    groups |= {f"{kind}, {e}": [r for r in groups[kind] if r["excitation"] == e] for kind in KINDS for e in EXCITATIONS}
+    for name, chosen in groups.items():
         told = [e for r in chosen for e in r["estimates"].values()]
         if not told:
             continue
@@ -298,7 +279,7 @@ def summary(rows: Sequence[dict[str, Any]]) -> str:
     band = float(np.mean([r["band"] for r in rows])) if rows else math.nan
     seconds = float(np.median([r["seconds"] for r in rows])) if rows else math.nan
     lines.append(f"random force beyond the usual: {len(random)} of {len(rows)} {random}")
-    lines.append(f"named: {({r['number']: r['found'] for r in rows if r['found']})}")
+    lines.append(f"named: { ({r['number']: r['found'] for r in rows if r['found']}) }")
     lines.append(f"true positions within the stated band (2 sd): {band:.1%} of samples; median time {seconds:.0f} s")
     return "\n".join(lines)
 

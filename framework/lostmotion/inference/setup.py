@@ -87,9 +87,7 @@ def _motion(observation: Observation) -> tuple[float, float]:
     first = SLOWEST if order else 1
     moved = np.zeros_like(power)
     moved[first:] = power[first:] / omega[first:] ** (2 * order)
-    rate = math.sqrt(np.sum(moved * omega**2) / max(np.sum(moved), 1e-300)) or 2.0 * math.pi / (
-        len(z) * observation.dt
-    )
+    rate = math.sqrt(np.sum(moved * omega**2) / max(np.sum(moved), 1e-300)) or 2.0 * math.pi / (len(z) * observation.dt)
     if not order:
         return rate, observation.amplitude
     share = math.sqrt(np.sum(moved) / max(whole, 1e-300)) or rate**-order

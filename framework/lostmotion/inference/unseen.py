@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+import math
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from lostmotion.contracts import Array
-from lostmotion.inference.fit import Fit, maximise
+from lostmotion.inference.fit import Fit, Local, maximise
+from lostmotion.inference.mixture import nodes_of, root_of
 from lostmotion.likelihood.initial import placed
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import RANDOM, Problem
@@ -20,6 +22,49 @@ MOVED = 1.0
 COOLER = (0.0, 2.0, 4.0, 6.0)
 """Random forces, in log intensity above the usual, from which a fit is begun again."""
 GAINED = 1.0
+
+
+@dataclass(frozen=True)
+class Place:
+    """The position of the first body over a recording: mean and standard deviation (samples,), in m or rad."""
+
+    mean: Array
+    sd: Array
+
+
+def place_of_body(fit: Fit, observation: Observation) -> Place:
+    """Return where the body was during a recording, by smoothing over the posterior about a fit.
+
+    The level of the random force, which lets a position drift, is integrated on a grid; how the other parameters move
+    the position is taken for straight within their deviations. Infinite deviations where no smoother gets through.
+    """
+    problem = fit.problem.on((observation,))
+    nodes = nodes_of(fit)
+    means, variances, weights = [], [], []
+    for node in nodes:
+        seen = problem.smooth(node.local.theta)
+        if seen.innovations.finite.all():
+            means.append(seen.states[:, 0])
+            variances.append(np.maximum(seen.covariance[:, 0, 0], 0.0))
+            weights.append(math.exp(node.weight - max(n.weight for n in nodes)))
+    if not means:
+        return Place(np.zeros(observation.samples), np.full(observation.samples, np.inf))
+    share = np.array(weights) / np.sum(weights)
+    mean = share @ np.array(means)
+    variance = share @ (np.array(variances) + (np.array(means) - mean) ** 2)
+    return Place(mean, np.sqrt(variance + _shifted(problem, nodes[int(np.argmax([n.weight for n in nodes]))].local)))
+
+
+def _shifted(problem: Problem, local: Local) -> Array:
+    """Return the variance (samples,) that unknown parameters add to the position at one level of the random force."""
+    at = problem.smooth(local.theta).states[:, 0]
+    total = np.zeros_like(at)
+    held = np.array([key == RANDOM for key in problem.keys])
+    for way in root_of(local).T:
+        seen = problem.smooth(problem.clip(local.theta + np.where(held, 0.0, way)))
+        if seen.innovations.finite.all():
+            total += (seen.states[:, 0] - at) ** 2
+    return total
 
 
 def blind(problem: Problem) -> bool:

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
 
 from lostmotion.inference.fit import Fit
+from lostmotion.inference.unseen import place_of_body
+from lostmotion.likelihood.initial import placed
 from lostmotion.likelihood.problem import LEVELS
 from lostmotion.stages.diagnose import Diagnosis
 from lostmotion.workflow.findings import Outcome
@@ -14,6 +17,8 @@ from lostmotion.workflow.findings import Outcome
 FAR = 5.0
 """Held-out errors of an adequate model that are this many times the noise deserve a warning."""
 EDGE = 1e-3
+VAGUE = 0.01
+"""A position that no sensor shows and that is known worse than to this share of its amplitude deserves a note."""
 
 
 def notes_of(outcome: Outcome, said: Sequence[str]) -> list[str]:
@@ -90,9 +95,21 @@ def _far_off(outcome: Outcome) -> list[str]:
 
 
 def _drifting(d: Diagnosis) -> list[str]:
-    if d.shown.channel != "acceleration":
+    """Return a note where no sensor shows the position and it is not known well."""
+    if placed(d.shown):
         return []
+    place = place_of_body(d.after, d.shown)
+    reach, amplitude = 2.0 * float(place.sd.max()), math.sqrt(2.0) * float(place.mean.std())
+    if not reach > VAGUE * amplitude:
+        return []
+    if not (math.isfinite(reach) and reach < amplitude):
+        return [
+            "No sensor shows the position, and it cannot be told from the recording: do not trust what rests on it."
+        ]
+    rotation, share = d.after.problem.system.model.motion == "rotation", 100.0 * reach / amplitude
+    size = f"{reach:.2g} rad" if rotation else f"{1e3 * reach:.2g} mm"
     return [
-        "The recording shows acceleration only: position drifts, and intervals and terms of position are less certain"
-        " than stated."
+        f"No sensor shows the position: it is known to +-{size} only (2 standard deviations, largest over the"
+        f" recording), {share:.2g} % of its amplitude; what rests on the position, such as a gap, is as uncertain as its"
+        " interval says."
     ]
