@@ -10,6 +10,7 @@ import numpy as np
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.unseen import place_of_body
 from lostmotion.likelihood.initial import placed
+from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import LEVELS
 from lostmotion.stages.diagnose import Diagnosis
 from lostmotion.workflow.findings import Outcome
@@ -24,8 +25,8 @@ VAGUE = 0.01
 def notes_of(outcome: Outcome, said: Sequence[str]) -> list[str]:
     """Return the notes of a diagnosis: what the recordings `said` of themselves, and what a reader should doubt."""
     d = outcome.diagnosis
-    doubts = [*fleeting(d.after), *_declined(d), *_on_the_edge(d), *_far_off(outcome), *_drifting(d), *_slow(d)]
-    return [*said, *doubts]
+    doubts = [*fleeting(d.after), *_declined(d), *_on_the_edge(d), *_far_off(outcome), *_slow(d)]
+    return [*said, *doubts, *vague(d.after, d.shown)]
 
 
 def fleeting(fit: Fit) -> list[str]:
@@ -94,11 +95,11 @@ def _far_off(outcome: Outcome) -> list[str]:
     ]
 
 
-def _drifting(d: Diagnosis) -> list[str]:
-    """Return a note where no sensor shows the position and it is not known well."""
-    if placed(d.shown):
+def vague(fit: Fit, observation: Observation) -> list[str]:
+    """Return a note where no sensor of a recording shows the position and it is not known well."""
+    if placed(observation):
         return []
-    place = place_of_body(d.after, d.shown)
+    place = place_of_body(fit, observation)
     reach, amplitude = 2.0 * float(place.sd.max()), math.sqrt(2.0) * float(place.mean.std())
     if not reach > VAGUE * amplitude:
         return []
@@ -106,10 +107,10 @@ def _drifting(d: Diagnosis) -> list[str]:
         return [
             "No sensor shows the position, and it cannot be told from the recording: do not trust what rests on it."
         ]
-    rotation, share = d.after.problem.system.model.motion == "rotation", 100.0 * reach / amplitude
+    rotation, share = fit.problem.system.model.motion == "rotation", 100.0 * reach / amplitude
     size = f"{reach:.2g} rad" if rotation else f"{1e3 * reach:.2g} mm"
     return [
         f"No sensor shows the position: it is known to +-{size} only (2 standard deviations, largest over the"
-        f" recording), {share:.2g} % of its amplitude; what rests on the position, such as a gap, is as uncertain as its"
-        " interval says."
+        f" recording), {share:.2g} % of its amplitude; what rests on the position, such as a gap, is as uncertain as"
+        " its interval says."
     ]
