@@ -44,7 +44,7 @@ def posed(number, seed=0):
 
 @pytest.mark.parametrize("number", [0, 3, 5])
 def test_the_size_of_a_motion_is_told_by_its_acceleration(number):
-    """Spikes of hits are most of an acceleration, and none of the motion: taken for it they made that a tenth as large."""
+    """Spikes of hits are most of an acceleration, and none of the motion: taken for it they made it far too small."""
     machine = machines.machine_of(0, number)
     observation, states = machines.recorded(machine, 0)
     system = System(default().make("model", machine.model), ())
