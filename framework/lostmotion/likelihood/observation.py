@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 from scipy.interpolate import CubicSpline
+from scipy.ndimage import binary_dilation
 from scipy.optimize import brentq, minimize_scalar
 
 from lostmotion.contracts import Array, Interface, Model
@@ -17,6 +18,11 @@ from lostmotion.likelihood.drive import SILENT, Drive, Tone
 from lostmotion.likelihood.sensors import Sensor
 from lostmotion.likelihood.splines import smoothing_spline
 from lostmotion.recording import Recording
+
+HEARD, GUARD = 5.0, 4
+"""A hit stands so many deviations of the noise out of it, and begins and ends so many samples further out."""
+QUIET, STRUCK = 0.5, 6.0
+"""Between hits a force is quiet for this share of the time at least; a hit is so many of its deviations high."""
 
 
 @dataclass(frozen=True)
@@ -193,7 +199,7 @@ def observation_of(recording: Recording, model: Model, *, held: bool = False) ->
             f"{model.name} is driven by {' and '.join(model.inputs)}, but the excitation of {recording.name} is a"
             f" {excitation.attrs.get('quantity')}: choose another model or another column"
         )
-    inputs = u[:, None]
+    inputs = (u if held or offered != "force" else windowed(u))[:, None]
     if offered == "base_position":
         spline = smoothing_spline(u, recording.dt)
         t = np.arange(len(u)) * recording.dt
@@ -201,6 +207,28 @@ def observation_of(recording: Recording, model: Model, *, held: bool = False) ->
     z = rounded(np.asarray(recording.data["response"].values, dtype=float))
     bare = Observation.of(recording.name, z, inputs, recording.dt, _channel(recording, model), held=held)
     return replace(bare, tone=tone_of(bare))
+
+
+def windowed(force: Array) -> Array:
+    """Return a measured force (samples,) with nothing but its mean between hits, where it shows only white noise.
+
+    The force window of impact testing (Halvorsen, Brown, Sound and Vibration 11 (1977) 8-21). Between hits the noise of
+    the gauge would be handed to the model as a force that is known; a body at rest does not answer it, as if friction
+    held it. Any other force is returned as it is: one that is quiet for less than `QUIET` of the time, or not white
+    then.
+    """
+    middle, noise = float(np.median(force)), _noise(force)
+    loud = np.abs(force - middle) > HEARD * noise
+    near = binary_dilation(loud, iterations=GUARD)
+    rest = force[~near] - middle
+    peak = float(np.abs(force - middle).max())
+    if len(rest) < QUIET * len(force) or peak < STRUCK * float(np.std(force)) or not rest.any():
+        return force
+    rest = rest - rest.mean()
+    alike = [float(rest[lag:] @ rest[:-lag]) / float(rest @ rest) for lag in (1, 2, 3)]
+    if max(map(abs, alike)) > 4.0 / math.sqrt(len(rest)):
+        return force
+    return np.where(near, force, force[~near].mean())
 
 
 def rounded(values: Array) -> Array:
