@@ -15,7 +15,7 @@ from lostmotion.inference.fit import maximise
 from lostmotion.inference.setup import problem_of, scales_of, search, split, stepped
 from lostmotion.inference.unseen import place_of_body
 from lostmotion.likelihood.levels import usual_of
-from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.observation import Observation, windowed
 from lostmotion.likelihood.problem import NOISE, RANDOM
 from lostmotion.likelihood.system import System
 from lostmotion.registry import default
@@ -56,8 +56,23 @@ def test_the_size_of_a_motion_is_told_by_its_acceleration(number):
 def test_the_usual_noise_of_a_hammer_goes_with_its_peak():
     machine, problem, _, _, observation = posed(0)
     size = math.sqrt(math.exp(usual_of(problem, 1.0)) / machine.dt)
-    assert size == pytest.approx(0.5e-3 * np.abs(problem.observations[0].inputs).max(), rel=0.01)
+    assert size == pytest.approx(1e-3 * np.abs(problem.observations[0].inputs).max(), rel=0.01)
     assert size > 3e-3 * np.std(observation.inputs)
+
+
+def test_between_hits_the_noise_of_a_hammer_is_no_force():
+    """A body at rest that does not answer the noise was said to be held by friction, in 4 of 50 machines."""
+    t, rng = np.arange(4000.0), np.random.default_rng(3)
+    true = machines.hammer(t, np.array([200.3, 2100.8]), np.array([8.0, 15.0]), np.array([1.0, 0.6]))
+    noise = 1e-3 * rng.standard_normal(len(t))
+    kept = windowed(true + noise)
+    rest = np.abs(kept - true)[true == 0.0]
+    assert np.mean(rest > 1e-4) < 0.01
+    np.testing.assert_array_equal(kept[true > 0.01], (true + noise)[true > 0.01])
+    wave = np.cos(0.1 * t) + noise
+    np.testing.assert_array_equal(windowed(wave), wave)
+    slow = true + np.convolve(rng.standard_normal(len(t)), np.ones(20) / 20.0, "same") * 2e-3 + noise
+    np.testing.assert_array_equal(windowed(slow), slow)
 
 
 @pytest.mark.slow

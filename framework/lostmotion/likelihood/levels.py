@@ -15,10 +15,6 @@ LEVELS_TRIED = (0.3, 0.05, 0.008)
 """Random forces, as shares of the drive, with which starting points are compared: a large one lets the filter follow
 whatever the parameters, a small one tells good parameters from bad ones."""
 
-CREST = 2.0
-"""The noise of an excitation goes with its peak where that is more than so many amplitudes, as with hits of a hammer:
-its sensor was chosen for the hits, however quiet it is between them."""
-
 LEAST = 2.0 * math.log(0.3)
 """The random force is never less than 0.3 of the usual: with less, a filter trusts its linearisation too far, and
 intervals from long recordings become too narrow (over 24 recordings, z rms 1.4 with 0.1 and 1.05 with 0.3)."""
@@ -30,7 +26,7 @@ def usual_of(problem: Problem, rate: float) -> float:
     The noise of a base motion enters through the stiffness of the joint, of which `rate` (1/s) is the fastest motion.
     """
     system, observation = problem.system, problem.observations[0]
-    size = USUAL * max(problem.scales.force, max(_peak(t) for t in problem.observations) / CREST)
+    size = USUAL * _common(problem)
     if "force" not in system.model.inputs:
         inertia = problem.known[system.index[system.model.interfaces[0].inertia]]
         size = USUAL * math.sqrt(2.0) * float(np.std(observation.inputs[:, 0])) * inertia * rate**2
@@ -40,22 +36,21 @@ def usual_of(problem: Problem, rate: float) -> float:
 def own_drive(problem: Problem, index: int) -> float:
     """Return the log intensity of the drive of one recording over that on which what is usual for all rests."""
     observation, first = problem.observations[index], problem.observations[0]
-    own, common = _loudness(observation), max(problem.scales.force, max(_peak(t) for t in problem.observations) / CREST)
+    own, common = _loudness(observation), _common(problem)
     if "force" not in problem.system.model.inputs:
         own, common = observation.travel, first.travel
     return math.log(((own / common) ** 2 or 1.0) * observation.dt / first.dt) if common else 0.0
 
 
-def _peak(observation: Observation) -> float:
-    """Return how far the first input departs from its mean at most."""
-    u = observation.inputs[:, 0]
-    return float(np.abs(u - u.mean()).max())
+def _common(problem: Problem) -> float:
+    """Return the amplitude of the drive that its noise goes with, for all recordings together."""
+    return max([problem.scales.force, *(t.struck for t in problem.observations)])
 
 
 def _loudness(observation: Observation) -> float:
-    """Return the amplitude of the first input that its noise goes with: of hits a share of their peak."""
+    """Return the amplitude of the first input that its noise goes with: of hits their peak."""
     steady = float(np.abs(observation.inputs[:, 0]).max())
-    return max(observation.travel, _peak(observation) / CREST) or steady
+    return observation.struck or observation.travel or steady
 
 
 def random_level(observations: Sequence[Observation], scales: Scales, share: float) -> float:

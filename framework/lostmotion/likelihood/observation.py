@@ -22,7 +22,8 @@ from lostmotion.recording import Recording
 HEARD, GUARD = 5.0, 4
 """A hit stands so many deviations of the noise out of it, and begins and ends so many samples further out."""
 QUIET, STRUCK = 0.5, 6.0
-"""Between hits a force is quiet for this share of the time at least; a hit is so many of its deviations high."""
+"""Between hits a force is quiet for this share of the time at least; a hit is so many of its deviations high, and a
+thousandth of its peak is the usual noise: the gauge was chosen for the hits, however quiet it is between them."""
 
 
 @dataclass(frozen=True)
@@ -139,6 +140,13 @@ class Observation:
     def travel(self) -> float:
         """The amplitude of the first input, for instance of a base motion: sqrt(2) times its standard deviation."""
         return math.sqrt(2.0) * float(np.std(self.inputs[:, 0]))
+
+    @cached_property
+    def struck(self) -> float:
+        """The highest peak of the first input where that hits, as a hammer does, else zero."""
+        u = self.inputs[:, 0]
+        peak = float(np.abs(u - np.median(u)).max())
+        return peak if peak > STRUCK * float(np.std(u)) else 0.0
 
     @cached_property
     def first(self) -> tuple[tuple[float, float], ...]:
