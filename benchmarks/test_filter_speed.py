@@ -37,7 +37,7 @@ def asked(samples, count):
     one, number = np.ones((count, 1)), np.zeros(count, dtype=np.int64)
     points = Points(
         full * (1.0 + 1e-3 * rng.standard_normal((count, len(full)))), np.full(count, 1e-2), number.astype(float),
-        noise**2 * one, 0.0 * one, 0.0 * one, one, 0.0 * one, np.tile([truth[0], 0.1], (count, 1)),
+        noise**2 * one, 0.0 * one, 0.0 * one, one, 0.0 * one, 0.0 * one, np.tile([truth[0], 0.1], (count, 1)),
         np.tile(np.diag([1e-8, 1e-2]), (count, 1, 1)), (drive,), number, number,
     )  # fmt: skip
     return Dynamics(system, system.everything, SUBSTEPS), observation, points

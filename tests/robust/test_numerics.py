@@ -151,7 +151,7 @@ class Filter:
         one, number = np.ones((1, 1)), np.zeros(1, dtype=np.int64)
         points = Points(
             self.full[None], np.array([self.q]), np.array([self.pace]), self.r * one, 0.0 * one, 0.0 * one, one, 0.0 *
-            one, y[None], cov[None], (drive,), number, number,
+            one, 0.0 * one, y[None], cov[None], (drive,), number, number,
         )  # fmt: skip
         kept, seen = Lanes().kept(dynamics, observation, points)
         assert seen.finite.all()

@@ -72,8 +72,8 @@ def points_of(dynamics, full, drive, z, count=3):
     return Points(
         near, np.full(count, 1e-3), np.full(count, 20.0), (1e-3 * scale) ** 2 + np.zeros(shape),
         (5e-4 * scale) ** 2 + np.zeros(shape), np.full(shape, 0.7), np.ones(shape) + 0.01 * np.arange(m),
-        1e-4 * scale + np.zeros(shape), np.zeros((count, n)), tile, (drive,), np.zeros(count, dtype=np.int64),
-        np.zeros(count, dtype=np.int64),
+        1e-4 * scale + np.zeros(shape), np.zeros(shape), np.zeros((count, n)), tile, (drive,),
+        np.zeros(count, dtype=np.int64), np.zeros(count, dtype=np.int64),
     )  # fmt: skip
 
 

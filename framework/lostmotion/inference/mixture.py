@@ -39,19 +39,19 @@ def draws(fit: Fit, rng: np.random.Generator, count: int) -> Array:
     Spreads are those of the robust covariance where that is wider, so that leftovers with a memory widen them.
     Where each recording has a random force of its own, all are drawn from the normal approximation at the maximum.
     """
-    nodes = _nodes(fit)
+    nodes = nodes_of(fit)
     weights = np.exp([n.weight - max(m.weight for m in nodes) for n in nodes])
     which = rng.choice(len(nodes), size=count, p=weights / weights.sum())
     wider = np.sqrt(np.diag(robust_covariance(fit)) / np.maximum(np.diag(fit.local.covariance), 1e-300))
     noise = rng.standard_normal((count, len(fit.theta)))
-    roots = [_root(node.local) for node in nodes]
+    roots = [root_of(node.local) for node in nodes]
     theta = np.array([nodes[k].local.theta + wider * (roots[k] @ z) for k, z in zip(which, noise, strict=True)])
     if len(nodes) > 1:
         theta[:, fit.problem.keys.index(RANDOM)] += STRIDE * (rng.random(count) - 0.5)
     return fit.problem.clip(theta)
 
 
-def _root(local: Local) -> Array:
+def root_of(local: Local) -> Array:
     """Return a square root of the covariance of an expansion, each coordinate scaled to unit spread first."""
     covariance = local.covariance
     sd = np.sqrt(np.maximum(np.diag(covariance), 1e-300))
@@ -59,7 +59,7 @@ def _root(local: Local) -> Array:
     return np.asarray(sd[:, None] * vectors * np.sqrt(np.maximum(values, 0.0)))
 
 
-def _nodes(fit: Fit) -> list[Node]:
+def nodes_of(fit: Fit) -> list[Node]:
     """Return the nodes from the maximum outwards, each started from its neighbour."""
     if RANDOM not in fit.problem.keys or len(fit.theta) > MANY:
         return [Node(fit.local, 0.0)]

@@ -14,6 +14,7 @@ from lostmotion.errors import CaseError, ContractError
 from lostmotion.inference.candidates import CREEP, steps_for_sticking
 from lostmotion.inference.fit import Fit, maximise, restarted, warmed
 from lostmotion.inference.modes import Tried, distinct
+from lostmotion.inference.unseen import settled
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.drive import substeps
 from lostmotion.likelihood.levels import LEVELS_TRIED, noise_frees, own_levels, random_level, usual_of
@@ -39,6 +40,11 @@ SLACK = 30.0
 
 ORDERS = ("position", "velocity", "acceleration")
 """What sensors of motion show, by how often it was differentiated."""
+SLOWEST = 4
+"""A motion has so many cycles in a recording at least: what is slower in a spectrum leaks there from the window."""
+FAR_ABOVE = 20.0
+"""So many times the noise floor a line of a spectrum must be to count for the motion: one of 10^6 lines of noise is."""
+
 COARSE, FINE = 0.06, 0.015
 """Final estimates take steps a quarter as long as those of the search: a kink makes RK4 first order."""
 
@@ -77,12 +83,10 @@ def scales_of(system: System, observations: Sequence[Observation], known: Array)
 
 def _sizes(system: System, observations: Sequence[Observation], known: Array) -> Scales:
     sensor = telling(observations[0])
-    rate = float(np.median([_rate(t, sensor) for t in observations]))
-    size = math.sqrt(2.0) * float(np.median([np.nanstd(t.readings[:, sensor]) for t in observations]))
-    quantity = quantity_of(observations[0].sensors[sensor].channel)
-    if quantity == "force":
-        return Scales(size, float(np.median([t.travel for t in observations])), 1.0 / rate)
-    length = size / rate ** ORDERS.index(quantity)
+    rates, lengths = zip(*(_motion(t, sensor) for t in observations), strict=True)
+    rate, length = float(np.median(rates)), float(np.median(lengths))
+    if quantity_of(observations[0].sensors[sensor].channel) == "force":
+        return Scales(length, float(np.median([t.travel for t in observations])), 1.0 / rate)
     inertia = known[system.index[system.model.interfaces[0].inertia]]
     pushes = [_push(system, t, inertia) for t in observations]
     force = float(np.sqrt(np.mean(np.square([varying for varying, _ in pushes]))))
@@ -110,16 +114,27 @@ def _push(system: System, observation: Observation, inertia: float) -> tuple[flo
     return math.sqrt(squares), peak
 
 
-def _rate(observation: Observation, sensor: int) -> float:
-    """Return the rms angular frequency (rad/s) of the readings of a sensor above their noise floor."""
-    z = filled(observation.readings[:, sensor])
+def _motion(observation: Observation, sensor: int) -> tuple[float, float]:
+    """Return the rms angular frequency (rad/s) of the motion a sensor shows, and its amplitude as a position.
+
+    Velocity and acceleration are integrated as spectra, where these stand far above their noise: noise at low
+    frequency would be drift, and the spikes of an acceleration are no motion. A force stays a force.
+    """
+    quantity, readings = quantity_of(observation.sensors[sensor].channel), observation.readings[:, sensor]
+    order = ORDERS.index(quantity) if quantity in ORDERS else 0
+    z, amplitude = filled(readings), math.sqrt(2.0) * float(np.nanstd(readings))
     power = np.abs(np.fft.rfft((z - z.mean()) * np.hanning(len(z)))) ** 2
-    floor = 3.0 * float(np.median(power[-len(power) // 5 :]))
-    power = np.maximum(power - floor, 0.0)
+    floor, whole = float(np.median(power[-len(power) // 5 :])), float(np.sum(power))
+    power = np.where(power > FAR_ABOVE * floor, power, 0.0) if order else np.maximum(power - 3.0 * floor, 0.0)
     omega = 2.0 * math.pi * np.fft.rfftfreq(len(z), observation.dt)
-    return float(math.sqrt(np.sum(power * omega**2) / max(np.sum(power), 1e-300))) or 2.0 * math.pi / (
-        len(z) * observation.dt
-    )
+    first = SLOWEST if order else 1
+    moved = np.zeros_like(power)
+    moved[first:] = power[first:] / omega[first:] ** (2 * order)
+    rate = math.sqrt(np.sum(moved * omega**2) / max(np.sum(moved), 1e-300)) or 2.0 * math.pi / (len(z) * observation.dt)
+    if not order:
+        return rate, amplitude
+    share = math.sqrt(np.sum(moved) / max(whole, 1e-300)) or rate**-order
+    return rate, amplitude * share
 
 
 def free_of(slot: Slot, prior: Prior) -> Free:
@@ -221,11 +236,17 @@ def search(problem: Problem, rng: np.random.Generator, *, points: int = 48, fina
     beginning = beginnings(problem)
     tried = _tried(problem, beginning, rng, points)
     single = replace(beginning, jobs=1)
-    fits = each(lambda i: maximise(single, tried.starts[i]), tried.best(finalists), problem.jobs)
+    fits = each(lambda i: settled(maximise(single, tried.starts[i])), tried.best(finalists), problem.jobs)
     ranked = sorted(fits, key=lambda f: -f.local.log_posterior)
     chosen = _distinct(ranked)
-    whole = [maximise(stepped(problem, f.theta), warmed(problem, f.theta, 3.0)) for f in chosen]
-    return max(whole, key=lambda f: f.local.log_posterior)
+    return max((_lengthened(problem, f) for f in chosen), key=lambda f: f.local.log_posterior)
+
+
+def _lengthened(problem: Problem, short: Fit, hopeless: float = -math.inf) -> Fit:
+    """Return the fit of whole recordings that begins at one of their beginnings."""
+    begun = zip(problem.observations, short.problem.observations, strict=True)
+    whole = stepped(problem.on(tuple(replace(t, begun=b.begun) for t, b in begun)), short.theta)
+    return settled(maximise(whole, warmed(whole, short.theta, 3.0), hopeless=hopeless))
 
 
 def beginnings(problem: Problem) -> Problem:
@@ -281,12 +302,12 @@ def modes(
     beginning = beginnings(problem)
     tried = _tried(problem, beginning, rng, points)
     single = replace(beginning, jobs=1)
-    peaks = each(lambda i: maximise(single, tried.starts[i]), tried.peaks(finalists), problem.jobs)
+    peaks = each(lambda i: settled(maximise(single, tried.starts[i])), tried.peaks(finalists), problem.jobs)
     short = distinct(peaks, SLACK)
     whole: list[Fit] = []
     for fit in short:
         hopeless = max((f.local.log_posterior for f in whole), default=-math.inf) - 2.0 * SLACK
-        whole.append(maximise(stepped(problem, fit.theta), warmed(problem, fit.theta, 3.0), hopeless=hopeless))
+        whole.append(_lengthened(problem, fit, hopeless))
     hills = distinct([separated(fit, sensor) for fit in whole], SLACK) or [maximise(problem)]
     return _together(hills, max((f.problem for f in hills), key=lambda p: p.nsub))
 

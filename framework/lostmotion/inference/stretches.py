@@ -8,6 +8,7 @@ from lostmotion.inference.candidates import Shapes
 from lostmotion.inference.fit import Fit, maximise
 from lostmotion.inference.memory import selected
 from lostmotion.inference.selection import Progress, Promise, Selection, Selector
+from lostmotion.inference.unseen import begun
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import Problem
 
@@ -29,7 +30,7 @@ def sought(
     if short is nominal.problem:
         return selected(nominal, keys, say, shapes, promise)
     say(f"search on {short.samples} samples in {len(short.observations)} stretches")
-    course = selected(maximise(short, nominal.theta), keys, say, shapes, promise)
+    course = selected(begun(maximise(short, nominal.theta)), keys, say, shapes, promise)
     say("what was found, on all samples")
     whole = nominal.problem.observations
     fits = (course.nominal, course.chosen, *course.close())

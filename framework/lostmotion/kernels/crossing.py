@@ -68,7 +68,8 @@ ALIVE = WISH + 1
 HOPE = ALIVE + 1
 EXPECTED = HOPE + 1
 SEEN = EXPECTED + 1
-NOISE = SEEN + 1
+LOOSE = SEEN + 1
+NOISE = LOOSE + 1
 """Intensities of the noise that enters the states: as many rows as there are sources; behind them the slow noise."""
 
 

@@ -2,7 +2,10 @@
 
 Statistical linearisation by divided differences over sqrt(3) standard deviations (Norgaard, Poulsen, Ravn,
 Automatica 36 (2000) 1627-1638): the mean takes the curvature of the force into account, so a kink or a jump is seen as
-wide as the state is uncertain. Sensors are taken one after the other, a scalar update each.
+wide as the state is uncertain. Sensors are taken one after the other, a scalar update each. What one shows is
+linearised over five points in each state (Arasaratnam, Haykin, Elliott, Proc. IEEE 95 (2007) 953-977), and is less
+certain by what the line leaves over: a sensor of force, with a kink which the state may or may not have reached, tells
+little of the place. With three points a gain jumps where the last of them reaches the kink.
 
 `lostmotion.likelihood.kernels` compiles this text, behind that of `crossing.py`, once for each number of states.
 """
@@ -15,6 +18,7 @@ from lostmotion.kernels.crossing import (
     ALIVE,
     END,
     EXPECTED,
+    LOOSE,
     MIDDLE,
     NEAR,
     NOISE,
@@ -56,6 +60,9 @@ from lostmotion.kernels.vector import (
 
 LEVELS = 6
 """Rows that tell of a sensor: variances of white and slow noise, how the slow one fades, gain, offset and lag (s)."""
+NEARER, FARTHER = 1.355626179974266, 2.8569700138728056
+NEARLY, FARLY = 0.22207592200561263, 0.011257411327720683
+"""Gauss-Hermite points beside the mean, in standard deviations, and their weights (Abramowitz, Stegun, table 25.10)."""
 SILENT = 1.0 / (2.0 * math.pi)
 """The variance noted where nothing was read: with an error of zero it adds nothing to a log-likelihood."""
 
@@ -95,13 +102,13 @@ def rewound(derive, space, wires, work, inputs, lanes):  # type: ignore[no-untyp
 
 @jit
 def shown_at(functions, space, wires, work, column, side, inputs, lanes):  # type: ignore[no-untyped-def]
-    """Let the model show its channels with state `column` a reach to one side (none if -1); return a failure."""
+    """Let the model show its channels with state `column` so many deviations to a side (none if -1), or say no."""
     derive, observe = functions
     for o in range(0, lanes, WIDTH):
         for a in range(N):
             y = load(work, Y + a, o)
             if a == column:
-                y = y + side * (load(work, REACH + a, o) + TINY * (1.0 + size(y)))
+                y = y + side * load(work, REACH + a, o) + (TINY if side > 0.0 else -TINY) * (1.0 + size(y))
             store(space, wires[1] + a, o, y)
     failed = False
     if inputs[7]:
@@ -111,27 +118,42 @@ def shown_at(functions, space, wires, work, column, side, inputs, lanes):  # typ
 
 @jit
 def linearised(functions, space, wires, work, channel, step, inputs, lanes):  # type: ignore[no-untyped-def]
-    """Write what a sensor should show, and its slopes over the states, into `EXPECTED` and `H`; return a failure."""
+    """Write what a sensor should show, and its slopes over the states, into `EXPECTED` and `H`; return a failure.
+
+    `LOOSE` gets the variance that bends add.
+    """
     row = wires[4] + channel
     for o in range(0, lanes, WIDTH):
         store(space, wires[STEP], o, step)
         for a in range(N):
-            store(work, REACH + a, o, root(3.0 * load(work, P + a * N + a, o)))
+            store(work, REACH + a, o, root(load(work, P + a * N + a, o)))
     failed = shown_at(functions, space, wires, work, -1, 0.0, inputs, lanes)
     for o in range(0, lanes, WIDTH):
         store(work, SEEN, o, load(space, row, o))
         store(work, EXPECTED, o, load(space, row, o))
+        store(work, LOOSE, o, 0.0)
     for c in range(N):
-        for side in range(2):
-            failed |= shown_at(functions, space, wires, work, c, 1.0 - 2.0 * side, inputs, lanes)
-            for o in range(0, lanes, WIDTH):
-                store(work, UP + side, o, load(space, row, o))
         for o in range(0, lanes, WIDTH):
-            half = 0.5 / (load(work, REACH + c, o) + TINY * (1.0 + size(load(work, Y + c, o))))
-            up, down = load(work, UP, o), load(work, UP + 1, o)
-            store(work, H + c, o, (up - down) * half)
-            share = 2.0 * load(work, P + c * N + c, o) * half * half
-            store(work, EXPECTED, o, load(work, EXPECTED, o) + (up + down - 2.0 * load(work, SEEN, o)) * share)
+            store(work, H + c, o, 0.0)
+            store(work, MIDDLE, o, 0.0)
+            store(work, END, o, 0.0)
+        for ring in range(2):
+            reach, weight = (NEARER, NEARLY) if ring == 0 else (FARTHER, FARLY)
+            for side in range(2):
+                failed |= shown_at(functions, space, wires, work, c, reach * (1.0 - 2.0 * side), inputs, lanes)
+                for o in range(0, lanes, WIDTH):
+                    store(work, UP + side, o, load(space, row, o) - load(work, SEEN, o))
+            for o in range(0, lanes, WIDTH):
+                d = reach * load(work, REACH + c, o) + TINY * (1.0 + size(load(work, Y + c, o)))
+                up, down = load(work, UP, o), load(work, UP + 1, o)
+                store(work, H + c, o, load(work, H + c, o) + weight * reach * reach * (up - down) / d)
+                store(work, MIDDLE, o, load(work, MIDDLE, o) + weight * (up + down))
+                store(work, END, o, load(work, END, o) + weight * (up * up + down * down))
+        for o in range(0, lanes, WIDTH):
+            mean, along = load(work, MIDDLE, o), load(work, H + c, o) * load(work, REACH + c, o)
+            left = load(work, END, o) - mean * mean - along * along
+            store(work, EXPECTED, o, load(work, EXPECTED, o) + mean)
+            store(work, LOOSE, o, load(work, LOOSE, o) + select(left < 0.0, 0.0, left))
     return failed
 
 
@@ -171,7 +193,7 @@ def corrected(work, slow, levels, sensor, z, many, own, errors, variances, k, la
     for o in range(0, lanes, WIDTH):
         gauge = load(levels, first + 3, o)
         miss = z - (gauge * load(work, EXPECTED, o) + load(levels, first + 4, o))
-        var = load(levels, first, o)
+        var = load(levels, first, o) + gauge * gauge * load(work, LOOSE, o)
         for a in range(N):
             s = load(work, P + a * N, o) * load(work, H, o)
             for b in range(1, N):
@@ -306,6 +328,7 @@ def filtered(functions, blocks, wiring, inputs, drives, z, sensors, dt, nsub, er
                     for a in range(N):
                         store(work, H + a, o, 1.0 if a == direct else 0.0)
                     store(work, EXPECTED, o, load(work, Y + direct, o))
+                    store(work, LOOSE, o, 0.0)
             else:
                 driven(space, wires, u, which, begin, k, 0.0, dt, lanes)
                 given = (u, which, begin, k, levels, LEVELS * s + 5, dt, lagging)

@@ -25,6 +25,10 @@ def initial(problem: Problem, fulls: Array, gain: Array, offset: Array, index: i
     mean, cov = np.zeros((len(fulls), n)), np.zeros((n, n))
     for i, name in enumerate(model.states):
         cov[i, i] = (scales.velocity if i == 1 or "velocity" in name else scales.length) ** 2
+    if observation.begun is not None:
+        known = slice(0, len(model.states))
+        mean[:, known], cov[known, known] = observation.begun
+        return mean, np.tile(cov, (len(fulls), 1, 1))
     if all(sensor.channel.endswith("force") for sensor in observation.sensors):
         return _by_force(problem, fulls, offset[:, 0], (mean, cov), index)
     for number, sensor in enumerate(observation.sensors):
@@ -32,6 +36,11 @@ def initial(problem: Problem, fulls: Array, gain: Array, offset: Array, index: i
         if "position" in sensor.channel and state >= 0 and not np.isnan(observation.first[number][0]):
             _at_reading(observation, number, (state, scales.length), (mean, cov), gain[:, number], offset[:, number])
     return mean, np.tile(cov, (len(fulls), 1, 1))
+
+
+def placed(observation: Observation) -> bool:
+    """Return whether a sensor tells where the body stands at the first sample."""
+    return any(sensor.channel == "force" or "position" in sensor.channel for sensor in observation.sensors)
 
 
 def _at_reading(

@@ -31,7 +31,7 @@ def usual_of(problem: Problem, rate: float) -> float:
     The noise of a base motion enters through the stiffness of the joint, of which `rate` (1/s) is the fastest motion.
     """
     system, observation = problem.system, problem.observations[0]
-    size = USUAL * problem.scales.force
+    size = USUAL * _common(problem)
     if system.model.inputs[observation.lead] == "base_position":
         inertia = problem.known[system.index[system.model.interfaces[0].inertia]]
         size = USUAL * math.sqrt(2.0) * float(np.std(observation.excitation)) * inertia * rate**2
@@ -41,11 +41,21 @@ def usual_of(problem: Problem, rate: float) -> float:
 def own_drive(problem: Problem, index: int) -> float:
     """Return the log intensity of the drive of one recording over that on which what is usual for all rests."""
     observation, first = problem.observations[index], problem.observations[0]
-    own = math.sqrt(2.0) * float(np.std(observation.excitation)) or float(np.abs(observation.excitation).max())
-    common = problem.scales.force
+    own, common = _loudness(observation), _common(problem)
     if problem.system.model.inputs[first.lead] != "force":
-        common = math.sqrt(2.0) * float(np.std(first.excitation))
+        own, common = observation.travel, first.travel
     return math.log(((own / common) ** 2 or 1.0) * observation.dt / first.dt) if common else 0.0
+
+
+def _common(problem: Problem) -> float:
+    """Return the amplitude of the drive that its noise goes with, for all recordings together."""
+    return max([problem.scales.force, *(t.struck for t in problem.observations)])
+
+
+def _loudness(observation: Observation) -> float:
+    """Return the amplitude of the first input that its noise goes with: of hits their peak."""
+    steady = float(np.abs(observation.excitation).max())
+    return observation.struck or observation.travel or steady
 
 
 def random_level(observations: Sequence[Observation], scales: Scales, share: float) -> float:

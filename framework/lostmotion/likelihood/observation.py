@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from scipy.interpolate import CubicSpline
+from scipy.ndimage import binary_dilation
 from scipy.optimize import brentq, minimize_scalar
 
 from lostmotion.contracts import Array, Interface, Model
@@ -18,6 +19,7 @@ from lostmotion.likelihood.drive import SILENT, Drive, Tone
 from lostmotion.likelihood.sensors import NOISES, Sensor
 from lostmotion.likelihood.space import level_of
 from lostmotion.likelihood.splines import smoothing_spline
+from lostmotion.quantities import quantity_of
 from lostmotion.recording import Recording
 
 if TYPE_CHECKING:
@@ -26,6 +28,11 @@ if TYPE_CHECKING:
 
 FIRST = 9
 """Readings of a sensor that tell where the motion begins."""
+HEARD, GUARD = 5.0, 4
+"""A hit stands so many deviations of the noise out of it, and begins and ends so many samples further out."""
+QUIET, STRUCK = 0.5, 6.0
+"""Between hits a force is quiet for this share of the time at least; a hit is so many of its deviations high, and a
+thousandth of its peak is the usual noise: the gauge was chosen for the hits, however quiet it is between them."""
 
 
 @dataclass(frozen=True)
@@ -35,7 +42,8 @@ class Observation:
     A reading that is NaN was not taken. `begin` is where it starts in the recording, in samples; `held` says that the
     inputs are constant between the samples; `tone` is the drive of the whole recording. `driven` are the inputs that
     were recorded, by name, none where the machine is left to itself; `lead` is the column of the one that drives it
-    and `slope` that of its time derivative, where the model has this as an input of its own.
+    and `slope` that of its time derivative, where the model has this as an input of its own. `begun` are mean (n,) and
+    covariance (n, n) of the states of the model at the first sample, where more is known than the readings there show.
     """
 
     name: str
@@ -49,6 +57,7 @@ class Observation:
     driven: tuple[str, ...] | None = None
     lead: int = 0
     slope: int | None = None
+    begun: tuple[Array, Array] | None = None
 
     @classmethod
     def of(cls, name: str, response: Array, inputs: Array, dt: float, channel: str, **more: Any) -> Observation:
@@ -90,7 +99,10 @@ class Observation:
     def part(self, start: int, stop: int) -> Observation:
         """Return the samples from `start` up to `stop` as an observation of its own."""
         cut = slice(start, stop)
-        return replace(self, readings=self.readings[cut], inputs=self.inputs[cut], begin=self.begin + start)
+        begun = None if start else self.begun
+        return replace(
+            self, readings=self.readings[cut], inputs=self.inputs[cut], begin=self.begin + start, begun=begun
+        )
 
     @cached_property
     def drive(self) -> Drive:
@@ -170,6 +182,13 @@ class Observation:
     def travel(self) -> float:
         """The amplitude of the first input, for instance of a base motion: sqrt(2) times its standard deviation."""
         return math.sqrt(2.0) * float(np.std(self.excitation))
+
+    @cached_property
+    def struck(self) -> float:
+        """The highest peak of the first input where that hits, as a hammer does, else zero."""
+        u = self.excitation
+        peak = float(np.abs(u - np.median(u)).max())
+        return peak if peak > STRUCK * float(np.std(u)) else 0.0
 
     @cached_property
     def first(self) -> tuple[tuple[float, float], ...]:
@@ -255,7 +274,8 @@ def observation_of(recording: Recording, model: Model, *, held: bool = False) ->
                 f"{model.name} is driven by {' and '.join(model.inputs)}, but the excitation of {recording.name} is a"
                 f" {name}{nearest(name, model.inputs)}: choose another model or another column"
             )
-        inputs[:, model.inputs.index(name)] = rounded(np.asarray(array.values, dtype=float))
+        u = rounded(np.asarray(array.values, dtype=float))
+        inputs[:, model.inputs.index(name)] = u if held or quantity_of(name) != "force" else windowed(u)
     if "base_velocity" in driven and "base_position" not in driven:
         raise CaseError(f"{recording.name} has the velocity of the base without its position: give base_position")
     if "base_position" in driven and "base_velocity" in model.inputs and "base_velocity" not in driven:
@@ -284,6 +304,28 @@ def _sensor(array: xr.DataArray, model: Model, recording: str) -> Sensor:
             f" {channel}{nearest(channel, model.channels)}: choose another model or another column"
         )
     return Sensor(channel, name, NOISES[str(array.attrs["noise"])]())
+
+
+def windowed(force: Array) -> Array:
+    """Return a measured force (samples,) with nothing but its mean between hits, where it shows only white noise.
+
+    The force window of impact testing (Halvorsen, Brown, Sound and Vibration 11 (1977) 8-21). Between hits the noise of
+    the gauge would be handed to the model as a force that is known; a body at rest does not answer it, as if friction
+    held it. Any other force is returned as it is: one that is quiet for less than `QUIET` of the time, or not white
+    then.
+    """
+    middle, noise = float(np.median(force)), _noise(force)
+    loud = np.abs(force - middle) > HEARD * noise
+    near = binary_dilation(loud, iterations=GUARD)
+    rest = force[~near] - middle
+    peak = float(np.abs(force - middle).max())
+    if len(rest) < QUIET * len(force) or peak < STRUCK * float(np.std(force)) or not rest.any():
+        return force
+    rest = rest - rest.mean()
+    alike = [float(rest[lag:] @ rest[:-lag]) / float(rest @ rest) for lag in (1, 2, 3)]
+    if max(map(abs, alike)) > 4.0 / math.sqrt(len(rest)):
+        return force
+    return np.where(near, force, force[~near].mean())
 
 
 def rounded(values: Array) -> Array:

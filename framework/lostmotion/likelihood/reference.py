@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from lostmotion.contracts import Array, Engine
 from lostmotion.kernels.crossing import BENDS, LONG, OWN, PACED, TINY
-from lostmotion.kernels.filter import SILENT
+from lostmotion.kernels.filter import FARLY, FARTHER, NEARER, NEARLY, SILENT
 from lostmotion.likelihood.drive import Drive
 from lostmotion.likelihood.engine import Dynamics, Innovations, Points, Smoothed
 from lostmotion.likelihood.lanes import fine_steps
@@ -222,30 +222,38 @@ class _Run:
                 self.y[force], self.cov[force], self.cov[:, force] = 0.0, 0.0, 0.0
                 self.cov[force, force] = self.points.process[0] / dt
 
-    def _expected(self, k: int, sensor: int) -> tuple[float, Array]:
-        """Return what a sensor should show of its channel, and the slopes of that over the states."""
+    def _expected(self, k: int, sensor: int) -> tuple[float, Array, float]:
+        """Return what a sensor should show of its channel, its slopes over the states, and the variance of bends."""
         channel, direct = self.machine.system.channel(self.observation.sensors[sensor].channel)
         lag = float(self.points.lag[0, sensor])
         if direct >= 0 and not lag:
-            return float(self.y[direct]), np.eye(len(self.y))[direct]
+            return float(self.y[direct]), np.eye(len(self.y))[direct], 0.0
         self.machine.going(self._fine)
         centre = self.machine.seen_late(self.y, k, lag, channel)
-        reach = np.sqrt(3.0 * np.diag(self.cov)) + TINY * (1.0 + np.abs(self.y))
-        ends = [[self.machine.seen_late(self.y + s * row, k, lag, channel) for row in np.diag(reach)] for s in (1, -1)]
-        up, down = np.array(ends)
-        bent = np.sum((up + down - 2.0 * centre) * np.diag(self.cov) / (2.0 * reach**2))
-        return centre + float(bent), (up - down) / (2.0 * reach)
+        sd = np.sqrt(np.diag(self.cov))
+        slopes, mean, square = np.zeros(len(sd)), np.zeros(len(sd)), np.zeros(len(sd))
+        for far, weight in ((NEARER, NEARLY), (FARTHER, FARLY)):
+            reach = far * sd + TINY * (1.0 + np.abs(self.y))
+            up, down = (
+                np.array([self.machine.seen_late(self.y + s * row, k, lag, channel) for row in np.diag(reach)]) - centre
+                for s in (1.0, -1.0)
+            )
+            slopes += weight * far**2 * (up - down) / reach
+            mean += weight * (up + down)
+            square += weight * (up**2 + down**2)
+        left = np.maximum(square - mean**2 - (slopes * sd) ** 2, 0.0)
+        return centre + float(mean.sum()), slopes, float(left.sum())
 
     def _corrected(self, k: int, sensor: int) -> None:
         """Correct all that is not known by one reading, in which it shows as `look` says."""
         p, n = self.points, len(self.y)
         slow = self.observation.sensors[sensor].noise.kind == "ar1"
-        expected, slopes = self._expected(k, sensor)
+        expected, slopes, loose = self._expected(k, sensor)
         look = np.concatenate([p.gain[0, sensor] * slopes, np.zeros(len(self.slow))])
         look[n + sensor] = 1.0 if slow else 0.0
         whole = np.block([[self.cov, self.shared[:, :n].T], [self.shared]])
         gain = whole @ look
-        variance = float(look @ gain) + p.white[0, sensor]
+        variance = float(look @ gain) + p.white[0, sensor] + p.gain[0, sensor] ** 2 * loose
         shown = p.gain[0, sensor] * expected + p.offset[0, sensor] + (self.slow[sensor] if slow else 0.0)
         error = float(self.observation.readings[k, sensor]) - shown
         whole -= np.outer(gain, gain) / variance

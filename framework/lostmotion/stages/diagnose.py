@@ -175,7 +175,9 @@ def diagnose(
     after = polish(selection.chosen) if selection.chosen.problem.active else before
     gain = significant_random_force(after)
     say("missing force")
-    shown = observations[0] if len(observations) == 1 else held[0]
+    shown = held[0]
+    if len(observations) == 1:
+        shown = replace(observations[0], begun=after.problem.observations[0].begun)
     chance = rng.spawn(1)[0]
     marks = marks_of(after)
     bare = Diagnosis(before, after, selection, shown, _NOWHERE, None, _NO, {}, {}, gain, train, held, marks)

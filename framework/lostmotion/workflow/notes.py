@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
 
 from lostmotion.inference.fit import Fit
+from lostmotion.inference.unseen import place_of_body
+from lostmotion.likelihood.initial import placed
+from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.space import is_level
 from lostmotion.stages.diagnose import Diagnosis
 from lostmotion.workflow.decays import note_anew
@@ -15,13 +19,15 @@ from lostmotion.workflow.findings import Outcome
 FAR = 5.0
 """Held-out errors of an adequate model that are this many times the noise deserve a warning."""
 EDGE = 1e-3
+VAGUE = 0.01
+"""A position that no sensor shows and that is known worse than to this share of its amplitude deserves a note."""
 
 
 def notes_of(outcome: Outcome, said: Sequence[str]) -> list[str]:
     """Return the notes of a diagnosis: what the recordings `said` of themselves, and what a reader should doubt."""
     d = outcome.diagnosis
-    doubts = [*fleeting(d.after), *_declined(d), *_on_the_edge(d), *_far_off(outcome), *_drifting(d), *_slow(d)]
-    return [*said, *_unrecorded(d), *doubts]
+    doubts = [*fleeting(d.after), *_declined(d), *_on_the_edge(d), *_far_off(outcome), *_slow(d)]
+    return [*said, *_unrecorded(d), *doubts, *vague(d.after, d.shown)]
 
 
 def _unrecorded(d: Diagnosis) -> list[str]:
@@ -100,10 +106,22 @@ def _far_off(outcome: Outcome) -> list[str]:
     ]
 
 
-def _drifting(d: Diagnosis) -> list[str]:
-    if any(not sensor.channel.endswith("acceleration") for sensor in d.shown.sensors):
+def vague(fit: Fit, observation: Observation) -> list[str]:
+    """Return a note where no sensor of a recording shows the position and it is not known well."""
+    if placed(observation):
         return []
+    place = place_of_body(fit, observation)
+    reach, amplitude = 2.0 * float(place.sd.max()), math.sqrt(2.0) * float(place.mean.std())
+    if not reach > VAGUE * amplitude:
+        return []
+    if not (math.isfinite(reach) and reach < amplitude):
+        return [
+            "No sensor shows the position, and it cannot be told from the recording: do not trust what rests on it."
+        ]
+    rotation, share = fit.problem.system.model.motion == "rotation", 100.0 * reach / amplitude
+    size = f"{reach:.2g} rad" if rotation else f"{1e3 * reach:.2g} mm"
     return [
-        "The recording shows acceleration only: position drifts, and intervals and terms of position are less certain"
-        " than stated."
+        f"No sensor shows the position: it is known to +-{size} only (2 standard deviations, largest over the"
+        f" recording), {share:.2g} % of its amplitude; what rests on the position, such as a gap, is as uncertain as"
+        " its interval says."
     ]

@@ -1,0 +1,154 @@
+"""Fits where no sensor shows the position: where the motion begins, and a random force that explains too much."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from lostmotion.contracts import Array
+from lostmotion.inference.fit import Fit, Local, maximise
+from lostmotion.inference.mixture import nodes_of, root_of
+from lostmotion.likelihood.initial import placed
+from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.problem import RANDOM, Problem
+
+WIDER = 10.0
+"""A motion begins within so many standard deviations of what the whole recording says: that is used twice then, and
+counts for a hundredth of itself beside what it says in the fit."""
+AGAIN = 3
+MOVED = 1.0
+COOLER = (0.0, 2.0, 4.0, 6.0)
+"""Random forces, in log intensity above the usual, from which a fit is begun again."""
+GAINED = 1.0
+
+
+@dataclass(frozen=True)
+class Place:
+    """The position of the first body over a recording: mean and standard deviation (samples,), in m or rad."""
+
+    mean: Array
+    sd: Array
+
+
+def place_of_body(fit: Fit, observation: Observation) -> Place:
+    """Return where the body was during a recording, by smoothing over the posterior about a fit.
+
+    The level of the random force, which lets a position drift, is integrated on a grid; how the other parameters move
+    the position is taken for straight within their deviations. Infinite deviations where no smoother gets through.
+    """
+    problem = fit.problem.on((observation,))
+    nodes = nodes_of(fit)
+    means, variances, weights = [], [], []
+    for node in nodes:
+        seen = problem.smooth(node.local.theta)
+        if seen.innovations.finite.all():
+            means.append(seen.states[:, 0])
+            variances.append(np.maximum(seen.covariance[:, 0, 0], 0.0))
+            weights.append(math.exp(node.weight - max(n.weight for n in nodes)))
+    if not means:
+        return Place(np.zeros(observation.samples), np.full(observation.samples, np.inf))
+    share = np.array(weights) / np.sum(weights)
+    mean = share @ np.array(means)
+    variance = share @ (np.array(variances) + (np.array(means) - mean) ** 2)
+    return Place(mean, np.sqrt(variance + _shifted(problem, nodes[int(np.argmax([n.weight for n in nodes]))].local)))
+
+
+def _shifted(problem: Problem, local: Local) -> Array:
+    """Return the variance (samples,) that unknown parameters add to the position at one level of the random force."""
+    at = problem.smooth(local.theta).states[:, 0]
+    total = np.zeros_like(at)
+    held = np.array([key == RANDOM for key in problem.keys])
+    for way in root_of(local).T:
+        seen = problem.smooth(problem.clip(local.theta + np.where(held, 0.0, way)))
+        if seen.innovations.finite.all():
+            total += (seen.states[:, 0] - at) ** 2
+    return total
+
+
+def blind(problem: Problem) -> bool:
+    """Return whether there is a recording of which no sensor shows a position."""
+    return not all(placed(observation) for observation in problem.observations)
+
+
+def settled(fit: Fit) -> Fit:
+    """Return the fit where no sensor shows the position: begun where the recording says, and with less random force.
+
+    Other fits are returned as they are.
+    """
+    if not blind(fit.problem) or fit.status == "diverged":
+        return fit
+    return cooled(begun(cooled(begun(fit))))
+
+
+def begun(fit: Fit) -> Fit:
+    """Return the fit from where the recording says that its motion began, found by smoothing, again until it stands.
+
+    Position and velocity at the first sample are anywhere in the motion. Spread so wide, a filter through a gap or a
+    cubic spring takes a straight line for a force that bends, and is wrong for long after. So the recording is
+    smoothed back to its first sample, and the filter begins there (an iterated smoother: Bell, SIAM J. Optimization 4
+    (1994) 626-636).
+    """
+    if not blind(fit.problem):
+        return fit
+    for _ in range(AGAIN):
+        observations, far = [], 0.0
+        for i, observation in enumerate(fit.problem.observations):
+            found, moved = _begun(fit, observation, i)
+            observations.append(found)
+            far = max(far, moved)
+        problem = fit.problem.on(tuple(observations))
+        better = maximise(problem, fit.theta)
+        if better.status == "diverged":
+            return fit
+        fit = better
+        if far < MOVED:
+            break
+    return fit
+
+
+def _begun(fit: Fit, observation: Observation, index: int) -> tuple[Observation, float]:
+    """Return an observation with what is known of its first states, and how many deviations these have moved."""
+    if placed(observation):
+        return observation, 0.0
+    problem, n = fit.problem, len(fit.problem.system.model.states)
+    wide = problem.on(tuple(replace(o, begun=None) for o in problem.observations)).points(fit.theta[None], index)
+    before = problem.begun(fit.theta, index)[:n]
+    seen = problem.smooth(fit.theta, index)
+    mean, covariance = seen.states[0, :n], seen.covariance[0, :n, :n]
+    if not (np.isfinite(mean).all() and np.isfinite(covariance).all()):
+        return observation, 0.0
+    sd = np.sqrt(np.maximum(np.diag(covariance), 1e-300))
+    prior = wide.covariance[0, :n, :n]
+    unit = np.sqrt(np.diag(prior))
+    shared = np.linalg.inv(np.eye(n) + np.linalg.inv(_scaled(covariance, unit) * WIDER**2 + 1e-12 * np.eye(n)))
+    return replace(observation, begun=(mean, shared * np.outer(unit, unit))), float(np.max(np.abs(mean - before) / sd))
+
+
+def _scaled(covariance: Array, unit: Array) -> Array:
+    return covariance / np.outer(unit, unit)
+
+
+def cooled(fit: Fit) -> Fit:
+    """Return the best of fits that begin at this one with less random force, again as long as that gains.
+
+    An accelerometer sees the random force of the moment. So one that is large explains whatever it shows, at any
+    parameters, and a search stops at one of many maxima where it does.
+    """
+    if fit.problem.dynamics.random != "held":
+        return fit
+    at = [i for i, f in enumerate(fit.problem.free) if f.parameter == RANDOM]
+    usual = fit.problem.scales.usual
+    for _ in range(AGAIN):
+        levels = [usual + more for more in COOLER if usual + more < min(fit.theta[at]) - 1.0]
+        if not levels:
+            return fit
+        starts = [fit.theta.copy() for _ in levels]
+        for start, level in zip(starts, levels, strict=True):
+            start[at] = level
+        best = max((maximise(fit.problem, s) for s in starts), key=lambda f: f.local.log_posterior)
+        if not best.local.log_posterior > fit.local.log_posterior + GAINED:
+            return fit
+        fit = best
+    return fit
