@@ -365,10 +365,13 @@ class System:
     def stiffness(self, full: Array, active: Iterable[str], states: Array, inputs: Array) -> float:
         """Return the fastest rate (1/s) of the linearised motion over the given states (points, n) and inputs.
 
-        Infinite where it is beyond all numbers.
+        Infinite where it is beyond all numbers. A state that is the same at all points, as that of a second body where
+        nobody knows it, is moved by as little as the one that varies least.
         """
         chosen, (points, m) = frozenset(active), states.shape
-        spread = np.maximum(1e-6 * (np.ptp(states, axis=0) + 1e-12), 1e-9 * np.abs(states).max(axis=0))
+        wide = np.ptp(states, axis=0)
+        wide = np.where(wide > 0.0, wide, np.min(wide, where=wide > 0.0, initial=np.max(wide)))
+        spread = np.maximum(1e-6 * (wide + 1e-12), 1e-9 * np.abs(states).max(axis=0))
         moved = np.zeros((m + 1, points, self.states(chosen)))
         moved[:, :, :m] = states
         for a in range(m):
