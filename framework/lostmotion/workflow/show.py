@@ -87,7 +87,7 @@ def shown(seen: Seen, rng: np.random.Generator) -> dict[str, Any]:
         "whiteness": "1",
     }
     table["horizon"] = {"value": outcome.horizon.number, "unit": unit}
-    return {**table, "says": said(table, strobed)}
+    return {**table, "says": said(table, strobed, free=d.shown.free)}
 
 
 def _distance(apart: Apart) -> dict[str, Any]:

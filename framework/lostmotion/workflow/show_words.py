@@ -10,15 +10,15 @@ LUCK = 0.01
 Table = Mapping[str, Any]
 
 
-def said(table: Table, strobed: bool) -> dict[str, str]:
-    """Return a sentence for each measure that stands in the table."""
+def said(table: Table, strobed: bool, *, free: bool = False) -> dict[str, str]:
+    """Return a sentence for each measure that stands in the table; `free` says that nothing drives the machine."""
     last = "after" if "after" in table else "before"
     return {
         "heldout_log_score": _score(table, last),
         "free_run_error": _error(table, last),
         "valid_prediction_time": _valid(table, last),
         "attractor_distance": _apart(table, last, strobed),
-        "largest_exponent": _exponent(table, last),
+        "largest_exponent": _exponent(table, last, free),
         "d2": _dimension(table, last),
         "whiteness": _white(table, last),
     }
@@ -69,12 +69,13 @@ def _apart(table: Table, last: str, strobed: bool) -> str:
     return f"{opening}: no farther apart than chance would have it (p = {entry['p']:.2g}); {closing}."
 
 
-def _exponent(table: Table, last: str) -> str:
+def _exponent(table: Table, last: str, free: bool) -> str:
     value, low, high = (_number(table, last, "largest_exponent", k) for k in ("value", "low", "high"))
+    opening = f"Of the model {'left to itself' if free else 'under the recorded drive'}"
     if math.isnan(low):
-        return "Of the model under the recorded drive; the recording is too short for an interval."
+        return f"{opening}; the recording is too short for an interval."
     kind = "near runs part: chaos" if low > 0.0 else "near runs close up" if high < 0.0 else "its sign is open"
-    return f"Of the model under the recorded drive, with the scatter over ten blocks: {kind} ({value:.3g} 1/s)."
+    return f"{opening}, with the scatter over ten blocks: {kind} ({value:.3g} 1/s)."
 
 
 def _dimension(table: Table, last: str) -> str:
