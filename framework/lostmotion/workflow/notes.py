@@ -69,8 +69,8 @@ def drowned(outcome: Outcome) -> list[str]:
             whose = f" of {sensor.label}" if len(d.shown.sensors) > 1 else ""
             told.append(
                 f"What passes for noise{whose}{' has a memory and' if slow > LOUD else ''} is {share:.0%} of the"
-                " held-out readings: it may be motion that the model cannot make, such as another mode, or a sensor that"
-                " does not show what the case says (check its sign and place); then neither what was found nor that"
+                " held-out readings: it may be motion that the model cannot make, such as another mode, or a sensor"
+                " that does not show what the case says (check its sign and place); then neither what was found nor that"
                 " nothing was found holds."
             )
     return told
