@@ -70,8 +70,8 @@ def drowned(outcome: Outcome) -> list[str]:
             told.append(
                 f"What passes for noise{whose}{' has a memory and' if slow > LOUD else ''} is {share:.0%} of the"
                 " held-out readings: it may be motion that the model cannot make, such as another mode, or a sensor"
-                " that does not show what the case says (check its sign and place); then neither what was found nor that"
-                " nothing was found holds."
+                " that does not show what the case says (check its sign and place); then neither what was found nor"
+                " that nothing was found holds."
             )
     return told
 
