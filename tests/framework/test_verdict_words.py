@@ -14,6 +14,7 @@ from lostmotion.results import Interval
 from lostmotion.stages.diagnose import _check_moving
 from lostmotion.workflow import verdict
 from lostmotion.workflow.notes import drowned
+from lostmotion_plugins.models.basic import LinearOscillator
 
 
 def observed(readings, *names):
@@ -23,13 +24,20 @@ def observed(readings, *names):
     return Observation("seen", readings, np.zeros((len(readings), 1)), 0.01, sensors)
 
 
-def diagnosed(slow, *names):
-    """Return as much of a diagnosis as sentences need: sensors that read a sine, of which `slow` passes for noise."""
+def diagnosed(slow, *names, white=0.0):
+    """Return as much of an outcome as sentences need: sensors that read a sine, of which so much passes for noise."""
     wave = np.sqrt(2.0) * np.sin(0.1 * np.arange(6283))
     shown = observed(np.stack([wave] * max(len(names), 1), axis=1), *names)
-    problem = SimpleNamespace(observations=(shown,), slow=lambda theta, index, sensor: (slow[sensor] ** 2, 0.7))
+    problem = SimpleNamespace(
+        observations=(shown,),
+        slow=lambda theta, index, sensor: (slow[sensor] ** 2, 0.7),
+        measurement=lambda theta, index, sensor: slow[sensor] ** 2 + white**2,
+    )
     after = SimpleNamespace(problem=problem, theta=np.zeros(0))
-    return SimpleNamespace(after=after, shown=shown, found=("friction",), unexplained=False)
+    problem.system = SimpleNamespace(model=LinearOscillator())
+    diagnosis = SimpleNamespace(after=after, shown=shown, found=("friction",), named=(), unexplained=False)
+    scales, horizon = [1.0] * len(shown.sensors), SimpleNamespace(number=1, unit="drive periods")
+    return SimpleNamespace(diagnosis=diagnosis, after=SimpleNamespace(scales=scales), horizon=horizon)
 
 
 @pytest.mark.parametrize(
@@ -45,9 +53,7 @@ def test_what_grows_is_not_said_to_fall(monkeypatch, force, error, told):
     fit = {w: {"heldout_nrmse": e} for w, e in zip(("before", "after"), error, strict=True)}
     monkeypatch.setattr(verdict, "_fit", lambda _: fit | {"noise_floor_nrmse": 0.01})
     monkeypatch.setattr(verdict, "_unexplained", lambda _, after: {"rms": force[after], "unit": "N"})
-    horizon = SimpleNamespace(number=1, unit="drive periods")
-    outcome = SimpleNamespace(diagnosis=diagnosed([0.0]), horizon=horizon)
-    said = verdict.says(outcome, [{"says": "Friction acts."}])[1]
+    said = verdict.says(diagnosed([0.0]), [{"says": "Friction acts."}])[1]
     start, end = told.split(" * ")
     assert start in said
     assert f"over one drive period {end} of the response" in said
@@ -55,7 +61,11 @@ def test_what_grows_is_not_said_to_fall(monkeypatch, force, error, told):
 
 def test_noise_that_may_be_motion_is_doubted():
     assert drowned(diagnosed([0.2])) == []
-    assert drowned(diagnosed([0.5]))[0].startswith("What passes for noise has a memory and is 50% of the readings")
+    assert drowned(diagnosed([0.0], white=0.7)) == []
+    assert drowned(diagnosed([0.0], white=0.9))[0].startswith("What passes for noise is 90% of the held-out readings")
+    assert drowned(diagnosed([0.5]))[0].startswith(
+        "What passes for noise has a memory and is 50% of the held-out readings"
+    )
     (only,) = drowned(diagnosed([0.1, 0.9], "front", "rear"))
     assert only.startswith("What passes for noise of rear has a memory and is 90%")
 

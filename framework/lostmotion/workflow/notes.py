@@ -21,8 +21,8 @@ FAR = 5.0
 EDGE = 1e-3
 VAGUE = 0.01
 """A position that no sensor shows and that is known worse than to this share of its amplitude deserves a note."""
-LOUD = 0.3
-"""Noise with a memory that makes up this share of what a sensor shows may as well be motion."""
+LOUD, DEAFENING = 0.3, 0.8
+"""Noise with a memory, and any noise, that makes up this share of what a sensor shows may as well be motion."""
 
 
 def notes_of(outcome: Outcome, said: Sequence[str]) -> list[str]:
@@ -72,18 +72,19 @@ def _slow(d: Diagnosis) -> list[str]:
     return notes
 
 
-def drowned(d: Diagnosis) -> list[str]:
-    """Return a sentence for each sensor of which so much passes for noise with a memory that it may be motion."""
-    problem, theta, told = d.after.problem, d.after.theta, []
-    for i, sensor in enumerate(d.shown.sensors):
-        readings = np.concatenate([o.readings[:, i] for o in problem.observations])
-        share = float(np.sqrt(problem.slow(theta, 0, i)[0]) / np.nanstd(readings))
-        if share > LOUD:
+def drowned(outcome: Outcome) -> list[str]:
+    """Return a sentence for each sensor of which so much passes for noise, where held out, that it may be motion."""
+    d, told = outcome.diagnosis, []
+    problem, theta = d.after.problem, d.after.theta
+    for i, (sensor, size) in enumerate(zip(d.shown.sensors, outcome.after.scales, strict=True)):
+        slow, share = (v**0.5 / size for v in (problem.slow(theta, 0, i)[0], problem.measurement(theta, 0, i)))
+        if slow > LOUD or share > DEAFENING:
             whose = f" of {sensor.label}" if len(d.shown.sensors) > 1 else ""
             told.append(
-                f"What passes for noise{whose} has a memory and is {share:.0%} of the readings: it may be motion that"
-                " the model cannot make, such as another mode, or a sensor that does not show what the case says"
-                " (check its sign and place); then neither what was found nor that nothing was found holds."
+                f"What passes for noise{whose}{' has a memory and' if slow > LOUD else ''} is {share:.0%} of the"
+                " held-out readings: it may be motion that the model cannot make, such as another mode, or a sensor"
+                " that does not show what the case says (check its sign and place); then neither what was found nor"
+                " that nothing was found holds."
             )
     return told
 

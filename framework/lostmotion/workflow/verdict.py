@@ -225,7 +225,7 @@ def says(outcome: Outcome, found: list[dict[str, Any]]) -> list[str]:
             "Nothing is missing that this recording can show.",
             f"The nominal model predicts held-out data over {time} to {error:.1%} of the response; the noise alone is"
             f" {fit['noise_floor_nrmse']:.1%}.",
-            *drowned(d),
+            *drowned(outcome),
         ]
     if not d.found:
         return [entry["says"] for entry in found]
@@ -245,7 +245,7 @@ def says(outcome: Outcome, found: list[dict[str, Any]]) -> list[str]:
         f" data over {time}{verbs[1]} from {errors[0]:.1%} to {errors[1]:.1%} of the response; the noise alone is"
         f" {fit['noise_floor_nrmse']:.1%}."
     )
-    opening += drowned(d)
+    opening += drowned(outcome)
     if d.unexplained:
         opening.append(f"A force of {new['rms']:.2g} {new['unit']} rms remains that no term of the library explains.")
     return opening
