@@ -6,17 +6,15 @@ kernel: they may use `math`, arithmetic, branches and such only. What is *estima
 
 from __future__ import annotations
 
-import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, ClassVar, Generic, Literal, NamedTuple, Self
+from typing import TYPE_CHECKING, Any, ClassVar, Generic, Literal, Self
 
 import numpy as np
-from numpy.typing import NDArray
 
 from lostmotion.errors import ContractError, nearest
-from lostmotion.quantities import Dimension
+from lostmotion.parts import Array, Group, Interface, Param
 from lostmotion.results import Embedding, Estimate
 from lostmotion.subjects import Data, Flow, Orbit, Series
 
@@ -29,7 +27,6 @@ __all__ = [
     "Flow", "Group", "Input", "Interface", "Model", "Motion", "Orbit", "Param", "Quantifier", "SensorTerm", "Series",
     "Surrogate", "Term", "Values", "place_of"]  # fmt: skip
 
-Array = NDArray[np.float64]
 Input = Callable[[Array, int], Array]
 """A recorded input: its value (order 0) or its first derivative (order 1) at times (s) of any shape."""
 Values = tuple[float, ...]
@@ -41,62 +38,6 @@ PSEUDO_NEEDS = ("step", "mobility", "omega", "amplitude", "stiffness", "play")
 the velocity that a unit force gives the body in a step. A law that jumps at zero velocity is as wide as `force *
 mobility`, so that it sticks without turning the integration stiff. `omega` is the angular frequency of the drive
 (rad/s), `amplitude` sqrt(2) of its rms; `stiffness` and `play` those of the contact at the place, 0 where none."""
-
-
-@dataclass(frozen=True)
-class Param:
-    """A number that may be known or estimated: `low` and `high` are physical bounds, not a prior.
-
-    Of a term: `null` is where all of it does nothing; `typical` the prior width in natural scales (drive force, rms
-    position and velocity; if `lasting`, the time is that of the whole recording); `choices` are tried in turn and held;
-    `far` lists multiples of `typical` tried as well. With `scale="log"` it is positive, known by order of magnitude.
-    """
-
-    name: str
-    meaning: str
-    dimension: Dimension
-    low: float = -math.inf
-    high: float = math.inf
-    scale: Literal["linear", "log"] = "linear"
-    null: float | None = None
-    typical: float = 1.0
-    aliases: tuple[str, ...] = ()
-    choices: tuple[float, ...] = ()
-    lasting: bool = False
-    far: tuple[float, ...] = ()
-
-
-@dataclass(frozen=True)
-class Interface:
-    """A place where a force can act: `motion(y, u)` gives relative position and velocity there.
-
-    The force over parameter `inertia` is added to `dydt[row]`, and taken off at `against`, row and inertia of a second
-    body, times the parameter `lever` (a gear ratio), whose value then goes to `motion(y, u, lever)` too. Terms that
-    need what a place `holds`, such as the gap, or its contact (`stiffness`, `play`), act nowhere else.
-    """
-
-    name: str
-    row: int
-    inertia: str
-    motion: Callable[..., tuple[float, float]]
-    holds: tuple[str, ...] = ()
-    stiffness: str | None = None
-    play: str | None = None
-    against: tuple[int, str] | None = None
-    lever: str | None = None
-
-
-class Group(NamedTuple):
-    """A dimensionless number of a model: setting it sets the parameter `target` to `law(values, number)`.
-
-    `target` may also be "drive.amplitude"; `values` are the parameters in SI units, and "drive.omega" (rad/s).
-    """
-
-    name: str
-    meaning: str
-    formula: str
-    target: str
-    law: Callable[[Mapping[str, float], float], float]
 
 
 class Model(ABC):

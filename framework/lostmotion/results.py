@@ -29,7 +29,8 @@ class Interval:
         return {"median": self.median, "low": self.low, "high": self.high, "unit": self.unit}
 
     def __str__(self) -> str:
-        return f"{self.median:.4g} {self.unit} [{self.low:.4g}, {self.high:.4g}]"
+        unit = "" if self.unit == "1" else f" {self.unit}"
+        return f"{self.median:.4g}{unit} [{self.low:.4g}, {self.high:.4g}]"
 
 
 STATUSES: Mapping[str, str] = {

@@ -152,6 +152,26 @@ def test_round_tops_are_no_overloads():
     assert overloaded(np.zeros(10)) == ()
 
 
+@pytest.mark.parametrize("step", [0.09, 1.0])
+def test_a_machine_before_an_encoder_overloads_nothing(step):
+    """It rests before a spin-up and after it, or turns round: whole steps, many of them equal at the extremes."""
+    t = np.arange(4000) * 1e-3
+    spun = np.cumsum(np.interp(t, [0.05, 0.15, 2.5, 3.0], [0.0, 500.0, 500.0, 0.0])) * 1e-3
+    swung = 30.0 * np.sin(2.0 * np.pi * t)
+    for motion in (spun, -spun, swung, np.deg2rad(swung)):
+        unit = step if np.ptp(motion) > 2.0 else np.deg2rad(step)
+        assert overloaded(unit * np.round(motion / unit)) == ()
+
+
+@pytest.mark.parametrize("bits", [8, 12, 16])
+def test_a_clipped_converter_is_an_overload(bits):
+    grain = 100.0 / 2**bits
+    high, low = overloaded(grain * np.round(clipped(0.0) / grain))
+    assert high.exact
+    assert low.exact
+    assert 5 <= high.stretches <= 6
+
+
 def test_an_overload_is_said_with_its_unit():
     high, low = note_overload(clipped(0.0), "the sensor 'a'", "m/s^2")
     assert high.startswith("the sensor 'a' sits at its largest value 49.03 m/s^2 for ")

@@ -61,7 +61,7 @@ def test_wild_cycles_and_models_do_not_set_the_scale():
 
 def test_without_a_decay_there_is_no_figure():
     assert decay.draw([], unit="m") is None
-    assert "3 decays after each hit" in decay.caption(3)
+    assert "3 decays, one after each hit" in decay.caption(3)
     assert "after the hit" in decay.caption()
     assert "hit" not in decay.caption(struck=False)
 
@@ -89,7 +89,7 @@ def test_the_page_shows_decays_after_the_prediction(tmp_path):
     page = page_of(tmp_path, made.mismatch() | {"decay": DECAY})
     assert page.index("section-prediction") < page.index("section-decay") < page.index("section-missing")
     assert "The frequency stays at 24 Hz &lt;i&gt;; the model follows within 4\N{NO-BREAK SPACE}%." in page
-    assert "Each dot is a cycle of 2 decays after each hit" in page
+    assert "Each dot is a cycle of 2 decays, one after each hit" in page
 
 
 def test_a_decay_that_could_not_be_measured_is_said_without_a_figure(tmp_path):

@@ -118,6 +118,12 @@ def plain(text):
     return text.replace("\N{NO-BREAK SPACE}", " ")
 
 
+@pytest.mark.parametrize(("free", "how"), [(False, "under the recorded drive"), (True, "left to itself")])
+def test_an_exponent_says_what_drove_the_model(free, how):
+    table = made()["show"]
+    assert said(table, not free, free=free)["largest_exponent"].startswith(f"Of the model {how}")
+
+
 def test_what_could_not_be_measured_keeps_its_sentence():
     facts = made()
     refused = {"value": None, "low": None, "high": None, "status": "too_short", "says": "Too few periods."}

@@ -95,6 +95,16 @@ def test_without_damping_no_energy_is_lost(make, most):
     assert np.ptp(energy) < most * energy[0]
 
 
+@pytest.mark.parametrize("size", [1e13, 1e140, 1e170, np.inf, np.nan])
+def test_a_filter_that_ran_away_has_no_likelihood(size):
+    """Errors of 1e140 are numbers still; squares of their derivatives are none, and brought a fit down."""
+    errors = np.ones((2, 5, 1))
+    errors[1] = size
+    seen = Innovations.of(errors, np.ones((2, 5, 1)), np.array([5, 5]))
+    assert seen.finite.tolist() == [True, False]
+    assert seen.log_likelihood[1] == -math.inf
+
+
 def test_a_motion_too_stiff_to_follow_has_a_status():
     """It is given up within seconds, and no number is made of what was seen of it."""
     machine, stiff = System.of(LinBacklash()), {**MACHINE, "k0": 1e18, "x0": 1e-12}

@@ -126,6 +126,24 @@ def test_closed_teeth_swing_at_the_frequency_of_both_wheels():
     np.testing.assert_allclose(pack, 3.0 / (1.0 / 0.02 + RATIO**2 / 0.3))
 
 
+@pytest.mark.parametrize("open_", [True, False])
+def test_the_fastest_rate_is_that_of_both_wheels_where_only_the_first_is_known_to_move(open_):
+    """A light second wheel is the fastest part; steps for the first alone let the filter run away."""
+    system, light, c = System(GearPair("rotation")), 1e-3, 0.5
+    full = system.vector(WHEELS | {"c": c, "m2": light, "x0": 10.0 if open_ else 1e-6})
+    states = np.zeros((9, 4))
+    states[:, 0] = [-1.0, -0.9, -0.8, -0.7, 0.6, 0.7, 0.8, 0.9, 1.0]
+    states[:, 1] = np.tile([-20.0, 1.0, 20.0], 3)
+    across = np.array([[-1.0, RATIO], [RATIO, -(RATIO**2)]]) / [[0.02], [light]]
+    matrix = np.zeros((4, 4))
+    matrix[[0, 2], [1, 3]] = 1.0
+    matrix[np.ix_([1, 3], [1, 3])] = c * across
+    matrix[np.ix_([1, 3], [0, 2])] = 0.0 if open_ else 400.0 * across
+    fastest = np.abs(np.linalg.eigvals(matrix)).max()
+    assert fastest > 0.4 * c * RATIO**2 / light
+    assert system.stiffness(full, (), states, np.zeros((9, 3))) == pytest.approx(fastest, rel=1e-4)
+
+
 def test_stiff_teeth_turn_as_one_shaft():
     """Rigid limit: (ratio^2 m1 + m2) x2'' = ratio torque + brake - load, and x1 = ratio x2, but for what teeth give."""
     system = System(GearPair("rotation"))

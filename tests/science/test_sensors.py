@@ -146,3 +146,37 @@ def test_a_shaken_table_with_an_accelerometer_on_it(tmp_path):
     assert found["mechanism"] == "coulomb_friction"
     value = found["parameters"]["force"]
     assert value["low"] - 0.005 <= drag <= value["high"] + 0.005
+
+
+@pytest.mark.slow
+def test_a_load_cell_beside_an_encoder_on_a_joint_that_is_moved(tmp_path):
+    m, c, k0, x0, drag = 0.9, 1.2, 900.0, 1.2e-3, 0.35
+    base, t = multisine(6e-3, 0.5, 2.5, seed=7), np.arange(2000) / 200.0
+    pace = 1e-6
+
+    def slope(now):
+        return (float(base(now + pace)) - float(base(now - pace))) / (2.0 * pace)
+
+    def through(now, y):
+        gap = float(base(now)) - y[0]
+        return c * (slope(now) - y[1]) + k0 * np.copysign(max(abs(gap) - x0, 0.0), gap)
+
+    states = moved(lambda now, y: [y[1], (through(now, y) - drag * np.tanh(y[1] / 1e-5)) / m], t, [0.0, 0.0])
+    cell = np.array([through(now, y) for now, y in zip(t, states, strict=True)])
+    columns = {"t": t, "base": 1e3 * base(t), "cell": noisy(cell, 0.01, 3), "x": 1e3 * noisy(states[:, 0], 0.01, 4)}
+    recording = {
+        "inputs": [{"input": "base_position", "column": "base", "unit": "mm"}],
+        "sensors": [
+            {"channel": "force", "column": "cell", "unit": "N", "name": "load cell"},
+            {"channel": "position", "column": "x", "unit": "mm", "name": "encoder"},
+        ],
+    }
+    values = {"m": m, "c": c, "k0": k0, "x0": x0}
+    said = said_of(case_of(tmp_path, columns, recording, model_of("backlash_slider", values, ("c", "k0", "x0"))))
+    (found,) = said["found"]
+    assert (found["mechanism"], found["at"]) == ("coulomb_friction", "ground")
+    value = found["parameters"]["force"]
+    assert value["low"] - 0.005 <= drag <= value["high"] + 0.005
+    for parameter in ("k0", "x0"):
+        value = said["parameters"]["after"][parameter]
+        assert value["low"] * 0.99 <= values[parameter] <= value["high"] * 1.01

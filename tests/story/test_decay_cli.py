@@ -128,4 +128,5 @@ def test_a_hammer_test_has_a_decay_after_each_hit(tmp_path):
         assert all(hit < start < hit + 1.0 for hit, start in zip(hits, starts, strict=True))
         assert all(a["time"][-1] < b["time"][0] for a, b in pairwise(said["decay"][name]))
     assert said["decay"]["says"].startswith("Of 2 decays, the one from ")
-    assert "2 decays after each hit" in words_of(page)
+    assert said["notes"] == []
+    assert "2 decays, one after each hit" in words_of(page)

@@ -178,7 +178,9 @@ def expand(problem: Problem, theta: Array, steps: Array) -> Local:
 
 
 def _local(problem: Problem, slopes: Sensitivity) -> Local:
-    theta, gradient, information = slopes.theta, slopes.gradient(), slopes.information()
+    theta = slopes.theta
+    with np.errstate(over="ignore", divide="ignore", invalid="ignore"):  # where the filter does not get through
+        gradient, information = slopes.gradient(), slopes.information()
     for i, f in enumerate(problem.free):
         gradient[i] -= f.pull * (theta[i] - f.mean)
         information[i, i] += f.pull

@@ -25,7 +25,7 @@ from lostmotion.likelihood.system import Slot, System
 from lostmotion.quantities import quantity_of, unit_of
 
 HELD_OUT = 0.3
-BLOCKS, ALIVE, DIED = 60, 4.0, 0.67
+BLOCKS, ALIVE, DIED = 60, 4.0, 1.0 - HELD_OUT
 """Parts of a recording that are looked at for its motion; noises by which that stands out where there is one; the share
 of the recording by which a motion must be over to count as one that died away."""
 SHARED = Sensor("shared")
@@ -65,7 +65,7 @@ def lasting(observation: Observation) -> int:
     """Return how many samples of a recording there are until its motion has died away, or all of them.
 
     A block of readings lives where its deviation is more than `ALIVE` times the noise, and the motion has died where
-    the last third of the recording or more does not.
+    as much of the recording as would be held out does not, or more: nothing could be predicted there.
     """
     sensor = telling(observation)
     blocks = np.array_split(filled(observation.readings[:, sensor]), BLOCKS)

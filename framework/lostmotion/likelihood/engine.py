@@ -16,6 +16,9 @@ from lostmotion.likelihood.system import System
 
 Random = Literal["white", "held", "latent"]
 """How the random force acts: white; held over each sample, where a sensor sees it at once; or with a memory."""
+RUNAWAY = 1e12
+"""A filter ran away where its errors are so many of their own deviations (rms). It was unstable, so neither its errors
+nor their differences mean anything, and the squares of their derivatives overflow."""
 
 
 @dataclass(frozen=True)
@@ -81,7 +84,7 @@ class Points:
 
 @dataclass(frozen=True)
 class Innovations:
-    """One-step errors and their variances, and which points got through all samples with finite numbers.
+    """One-step errors and their variances, and which points got through all samples without running away.
 
     Of an engine both are (points, samples, sensors) and `finite` is (points,); where nothing was read the error is 0
     and the variance 1 / (2 pi), which adds nothing. `reached` counts the samples that were got through.
@@ -95,9 +98,9 @@ class Innovations:
     @classmethod
     def of(cls, errors: Array, variances: Array, reached: NDArray[np.int64]) -> Innovations:
         """Return the innovations of an engine, which has got through so many samples at each point."""
-        with np.errstate(over="ignore", invalid="ignore"):
-            sums = np.sum(errors * errors / variances, axis=(1, 2))
-        return cls(errors, variances, (reached == errors.shape[1]) & np.isfinite(sums), reached)
+        with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
+            kept = np.sum(errors * errors / variances, axis=(1, 2)) <= RUNAWAY**2 * errors.shape[1]
+        return cls(errors, variances, (reached == errors.shape[1]) & kept, reached)
 
     @property
     def log_likelihood(self) -> Any:

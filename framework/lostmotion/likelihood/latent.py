@@ -14,6 +14,9 @@ from lostmotion.likelihood.problem import PACE, RANDOM, Free, Problem
 SHARES = (1e-3, 3e-3, 1e-2, 3e-2, 1e-1, 3e-1)
 PACES = (4.0, 12.0, 40.0)
 """Correlation times that are tried, as fractions of the natural time of the motion."""
+FASTEST = 1.5
+"""A force that fades by more than this exponent in a sample is not told from one that acts between samples alone: the
+smoothed force came out twice as large as the law (dry friction in a decay, exponent 2), or five times (exponent 10)."""
 
 
 @dataclass(frozen=True)
@@ -53,7 +56,8 @@ def missing_force(problem: Problem, theta: Array, index: int = 0) -> Missing:
     a force that correlates with a base parameter is shrunk by it.
     """
     single = problem.on((problem.observations[index],))
-    grid = [(s, p) for p in PACES for s in SHARES]
+    step = single.observations[0].dt / problem.scales.time
+    grid = [(s, p) for p in PACES if p == min(PACES) or p * step < FASTEST for s in SHARES]
     forced, thetas = _with_force(single, theta, grid)
     heights = forced.log_likelihoods(thetas)
     best = int(np.argmax(heights))

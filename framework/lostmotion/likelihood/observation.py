@@ -35,6 +35,10 @@ QUIET, STRUCK = 0.5, 6.0
 thousandth of its peak is the usual noise: the gauge was chosen for the hits, however quiet it is between them."""
 
 
+FEWEST_PERIODS, LINE = 4, 0.75
+"""A drive with a period repeats so often at least, and its line holds this share of the power (a square wave: 0.81)."""
+
+
 @dataclass(frozen=True)
 class Observation:
     """One recording as an engine sees it: `inputs` (samples, inputs) and `readings` (samples, sensors), every `dt` s.
@@ -354,7 +358,10 @@ def filled(values: Array) -> Array:
 
 
 def period_of(signal: Array) -> float | None:
-    """Return the period of a signal in samples, or None where no line stands out of its spectrum."""
+    """Return the period of a signal in samples, or None where no line stands out of its spectrum.
+
+    A step has most of its power at the lowest frequencies, and of a multisine neighbouring lines lie close together.
+    """
     u = signal - signal.mean()
     if not u.any():
         return None
@@ -362,7 +369,7 @@ def period_of(signal: Array) -> float | None:
     power = np.abs(np.fft.rfft(u * np.hanning(size))) ** 2
     power[:2] = 0.0
     peak = int(np.argmax(power))
-    if peak < 2 or power[max(peak - 3, 0) : peak + 4].sum() < 0.5 * power.sum():
+    if peak < FEWEST_PERIODS or power[max(peak - 3, 0) : peak + 4].sum() < LINE * power.sum():
         return None
     return float(size / _refined(u * np.hanning(size), peak))
 

@@ -16,14 +16,13 @@ from numpy.typing import NDArray
 
 from lostmotion.contracts import Array, Assembly, DriveTerm, Input, Interface, Model, Param, SensorTerm, Term, place_of
 from lostmotion.errors import ContractError, nearest
+from lostmotion.likelihood.acting import Column, Recorded, of_order, through
 from lostmotion.likelihood.compose import Blueprint, Functions, Place, functions, law_of
 from lostmotion.likelihood.drive import SILENT, Drive, Tone
 from lostmotion.likelihood.motion import derivatives, run
 
 PIECE = 200_000
 """Steps of a long motion that are computed at a time."""
-Column = Callable[[Array], Array]
-"""An input as a function of time (s)."""
 NUMB = -1
 """The index of an observed channel that is no state and has to be linearised."""
 
@@ -251,12 +250,12 @@ class System:
         for name, places in self.groups:
             if max(places) >= len(columns):  # an input that nothing drives
                 continue
-            u: Input = _Recorded(tuple(columns[place] for place in places))
+            u: Input = Recorded(tuple(columns[place] for place in places))
             own = [key for key in keys if self._touches(key, name, lead in places)]
             for key in own:
-                u = _through(self.beside[key], u, self.values(full, key, tone))
+                u = through(self.beside[key], u, self.values(full, key, tone))
             for order, place in enumerate(places if own else ()):
-                made[place] = partial(_of_order, u, order)
+                made[place] = partial(of_order, u, order)
         return made
 
     def _touches(self, key: str, name: str, leads: bool) -> bool:
@@ -365,10 +364,13 @@ class System:
     def stiffness(self, full: Array, active: Iterable[str], states: Array, inputs: Array) -> float:
         """Return the fastest rate (1/s) of the linearised motion over the given states (points, n) and inputs.
 
-        Infinite where it is beyond all numbers.
+        Infinite where it is beyond all numbers. A state that is the same at all points, as that of a second body where
+        nobody knows it, is moved by as little as the one that varies least.
         """
         chosen, (points, m) = frozenset(active), states.shape
-        spread = np.maximum(1e-6 * (np.ptp(states, axis=0) + 1e-12), 1e-9 * np.abs(states).max(axis=0))
+        wide = np.ptp(states, axis=0)
+        wide = np.where(wide > 0.0, wide, np.min(wide, where=wide > 0.0, initial=np.max(wide)))
+        spread = np.maximum(1e-6 * (wide + 1e-12), 1e-9 * np.abs(states).max(axis=0))
         moved = np.zeros((m + 1, points, self.states(chosen)))
         moved[:, :, :m] = states
         for a in range(m):
@@ -380,28 +382,6 @@ class System:
         if not np.all(np.isfinite(jacobians)):
             return math.inf
         return float(np.abs(np.linalg.eigvals(jacobians)).max(initial=0.0))
-
-
-@dataclass(frozen=True)
-class _Recorded:
-    """A recorded input as terms see it: its value (order 0) and its derivative (order 1) at times (s)."""
-
-    columns: tuple[Column, ...]
-
-    def __call__(self, t: Array, order: int) -> Array:
-        return self.columns[order](t)
-
-
-def _of_order(u: Input, order: int, t: Array) -> Array:
-    return u(t, order)
-
-
-def _through(term: DriveTerm | SensorTerm, u: Input, p: tuple[float, ...]) -> Input:
-    """Return an input after one term; a sensor that is late sees what an earlier input has done."""
-    if isinstance(term, DriveTerm):
-        return lambda t, order: term.true(u, t, p, order)
-    late = term.delay(p)
-    return (lambda t, order: u(t - late, order)) if late else u
 
 
 def _default(slot: Slot) -> float:

@@ -96,7 +96,7 @@ def draw(
 def caption(decays: int = 1, *, struck: bool = True) -> str:
     """Return what to see in the figure of so many decays, after hits of a hammer if the machine was `struck`."""
     which = f"of {decays} decays" if decays > 1 else "of the decay"
-    after = f" after {'each' if decays > 1 else 'the'} hit" if struck else ""
+    after = (", one after each hit" if decays > 1 else " after the hit") if struck else ""
     return (
         f"Each dot is a cycle {which}{after}, lines are free runs of the model from the same start: time runs from "
         "right to left. Viscous damping and a linear spring give level lines. A decrement that rises to the left is "

@@ -8,6 +8,8 @@ from typing import Any, NamedTuple
 from lostmotion.report.evidence import Evidence
 from lostmotion.report.words import DASH, measured, percent, sentence, span, spoken
 
+UNNAMED = ("unknown", "random_force")
+"""What stands for a force that no mechanism of the library explains."""
 ADEQUATE = "Nothing is missing that this recording can show."
 
 
@@ -24,7 +26,7 @@ def badge(evidence: Evidence) -> Badge:
         return Badge("adequate", "Adequate")
     if evidence.fact("verdict") != "mismatch":
         return Badge("unknown", "No verdict")
-    named = any(entry.get("mechanism") != "unknown" for entry in found(evidence))
+    named = any(entry.get("mechanism") not in UNNAMED for entry in found(evidence))
     return Badge("mismatch", "Mismatch, explained") if named else Badge("unknown", "Mismatch, unknown")
 
 

@@ -208,8 +208,9 @@ def overloaded(values: ArrayLike) -> tuple[Overload, ...]:
     """Return the flat tops of a signal (n,) at its largest and at its smallest value, at most one entry for each.
 
     A top is flat where three samples or more are equal to the extreme value of the signal; or, with noise behind the
-    limit, where four samples or more in a row lie within 1 % of its range from the extreme and a round top with the
-    same slope at its flanks, a parabola, would have stayed there less than a third as long.
+    limit, where four samples or more in a row lie within 1 % of its range from the extreme; and where a round top with
+    the same slope at its flanks, a parabola, would have stayed there, or within the least step between samples, less
+    than a third as long. So a machine that turns round before an encoder, or rests, overloads nothing.
     """
     readings = np.array(values, dtype=np.float64)
     if readings.ndim != 1 or np.count_nonzero(np.isfinite(readings)) < 2:
@@ -228,8 +229,12 @@ def overloaded(values: ArrayLike) -> tuple[Overload, ...]:
 def _flat(x: Array, span: float) -> Overload | None:
     """Return the flat tops at the largest value, equal ones if there are any, or None without any."""
     largest = float(np.nanmax(x))
-    equal = [run for run in _runs(x == largest) if run[1] - run[0] >= EQUAL]
-    near = [run for run in _runs(x >= largest - FLAT * span) if _is_flat(x, run, FLAT * span)]
+    changes = np.abs(np.diff(x))
+    grain = float(np.min(changes, where=changes > 0.0, initial=span))
+    tops = [run for run in _runs(x == largest) if run[1] - run[0] >= EQUAL and _is_flat(x, run, grain)]
+    broad = [run for run in _runs(x >= largest - FLAT * span) if _is_inside(x, run) and _is_flat(x, run, FLAT * span)]
+    # What comes to rest before an encoder, or turns round there, moves by a grain in a sample, or in many.
+    equal, near = ([run for run in runs if _fall(x, run) > 2.5 * grain] for runs in (tops, broad))
     runs = equal or near
     if not runs:
         return None
@@ -237,14 +242,25 @@ def _flat(x: Array, span: float) -> Overload | None:
     return Overload(value, sum(high - low for low, high in runs), len(runs), runs[0][0], bool(equal))
 
 
+def _is_inside(x: Array, run: tuple[int, int]) -> bool:
+    """Return whether a top (first sample, stop) has both flanks in the record, and is long enough for noise."""
+    return run[1] - run[0] > EQUAL and run[0] >= 2 and run[1] + 2 <= x.size
+
+
 def _is_flat(x: Array, run: tuple[int, int], height: float) -> bool:
     """Return whether a top (first sample, stop) of a height is much longer than a parabola with its flanks."""
-    low, high = run
-    if high - low < EQUAL + 1 or low < 2 or high + 2 > x.size:
-        return False
-    slope = min(x[low] - x[low - 2], x[high - 1] - x[high + 1]) / 2.0
     # A parabola of height h with the slope s at its flanks is 4 h / s long.
-    return bool((high - low) * slope > FLATTER * 4.0 * height)
+    return (run[1] - run[0]) * _fall(x, run) / 2.0 > FLATTER * 4.0 * height
+
+
+def _fall(x: Array, run: tuple[int, int]) -> float:
+    """Return by how much a signal falls over two samples beside a top, at its flatter flank; 0 where none is known.
+
+    Of a top at an end of the record, or beside lost samples, the other flank tells.
+    """
+    low, high = run
+    pairs = [(low, low - 2), (high - 1, high + 1)]
+    return min((float(x[t] - x[f]) for t, f in pairs if 0 <= f < x.size and np.isfinite(x[f])), default=0.0)
 
 
 def _runs(flags: NDArray[np.bool_]) -> list[tuple[int, int]]:

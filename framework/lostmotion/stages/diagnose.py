@@ -15,7 +15,7 @@ from lostmotion.inference.learned import Learned
 from lostmotion.inference.locate import Curve, covariates, curve, edges_of, further, summary
 from lostmotion.inference.scout import scoutable, scouted
 from lostmotion.inference.selection import Selection, significant_random_force
-from lostmotion.inference.setup import polish, problem_of, search, split, stepped
+from lostmotion.inference.setup import HELD_OUT, polish, problem_of, search, split, stepped
 from lostmotion.inference.shares import Covariate, Share, shares_of, significant
 from lostmotion.inference.stretches import sought
 from lostmotion.inference.unexplained import Curves, Unknown
@@ -162,6 +162,7 @@ def diagnose(
 ) -> Diagnosis:
     """Return the diagnosis of a case; `system` holds the model and every term that is to be tried."""
     train, held = split(observations)
+    _check_moving(held)
     say("fit of the nominal model")
     nominal = search(problem_of(system, case, train, jobs=jobs), rng)
     curves = Curves(len(system.keys), say)
@@ -191,6 +192,18 @@ def diagnose(
     after = polish(learned.fit)
     gain = significant_random_force(after)
     return _located(replace(bare, after=after, random_gain=gain, learned=replace(learned, fit=after)), chance)
+
+
+def _check_moving(held: Sequence[Observation]) -> None:
+    """Refuse held-out data in which a sensor shows the same all the time: errors are told over its deviation."""
+    for i, sensor in enumerate(held[0].sensors):
+        if not np.nanstd(np.concatenate([o.readings[:, i] for o in held])) > 0.0:
+            names = ", ".join(o.name for o in held)
+            raise DataError(
+                f"{names}: the sensor {sensor.label!r} shows one value all through the last {HELD_OUT:.0%}, which are"
+                " held out: nothing can be predicted there; end the recording with t_end where the motion ends, or"
+                " name a recording that moves last"
+            )
 
 
 def marks_of(fit: Fit) -> dict[str, tuple[Values, Values]]:

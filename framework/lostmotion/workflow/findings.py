@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from lostmotion.contracts import Array, Model, Term
+from lostmotion.contracts import Array, Model, SensorTerm, Term
 from lostmotion.inference.candidates import term_of
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.mixture import draws
@@ -74,17 +74,18 @@ def _entry(outcome: Outcome, key: str, after: Mapping[str, Interval]) -> dict[st
     system, known = d.after.problem.system, d.after.problem.known
     held = {s.key: float(known[system.index[s.key]]) for s in slots}
     own = {s.param.name: after.get(s.key) or _of(np.full(1, held[s.key]), s.unit) for s in slots}
-    sentence = term.physics.format(**{name: str(i) for name, i in own.items()})
+    sentence = term.physics.format(**{name: str(i) for name, i in own.items()}) + _whose(d, term)
     if term.at in elsewhere(system.model):
         sentence += f" at the {term.at}"
     share = float(np.max(np.abs(d.laws[key]))) / d.after.problem.scales.force
+    percent, is_sensor = f"{100.0 * share:.2g}" if share < 1.0 else f"{100.0 * share:.0f}", isinstance(term, SensorTerm)
     return {
         "mechanism": term.name,
         "at": term.at,
         "probability": d.selection.inclusion(key),
         "parameters": {name: i.as_dict() for name, i in (own | _derived(outcome, term, held)).items()},
         "share_of_drive": share,
-        "says": f"{sentence}, up to {100.0 * share:.2g} % of {d.yardstick}.",
+        "says": f"{sentence}." if is_sensor else f"{sentence}, up to {percent} % of {d.yardstick}.",
     }
 
 
@@ -101,7 +102,7 @@ def _mark(d: Diagnosis, key: str) -> dict[str, Any]:
     channel = next((s.channel for s in d.shown.sensors if s.place == term.at), d.shown.channel)
     unit = unit_of(channel, d.after.problem.system.model.motion)
     own = {s.param.name: Interval(v, v - 1.96 * sd, v + 1.96 * sd, unit) for s, v, sd in rows}
-    sentence = term.physics.format(**{name: f"{i.median:.3g} {i.unit}" for name, i in own.items()})
+    sentence = term.physics.format(**{name: f"{i.median:.3g} {i.unit}" for name, i in own.items()}) + _whose(d, term)
     return {
         "mechanism": term.name,
         "at": term.at,
@@ -109,6 +110,13 @@ def _mark(d: Diagnosis, key: str) -> dict[str, Any]:
         "parameters": {name: i.as_dict() for name, i in own.items()},
         "says": f"{sentence}: the stored values themselves tell.",
     }
+
+
+def _whose(d: Diagnosis, term: Term) -> str:
+    """Return at which of several sensors a term acts, as a sentence on it ends; nothing for other terms."""
+    if not isinstance(term, SensorTerm) or len(d.shown.sensors) < 2:
+        return ""
+    return next((f" (sensor {s.label!r})" for s in d.shown.sensors if s.place == term.at), "")
 
 
 def _derived(outcome: Outcome, term: Term, held: Mapping[str, float]) -> dict[str, Interval]:

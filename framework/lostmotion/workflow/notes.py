@@ -21,6 +21,8 @@ FAR = 5.0
 EDGE = 1e-3
 VAGUE = 0.01
 """A position that no sensor shows and that is known worse than to this share of its amplitude deserves a note."""
+LOUD, DEAFENING = 0.3, 0.8
+"""Noise with a memory, and any noise, that makes up this share of what a sensor shows may as well be motion."""
 
 
 def notes_of(outcome: Outcome, said: Sequence[str]) -> list[str]:
@@ -70,6 +72,23 @@ def _slow(d: Diagnosis) -> list[str]:
     return notes
 
 
+def drowned(outcome: Outcome) -> list[str]:
+    """Return a sentence for each sensor of which so much passes for noise, where held out, that it may be motion."""
+    d, told = outcome.diagnosis, []
+    problem, theta = d.after.problem, d.after.theta
+    for i, (sensor, size) in enumerate(zip(d.shown.sensors, outcome.after.scales, strict=True)):
+        slow, share = (v**0.5 / size for v in (problem.slow(theta, 0, i)[0], problem.measurement(theta, 0, i)))
+        if slow > LOUD or share > DEAFENING:
+            whose = f" of {sensor.label}" if len(d.shown.sensors) > 1 else ""
+            told.append(
+                f"What passes for noise{whose}{' has a memory and' if slow > LOUD else ''} is {share:.0%} of the"
+                " held-out readings: it may be motion that the model cannot make, such as another mode, or a sensor"
+                " that does not show what the case says (check its sign and place); then neither what was found nor"
+                " that nothing was found holds."
+            )
+    return told
+
+
 def _declined(d: Diagnosis) -> list[str]:
     declined = sorted(d.selection.declined - set(d.found))
     if not declined:
@@ -86,8 +105,9 @@ def _on_the_edge(d: Diagnosis) -> list[str]:
     for f, at in zip(d.after.problem.free, d.after.theta, strict=True):
         reach = EDGE * (f.high - f.low)
         if not is_level(f.key) and "." not in f.parameter and not f.low + reach < at < f.high - reach:
+            bound = f.value(f.low if at <= f.low + reach else f.high)
             notes.append(
-                f"{f.key} lies on the bound {f.value(at):.4g} {f.unit} of its prior: widen the prior, or doubt what is"
+                f"{f.key} lies on the bound {bound:.4g} {f.unit} of its prior: widen the prior, or doubt what is"
                 " known; what was found may stand in for it."
             )
     return notes

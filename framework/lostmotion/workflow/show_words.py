@@ -76,8 +76,8 @@ def _apart(table: Table, last: str, strobed: bool) -> str:
 
 
 def _exponent(table: Table, last: str, *, driven: bool) -> str:
-    opening = "Of the model under the recorded drive" if driven else "Of the model along its free run"
     value, low, high = (_number(table, last, "largest_exponent", k) for k in ("value", "low", "high"))
+    opening = f"Of the model {'under the recorded drive' if driven else 'left to itself'}"
     if math.isnan(low):
         return f"{opening}; the recording is too short for an interval."
     kind = "near runs part: chaos" if low > 0.0 else "near runs close up" if high < 0.0 else "its sign is open"

@@ -15,6 +15,7 @@ from lostmotion.report.words import chance, span, spoken
 from lostmotion.stages.compare import Prediction
 from lostmotion.stages.diagnose import Diagnosis
 from lostmotion.workflow.findings import Outcome, elsewhere, found_in, intervals
+from lostmotion.workflow.notes import drowned
 from lostmotion.workflow.unknowns import unknown_odds, where
 
 WORTH_NAMING = 0.01
@@ -224,6 +225,7 @@ def says(outcome: Outcome, found: list[dict[str, Any]]) -> list[str]:
             "Nothing is missing that this recording can show.",
             f"The nominal model predicts held-out data over {time} to {error:.1%} of the response; the noise alone is"
             f" {fit['noise_floor_nrmse']:.1%}.",
+            *drowned(outcome),
         ]
     if not d.found:
         return [entry["says"] for entry in found]
@@ -233,12 +235,17 @@ def says(outcome: Outcome, found: list[dict[str, Any]]) -> list[str]:
     else:
         opening.append(f"The model leaves out {'both' if len(found) == 2 else f'all {len(found)} of them'}.")
     old, new = _unexplained(d, after=False), _unexplained(d, after=True)
+    errors = [fit[when]["heldout_nrmse"] for when in ("before", "after")]
+    verbs = ["rises" if new["rms"] > old["rms"] else "falls", " rises" if errors[1] > errors[0] else " falls"]
+    if verbs[1].strip() == verbs[0]:
+        verbs[1] = ""
     opening.append(
-        f"With {'it' if len(found) == 1 else 'them'} the unexplained force{_taken_as(d)} falls from {old['rms']:.3g} to"
-        f" {new['rms']:.2g} {new['unit']} (rms), and the free-running prediction error of held-out data over {time}"
-        f" from {fit['before']['heldout_nrmse']:.1%} to {fit['after']['heldout_nrmse']:.1%} of the response; the noise"
-        f" alone is {fit['noise_floor_nrmse']:.1%}."
+        f"With {'it' if len(found) == 1 else 'them'} the unexplained force{_taken_as(d)} {verbs[0]} from"
+        f" {old['rms']:.3g} to {new['rms']:.2g} {new['unit']} (rms), and the free-running prediction error of held-out"
+        f" data over {time}{verbs[1]} from {errors[0]:.1%} to {errors[1]:.1%} of the response; the noise alone is"
+        f" {fit['noise_floor_nrmse']:.1%}."
     )
+    opening += drowned(outcome)
     if d.unexplained:
         opening.append(f"A force of {new['rms']:.2g} {new['unit']} rms remains that no term of the library explains.")
     return opening

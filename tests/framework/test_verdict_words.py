@@ -1,0 +1,99 @@
+"""What the opening sentences of a diagnosis say: of changes either way, of loud noise, of sensors, and of nothing."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from lostmotion.errors import DataError
+from lostmotion.inference.setup import lasting
+from lostmotion.likelihood.observation import Observation, Sensor
+from lostmotion.report.evidence import Evidence
+from lostmotion.report.opening import badge
+from lostmotion.results import Interval
+from lostmotion.stages.diagnose import _check_moving
+from lostmotion.workflow import verdict
+from lostmotion.workflow.notes import drowned
+from lostmotion_plugins.models.basic import LinearOscillator
+
+
+def observed(readings, *names):
+    """Return an observation of position sensors."""
+    readings = np.asarray(readings, dtype=float).reshape(len(readings), -1)
+    sensors = tuple(Sensor("position", name) for name in names) or (Sensor("position"),)
+    return Observation("seen", readings, np.zeros((len(readings), 1)), 0.01, sensors)
+
+
+def diagnosed(slow, *names, white=0.0):
+    """Return as much of an outcome as sentences need: sensors that read a sine, of which so much passes for noise."""
+    wave = np.sqrt(2.0) * np.sin(0.1 * np.arange(6283))
+    shown = observed(np.stack([wave] * max(len(names), 1), axis=1), *names)
+    problem = SimpleNamespace(
+        observations=(shown,),
+        slow=lambda theta, index, sensor: (slow[sensor] ** 2, 0.7),
+        measurement=lambda theta, index, sensor: slow[sensor] ** 2 + white**2,
+    )
+    after = SimpleNamespace(problem=problem, theta=np.zeros(0))
+    problem.system = SimpleNamespace(model=LinearOscillator())
+    diagnosis = SimpleNamespace(after=after, shown=shown, found=("friction",), named=(), unexplained=False)
+    scales, horizon = [1.0] * len(shown.sensors), SimpleNamespace(number=1, unit="drive periods")
+    return SimpleNamespace(diagnosis=diagnosis, after=SimpleNamespace(scales=scales), horizon=horizon)
+
+
+@pytest.mark.parametrize(
+    ("force", "error", "told"),
+    [
+        ((2.0, 1.0), (0.2, 0.1), "force falls from 2 to 1 N (rms), and * from 20.0% to 10.0%"),
+        ((2.0, 1.0), (0.1, 0.2), "force falls from 2 to 1 N (rms), and * rises from 10.0% to 20.0%"),
+        ((1.0, 2.0), (0.1, 0.2), "force rises from 1 to 2 N (rms), and * from 10.0% to 20.0%"),
+        ((1.0, 2.0), (0.2, 0.1), "force rises from 1 to 2 N (rms), and * falls from 20.0% to 10.0%"),
+    ],
+)
+def test_what_grows_is_not_said_to_fall(monkeypatch, force, error, told):
+    fit = {w: {"heldout_nrmse": e} for w, e in zip(("before", "after"), error, strict=True)}
+    monkeypatch.setattr(verdict, "_fit", lambda _: fit | {"noise_floor_nrmse": 0.01})
+    monkeypatch.setattr(verdict, "_unexplained", lambda _, after: {"rms": force[after], "unit": "N"})
+    said = verdict.says(diagnosed([0.0]), [{"says": "Friction acts."}])[1]
+    start, end = told.split(" * ")
+    assert start in said
+    assert f"over one drive period {end} of the response" in said
+
+
+def test_noise_that_may_be_motion_is_doubted():
+    assert drowned(diagnosed([0.2])) == []
+    assert drowned(diagnosed([0.0], white=0.7)) == []
+    assert drowned(diagnosed([0.0], white=0.9))[0].startswith("What passes for noise is 90% of the held-out readings")
+    assert drowned(diagnosed([0.5]))[0].startswith(
+        "What passes for noise has a memory and is 50% of the held-out readings"
+    )
+    (only,) = drowned(diagnosed([0.1, 0.9], "front", "rear"))
+    assert only.startswith("What passes for noise of rear has a memory and is 90%")
+
+
+@pytest.mark.parametrize(("mechanism", "words"), [("random_force", "unknown"), ("unknown", "unknown"),
+                                                  ("coulomb_friction", "explained")])  # fmt: skip
+def test_a_force_without_a_name_is_not_called_explained(mechanism, words):
+    facts = {"verdict": "mismatch", "found": [{"mechanism": mechanism}]}
+    assert badge(Evidence(facts, {}, {}, {})).words == f"Mismatch, {words}"
+
+
+def test_a_number_without_a_dimension_has_no_unit():
+    assert str(Interval(1.068, 0.888, 1.258, "1")) == "1.068 [0.888, 1.258]"
+    assert str(Interval(1.068, 0.888, 1.258, "N")) == "1.068 N [0.888, 1.258]"
+
+
+def test_a_sensor_that_stands_still_where_it_is_to_be_predicted_is_refused():
+    """It was an error of division after minutes of work."""
+    moving, still = np.arange(50.0), np.full(50, 3.0)
+    _check_moving((observed(np.stack([moving, moving], axis=1), "front", "rear"),))
+    with pytest.raises(DataError, match=r"^seen: the sensor 'rear' shows one value .* held out: .* t_end"):
+        _check_moving((observed(np.stack([moving, still], axis=1), "front", "rear"),))
+
+
+@pytest.mark.parametrize("rests", [0.28, 0.31, 0.5])
+def test_what_is_held_out_still_moves(rests):
+    """A machine that stops: the part at rest is held out beside a part of the motion, never alone."""
+    t = np.linspace(0.0, 1.0, 3000)
+    turned = 0.09 * np.round(500.0 * np.minimum(t, 1.0 - rests) / 0.09)
+    cut = round(0.7 * lasting(observed(turned)))
+    assert t[cut] < 1.0 - rests
