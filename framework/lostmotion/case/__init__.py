@@ -1,8 +1,8 @@
 """What a case file says: what was measured, the model, what is known and what is to be estimated.
 
 What was measured stands in `[[recordings]]`, or in `[[levels]]` where only measures of chaos are at hand; a command
-says which of the two it wants. Beside them and `[model]` (`name`, `motion`, `[model.known]`, `[model.estimate]`) a case may
-hold:
+says which of the two it wants. Beside them and `[model]` (`name`, `motion`, `[model.known]`, `[model.estimate]`) a
+case may hold:
 
 - `title`, a line of text;
 - `plugins = ["file.py"]`: files, relative to the case, that bring models or terms of their own;
@@ -17,32 +17,32 @@ hold:
 `motion` is "translation" or "rotation". Where it is not given the units of the recordings tell; where it is, units that
 say otherwise are refused, as are lengths and angles in one case.
 
-Per recording: `file`; `time` or `rate` (Hz); what drove the machine, as `excitation` or `inputs`; what was measured, as
-`response` or `sensors`; `name` (in results; the stem of the file otherwise); `hold = "step"` when a digital controller
-holds the inputs between samples ("smooth" otherwise); `t_start` and `t_end` (s) to cut out a piece; `start`, when it was
-recorded, which is kept and used for nothing. `time` is a column, or `{ column, unit }` with a unit out of s, ms, us, ns,
-min and h. Where the case gives none the file tells, by its header or by time stamps; else it is s. A unit that
-contradicts the header is refused.
+Per recording: `file`; `time` or `rate` (Hz); what drove the machine, as `excitation` or `inputs`; what was measured,
+as `response` or `sensors`; `name` (in results; the stem of the file otherwise); `hold = "step"` when a digital
+controller holds the inputs between samples ("smooth" otherwise); `t_start` and `t_end` (s) to cut out a piece;
+`start`, when it was recorded, which is kept and used for nothing. `time` is a column, or `{ column, unit }` with a
+unit out of s, ms, us, ns, min and h. Where the case gives none the file tells, by its header or by time stamps; else
+it is s. A unit that contradicts the header is refused.
 
-The short form is one of each, and nothing has a name: `excitation` and `response` with `column`, `quantity`, `unit`, and
-`factor`, which multiplies the column before the unit is applied, for instance newtons per volt. `excitation = "none"` is
-a machine that nothing drives.
+The short form is one of each, and nothing has a name: `excitation` and `response` with `column`, `quantity`, `unit`,
+and `factor`, which multiplies the column before the unit is applied, for instance newtons per volt. `excitation =
+"none"` is a machine that nothing drives.
 
-The long form is two lists. `inputs` has each input of the model at most once, those that are not there being zero; it is
-`[]` where nothing drives the machine, and the state in which it begins is then estimated. Per input: `input` (as the
-model names it: `force`, `second_force`, `base_position`, `base_acceleration`), `column`, `unit`, `factor`. `sensors` has
-one sensor or more. Per sensor: `channel` (as the model names it: `position`, `second_velocity`, `acceleration`),
-`column`, `unit`, `factor`, and
+The long form is two lists. `inputs` has each input of the model at most once, those that are not there being zero; it
+is `[]` where nothing drives the machine, and the state in which it begins is then estimated. Per input: `input` (as
+the model names it: `force`, `second_force`, `base_position`, `base_acceleration`), `column`, `unit`, `factor`.
+`sensors` has one sensor or more. Per sensor: `channel` (as the model names it: `position`, `second_velocity`,
+`acceleration`), `column`, `unit`, `factor`, and
 
 - `name`: what results call it, and the place of its terms, as in `sensor_delay@load encoder`. That of its channel where
   none is given. Names differ within a recording and have none of `[ ] : / @ .` in them;
 - `noise`: "white" where nothing is said; "quantised", in whole steps that are read off the stored values; "ar1", with a
   part that has a memory. A diagnosis tries a memory by itself where the recording asks for it.
 
-The last part of an input or a channel is its quantity (position, velocity, acceleration or force), which says what units
-it may have. A torque is the force of a rotation, and `g` is 9.80665 m/s^2 in an acceleration. A reading of a sensor
-that is NaN or empty was not taken: sensors of different rates share one table. All recordings of a case have the same
-sensors, by name and channel.
+The last part of an input or a channel is its quantity (position, velocity, acceleration or force), which says what
+units it may have. A torque is the force of a rotation, and `g` is 9.80665 m/s^2 in an acceleration. A reading of a
+sensor that is NaN or empty was not taken: sensors of different rates share one table. All recordings of a case have
+the same sensors, by name and channel.
 
 Per level of a sinusoidal drive: `amplitude` and its `unit` (of a force, a torque or a base motion); `frequency` (Hz)
 or `omega` (rad/s); `name`; and what was measured there, at least one of `motion = "periodic"` or `"chaotic"`,
