@@ -5,6 +5,7 @@ import math
 import re
 import sys
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -17,6 +18,7 @@ from lostmotion.inference.unseen import place_of_body
 from lostmotion.likelihood.levels import usual_of
 from lostmotion.likelihood.observation import Observation, windowed
 from lostmotion.likelihood.problem import NOISE, RANDOM
+from lostmotion.likelihood.reference import Reference
 from lostmotion.likelihood.system import System
 from lostmotion.registry import default
 from lostmotion.workflow.notes import vague
@@ -28,10 +30,16 @@ sys.modules[SPEC.name] = machines
 SPEC.loader.exec_module(machines)
 
 
-def posed(number, seed=0):
+@cache
+def recorded(number):
+    """Return a machine of the campaign with seed 0, its recording and its true states: they take seconds."""
+    machine = machines.machine_of(0, number)
+    return machine, *machines.recorded(machine, 0)
+
+
+def posed(number):
     """Return a machine, its problem on what is fitted, the coordinates of the truth, and the true states."""
-    machine = machines.machine_of(seed, number)
-    observation, states = machines.recorded(machine, seed)
+    machine, observation, states = recorded(number)
     system = System(default().make("model", machine.model), ())
     problem = problem_of(system, machines.case_of(machine), split([observation])[0])
     levels = {
@@ -45,8 +53,7 @@ def posed(number, seed=0):
 @pytest.mark.parametrize("number", [0, 3, 5])
 def test_the_size_of_a_motion_is_told_by_its_acceleration(number):
     """Spikes of hits are most of an acceleration, and none of the motion: taken for it they made it far too small."""
-    machine = machines.machine_of(0, number)
-    observation, states = machines.recorded(machine, 0)
+    machine, observation, states = recorded(number)
     system = System(default().make("model", machine.model), ())
     scales = scales_of(system, (observation,), system.vector(machine.values))
     assert scales.length == pytest.approx(math.sqrt(2.0) * states[:, 0].std(), rel=0.1)
@@ -75,6 +82,34 @@ def test_between_hits_the_noise_of_a_hammer_is_no_force():
     np.testing.assert_array_equal(windowed(slow), slow)
 
 
+def test_what_edges_of_hits_do_between_samples_is_told_as_it_is():
+    """The mean force between two samples, by the drive and truly: errors are as large as told to within a third.
+
+    Half-sines of 6 to 25 samples, whose integral is known; a wave that is well sampled is told to be known.
+    """
+    rng, t, told, made = np.random.default_rng(5), np.arange(400.0), 0.0, 0.0
+    for _ in range(100):
+        begin, width = 200.0 + rng.random(), math.exp(rng.uniform(math.log(6.0), math.log(25.0)))
+        share = np.clip((t - begin) / width, 0.0, 1.0)
+        true = np.diff(width / math.pi * (1.0 - np.cos(math.pi * share)))
+        force = machines.hammer(t, np.array([begin]), np.array([width]), np.array([1.0]))
+        seen = Observation.of("a", force, force[:, None], 1.0, "acceleration")
+        means = seen.drive.cubics[:-1, :, 0] @ (1.0 / np.arange(1.0, 5.0))
+        told, made = told + float(np.sum(seen.unsure)), made + float(np.sum((means - true) ** 2))
+    assert math.sqrt(told / made) == pytest.approx(1.0, rel=0.33)
+    assert not Observation.of("b", t, np.cos(0.1 * t)[:, None], 1.0, "acceleration").unsure.any()
+
+
+def test_the_engines_agree_on_a_recording_with_hits():
+    _, problem, true, _, observation = posed(0)
+    struck = int(np.argmax(observation.unsure > 0.0))
+    short = stepped(problem.on((observation.part(max(struck - 300, 0), struck + 300),)), true)
+    assert short.observations[0].unsure.any()
+    ours, plain = short.innovations(true), replace(short, engine=Reference()).innovations(true)
+    np.testing.assert_allclose(plain.errors, ours.errors, rtol=0.0, atol=1e-9 * np.abs(ours.errors).max())
+    np.testing.assert_allclose(plain.variances, ours.variances, rtol=1e-9)
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("number", [14, 41])
 def test_a_search_with_an_accelerometer_reaches_the_truth(number):
@@ -89,6 +124,7 @@ def test_a_search_with_an_accelerometer_reaches_the_truth(number):
     assert np.all(np.abs(fit.theta - true)[:3] < 5.0 * np.array(known)), machine
 
 
+@pytest.mark.slow
 def test_the_likelihood_is_smooth_where_a_body_creeps_up_to_a_contact():
     """With three points of linearisation it jumped by 300 between values of c that differ by one in ten million."""
     machine, problem, true, states, _ = posed(56)
@@ -107,15 +143,16 @@ def test_a_part_of_a_recording_begins_where_it_does():
 
 
 def test_a_position_that_no_sensor_shows_is_told_with_its_band():
-    """The position under hits, smoothed at the truth: 2 standard deviations hold it in 95.5 % of samples, give or take.
+    """The position under hits, smoothed at the truth. Errors of neighbours go together, so one recording tells little.
 
-    Errors of neighbours go together; over the machines of this kind the share lies between 90 and 99 %.
+    Over 100 machines the band holds the position in about 95 of 100 samples: `benchmarks/accelerometers.py`.
     """
-    machine, problem, true, states, observation = posed(1)
+    machine, problem, true, states, observation = posed(0)
     fit = maximise(stepped(problem, true), true)
     place = place_of_body(fit, observation)
-    inside = np.mean(np.abs(place.mean - states[:, 0]) < 2.0 * place.sd)
-    assert 0.9 < inside < 0.99
+    error = place.mean - states[:, 0]
+    assert np.mean(np.abs(error) < 2.0 * place.sd) > 0.9
+    assert np.std(error) > 0.3 * np.sqrt(np.mean(place.sd**2))
     assert vague(fit, observation) == []
     loud = replace(fit, local=replace(fit.local, theta=fit.theta + 10.0 * (np.array(fit.problem.keys) == RANDOM)))
     pairs = zip(fit.problem.free, loud.theta, strict=True)

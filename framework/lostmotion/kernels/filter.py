@@ -282,8 +282,17 @@ def redrawn(work, noise, sources, drawn, lanes):  # type: ignore[no-untyped-def]
             store(work, P + row * N + row, o, load(noise, 2 * (sources + d) + 1, o))
 
 
+@jit
+def loosened(work, noise, sources, drawn, unsure, lanes):  # type: ignore[no-untyped-def]
+    """Let the first force that is held be less certain on its way to the next sample."""
+    if drawn > 0 and unsure > 0.0:
+        row = int(value(noise, 2 * sources, 0))
+        for o in range(0, lanes, WIDTH):
+            store(work, P + row * N + row, o, load(work, P + row * N + row, o) + unsure)
+
+
 @whole
-def filtered(functions, blocks, wiring, inputs, drives, z, sensors, dt, nsub, errors, variances, reached, kept, lanes):  # type: ignore[no-untyped-def]
+def filtered(functions, blocks, wiring, inputs, drives, z, sensors, unsure, dt, nsub, told, kept, lanes):  # type: ignore[no-untyped-def]
     """Filter `z` (samples, sensors) at `lanes` points; write innovations, return 0 or another number if a law raised.
 
     `functions` are the addresses of what derives and what observes; `blocks` those of the model, of work, of slow
@@ -294,11 +303,13 @@ def filtered(functions, blocks, wiring, inputs, drives, z, sensors, dt, nsub, er
     the wires of the model, with the numbers of sources, of drawn forces, of inputs and of drives at `SOURCES` and
     behind. `inputs` (rows, 4, inputs) holds a cubic for each sample, and `drives` (lanes,) the first row of each
     point. `sensors` (sensors, 4) holds the channel of each, the state that it shows directly or -1, its place
-    among those with slow noise or -1, and whether it is late. `errors` and `variances` are (lanes, samples, sensors);
+    among those with slow noise or -1, and whether it is late; `unsure` (samples,) the variance of a force that is held,
+    of how the input goes up to the next sample. Of what is `told`, errors and variances are (lanes, samples, sensors);
     `reached` (lanes,) counts the samples that were got through. `kept` is what a smoother needs of the first point:
     states and covariances after and before each sample and the steps between, empty if not wanted.
     """
     derive, observe = functions[0], functions[1]
+    errors, variances, reached = told
     space, work, slow, begin = pointer(blocks[0]), pointer(blocks[1]), pointer(blocks[2]), pointer(blocks[3])
     levels, noise, start = pointer(blocks[4]), pointer(blocks[5]), pointer(blocks[6])
     wires, u, which = pointer(wiring), pointer(inputs), pointer(drives)
@@ -349,6 +360,7 @@ def filtered(functions, blocks, wiring, inputs, drives, z, sensors, dt, nsub, er
                     assign(work, T + a * N + b, 0, 1.0 if a == b else 0.0)
         if k == samples - 1:
             break
+        loosened(work, noise, sources, drawn, unsure[k], lanes)
         failed |= crossed(derive, space, wires, work, slow, u, which, begin, k, nsub, dt, sources, many, keep, lanes)
         for s in range(z.shape[1]):
             own = sensors[s, 2]

@@ -117,12 +117,18 @@ class Lanes(Engine):
         padded = _padded(written, lanes)
         failed = kernels["filtered"](
             (made.derive, made.observe), blocks, wires, inputs, which, np.ascontiguousarray(observation.readings),
-            numbers, dt, nsub, *padded, kept, lanes,
+            numbers, unsure_of(dynamics, observation), dt, nsub, padded, kept, lanes,
         )  # fmt: skip
         require_sound(failed, system, blocks[0], wires)
         for mine, theirs in zip(written, padded, strict=True):
             if mine is not theirs:
                 mine[:] = theirs[: len(mine)]
+
+
+def unsure_of(dynamics: Dynamics, observation: Observation) -> Array:
+    """Return the variance (samples,) of a force that is held, of how the measured one goes between samples."""
+    forced = dynamics.random == "held" and dynamics.system.model.inputs[observation.lead] == "force"
+    return observation.unsure if forced else np.zeros(observation.samples)
 
 
 def _padded(written: tuple[Any, ...], lanes: int) -> tuple[Any, ...]:

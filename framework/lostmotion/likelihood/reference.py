@@ -16,7 +16,7 @@ from lostmotion.kernels.crossing import BENDS, LONG, OWN, PACED, TINY
 from lostmotion.kernels.filter import FARLY, FARTHER, NEARER, NEARLY, SILENT
 from lostmotion.likelihood.drive import Drive
 from lostmotion.likelihood.engine import Dynamics, Innovations, Points, Smoothed
-from lostmotion.likelihood.lanes import fine_steps
+from lostmotion.likelihood.lanes import fine_steps, unsure_of
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.system import System
 
@@ -211,6 +211,7 @@ class _Run:
                 return k
             self.seen.append((self.y.copy(), self.cov.copy()))
             if k < self.observation.samples - 1:
+                self._loosened(k)
                 self._crossed(k)
         return self.observation.samples
 
@@ -221,6 +222,12 @@ class _Run:
             for force in range(dynamics.states, len(self.y)):
                 self.y[force], self.cov[force], self.cov[:, force] = 0.0, 0.0, 0.0
                 self.cov[force, force] = self.points.process[0] / dt
+
+    def _loosened(self, k: int) -> None:
+        """Let the first force that is held be less certain on its way to the next sample."""
+        dynamics = self.machine.dynamics
+        if dynamics.random == "held":
+            self.cov[dynamics.states, dynamics.states] += unsure_of(dynamics, self.observation)[k]
 
     def _expected(self, k: int, sensor: int) -> tuple[float, Array, float]:
         """Return what a sensor should show of its channel, its slopes over the states, and the variance of bends."""
