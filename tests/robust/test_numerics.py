@@ -229,12 +229,12 @@ def test_a_free_run_that_leaves_all_bounds_errs_by_the_most(monkeypatch):
     class Still:
         observations = (Observation.of("still", np.array([1.0, 2.0, 3.0, 5.0]), np.zeros((4, 1)), 1.0, "position"),)
 
-    def observed(problem, theta, states, where=(0, 0)):
+    def observed(problem, theta, states, where=(0, 0), sensor=0):
         return np.array([0.0, 1e200, np.nan])
 
     monkeypatch.setattr(predict, "_runs", lambda *args: np.zeros((1, 3, 2)))
     monkeypatch.setattr(predict, "observed", observed)
-    runs = free_runs(Still(), np.zeros(1), np.zeros((4, 2)), np.array([0]), 3)
+    (runs,) = free_runs(Still(), np.zeros(1), np.zeros((4, 2)), np.array([0]), 3)
     assert isinstance(runs, FreeRuns)
     spread = float(np.std(Still.observations[0].response))
     assert runs.growth(spread) == pytest.approx([abs(Still.observations[0].response[0]) / spread, WORST, WORST])

@@ -86,7 +86,8 @@ class Lanes(Engine):
         kept: Kept,
     ) -> None:
         """Run the filter at up to `STRIDE` points, into the given arrays."""
-        system, drives, n = dynamics.system, points.drives, dynamics.states + dynamics.forces
+        system, n = dynamics.system, dynamics.states + dynamics.forces
+        drives = [drive.widened(len(system.model.inputs)) for drive in points.drives]
         tone, dt, nsub = drives[0].tone, observation.dt, fine_steps(dynamics.nsub)
         numbers = _numbers_of(observation, dynamics, points)
         forces = tuple(dynamics.states + i for i in range(dynamics.forces))

@@ -89,6 +89,7 @@ def run(
     states, reached = np.full((points, steps, n), np.nan), np.zeros(points, dtype=np.int64)
     wires, made = model_wires(system, active), system.functions(compiled)
     wires[DRIVES] = 2  # each run reads the drive from a place of its own
+    cubics = drive.widened(len(system.model.inputs)).cubics
     kernel, pushed = motion_kernels(compiled)["run"], np.zeros((points, 0, n)) if kicks is None else kicks
     for begin in range(0, points, STRIDE):
         part = slice(begin, begin + STRIDE)
@@ -102,7 +103,7 @@ def run(
         )
         both = (made.derive, made.observe)
         told = (states[part], np.ascontiguousarray(pushed[part]), reached[part], lanes)
-        failed = kernel(both, blocks, wires, drive.cubics, which, drive.dt, nsub, *told)
+        failed = kernel(both, blocks, wires, cubics, which, drive.dt, nsub, *told)
         require_sound(failed, system, blocks[0], wires)
     for point, count in enumerate(reached):
         states[point, count:] = np.nan

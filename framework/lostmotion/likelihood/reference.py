@@ -85,7 +85,7 @@ class _Machine:
     @classmethod
     def of(cls, dynamics: Dynamics, points: Points, nsub: int) -> _Machine:
         """Return the machine of a single point, with what its laws need of steps so fine."""
-        drive = points.drives[points.which[0]]
+        drive = points.drives[points.which[0]].widened(len(dynamics.system.model.inputs))
         packed = dynamics.system.pack(points.params, drive.dt / nsub, drive.tone)[0]
         return cls(dynamics.system, dynamics, packed, drive, float(points.pace[0]))
 
