@@ -76,7 +76,7 @@ def _entry(outcome: Outcome, key: str, after: Mapping[str, Interval]) -> dict[st
     own = {s.param.name: after.get(s.key) or _of(np.full(1, held[s.key]), s.unit) for s in slots}
     sentence = term.physics.format(**{name: str(i) for name, i in own.items()}) + _whose(d, term)
     if term.at in elsewhere(system.model):
-        sentence += f" at the {term.at}"
+        sentence += f" at the place {term.at!r}"
     share = float(np.max(np.abs(d.laws[key]))) / d.after.problem.scales.force
     percent, is_sensor = f"{100.0 * share:.2g}" if share < 1.0 else f"{100.0 * share:.0f}", isinstance(term, SensorTerm)
     return {
