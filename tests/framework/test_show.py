@@ -121,7 +121,7 @@ def plain(text):
 @pytest.mark.parametrize(("free", "how"), [(False, "under the recorded drive"), (True, "left to itself")])
 def test_an_exponent_says_what_drove_the_model(free, how):
     table = made()["show"]
-    assert said(table, not free, free=free)["largest_exponent"].startswith(f"Of the model {how}")
+    assert said(table, not free, driven=not free)["largest_exponent"].startswith(f"Of the model {how}")
 
 
 def test_what_could_not_be_measured_keeps_its_sentence():
