@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from lostmotion.contracts import Array, Engine
 from lostmotion.kernels.threads import each
+from lostmotion.likelihood.batches import distinct, grouped, joined, realigned
 from lostmotion.likelihood.drive import Drive, widened
 from lostmotion.likelihood.engine import Dynamics, Innovations, Points, Random, Smoothed
 from lostmotion.likelihood.initial import initial
@@ -111,14 +112,20 @@ class Problem:
         `late` says by how many samples each sensor is late. Where sensors may be late, the same first readings are
         left out whatever `late` says, so that likelihoods can be compared.
         """
-        observation, route = self.observations[index], self.routes[index]
-        sensors = tuple(
-            replace(s, noise=AR1()) if observation.level(SLOW, i) in route.columns else s
-            for i, s in enumerate(observation.sensors)
-        )
-        if not (most := self._latest(index)):
-            return replace(observation, sensors=sensors)
-        return shifted(replace(observation, sensors=sensors), late or (0,) * len(sensors), most)
+        if (index, late) not in self._views:
+            observation, columns = self.observations[index], self.routes[index].columns
+            sensors = tuple(
+                replace(s, noise=AR1()) if observation.level(SLOW, i) in columns else s
+                for i, s in enumerate(observation.sensors)
+            )
+            view, most = replace(observation, sensors=sensors), self._latest(index)
+            self._views[index, late] = shifted(view, late or (0,) * len(sensors), most) if most else view
+        return self._views[index, late]
+
+    @cached_property
+    def _views(self) -> dict[tuple[int, tuple[int, ...]], Observation]:
+        """The recordings as an engine has seen them, so that what they tell of themselves is computed once."""
+        return {}
 
     def _latest(self, index: int) -> int:
         """Return by how many samples a sensor can be late: where there are several, and terms that make one late."""
@@ -196,10 +203,10 @@ class Problem:
         """Return the innovations of each recording; points that differ in nothing that matters are filtered once."""
         tasks, places = [], []
         for index, route in enumerate(self.routes):
-            rows, inverse = _distinct(thetas[:, route.used])
+            rows, inverse = distinct(thetas[:, route.used])
             places.append(inverse)
             share = min(lanes_for(-(-len(rows) // self.jobs)), TOGETHER)
-            alike = _grouped(rows, self.late(thetas[rows], index))
+            alike = grouped(rows, self.late(thetas[rows], index))
             tasks += [(index, some[k : k + share]) for some in alike for k in range(0, len(some), share)]
             if len(alike) > 1:  # the order of the tasks is another than that of the rows
                 place = np.empty(len(thetas), dtype=np.intp)
@@ -209,7 +216,7 @@ class Problem:
         found = []
         for index, inverse in enumerate(places):
             parts = [part for (i, _), part in zip(tasks, done, strict=True) if i == index]
-            whole = parts[0] if len(parts) == 1 else _joined(parts)
+            whole = parts[0] if len(parts) == 1 else joined(parts)
             found.append(whole if inverse is None else whole[inverse])
         return found
 
@@ -237,7 +244,7 @@ class Problem:
             index, rows = task
             late = self.late(thetas[rows[:1]], index)[0]
             found = self.engine.filter(self.dynamics, self._seen(index, late), self.points(thetas[rows], index))
-            return _realigned(found, late) if any(late) else found
+            return realigned(found, late) if any(late) else found
 
         return each(work, tasks, self.jobs)
 
@@ -362,39 +369,3 @@ class Problem:
     def on(self, observations: tuple[Observation, ...]) -> Problem:
         """Return the same problem on other recordings, or on parts of them."""
         return replace(self, observations=observations)
-
-
-def _realigned(found: Innovations, late: Sequence[int]) -> Innovations:
-    """Return innovations in the order of the readings, of which those of sensor i came `late[i]` samples early."""
-    errors, variances = found.errors.copy(), found.variances.copy()
-    for sensor, lag in enumerate(late):
-        errors[..., sensor] = np.roll(errors[..., sensor], lag, axis=1)
-        variances[..., sensor] = np.roll(variances[..., sensor], lag, axis=1)
-    return replace(found, errors=errors, variances=variances)
-
-
-def _grouped(rows: NDArray[np.intp], late: Sequence[tuple[int, ...]]) -> list[NDArray[np.intp]]:
-    """Return the rows in groups of which the sensors are late by the same whole samples."""
-    groups: dict[tuple[int, ...], list[int]] = {}
-    for row, shift in zip(rows.tolist(), late, strict=True):
-        groups.setdefault(shift, []).append(row)
-    return [np.array(some, dtype=np.intp) for some in groups.values()]
-
-
-def _distinct(used: Array) -> tuple[NDArray[np.intp], NDArray[np.intp] | None]:
-    """Return the first row of each distinct one of `used` (points, n), and which one each point is; None if its own."""
-    _, rows, inverse = np.unique(used, axis=0, return_index=True, return_inverse=True)
-    if len(rows) == len(used):
-        return np.arange(len(used)), None
-    order = np.argsort(rows)
-    place = np.empty(len(rows), dtype=np.intp)
-    place[order] = np.arange(len(rows))
-    return rows[order], place[inverse.reshape(-1)]
-
-
-def _joined(parts: Sequence[Innovations]) -> Innovations:
-    """Return innovations at the points of all parts, one after the other."""
-    errors, variances, finite = (
-        np.concatenate([getattr(p, name) for p in parts]) for name in ("errors", "variances", "finite")
-    )
-    return Innovations(errors, variances, finite)

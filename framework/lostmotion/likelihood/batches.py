@@ -1,0 +1,48 @@
+"""Points that are filtered together: equal ones once, those whose sensors are late alike, and put together again."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lostmotion.contracts import Array
+from lostmotion.likelihood.engine import Innovations
+
+
+def realigned(found: Innovations, late: Sequence[int]) -> Innovations:
+    """Return innovations in the order of the readings, of which those of sensor i came `late[i]` samples early."""
+    errors, variances = found.errors.copy(), found.variances.copy()
+    for sensor, lag in enumerate(late):
+        errors[..., sensor] = np.roll(errors[..., sensor], lag, axis=1)
+        variances[..., sensor] = np.roll(variances[..., sensor], lag, axis=1)
+    return replace(found, errors=errors, variances=variances)
+
+
+def grouped(rows: NDArray[np.intp], late: Sequence[tuple[int, ...]]) -> list[NDArray[np.intp]]:
+    """Return the rows in groups of which the sensors are late by the same whole samples."""
+    groups: dict[tuple[int, ...], list[int]] = {}
+    for row, shift in zip(rows.tolist(), late, strict=True):
+        groups.setdefault(shift, []).append(row)
+    return [np.array(some, dtype=np.intp) for some in groups.values()]
+
+
+def distinct(used: Array) -> tuple[NDArray[np.intp], NDArray[np.intp] | None]:
+    """Return the first row of each distinct one of `used` (points, n), and which one each point is; None if its own."""
+    _, rows, inverse = np.unique(used, axis=0, return_index=True, return_inverse=True)
+    if len(rows) == len(used):
+        return np.arange(len(used)), None
+    order = np.argsort(rows)
+    place = np.empty(len(rows), dtype=np.intp)
+    place[order] = np.arange(len(rows))
+    return rows[order], place[inverse.reshape(-1)]
+
+
+def joined(parts: Sequence[Innovations]) -> Innovations:
+    """Return innovations at the points of all parts, one after the other."""
+    errors, variances, finite = (
+        np.concatenate([getattr(p, name) for p in parts]) for name in ("errors", "variances", "finite")
+    )
+    return Innovations(errors, variances, finite)
