@@ -13,6 +13,7 @@ from lostmotion.report.opening import badge
 from lostmotion.results import Interval
 from lostmotion.stages.diagnose import _check_moving
 from lostmotion.workflow import verdict
+from lostmotion.workflow.diagnose import unused
 from lostmotion.workflow.notes import drowned
 from lostmotion_plugins.models.basic import LinearOscillator
 
@@ -97,3 +98,10 @@ def test_what_is_held_out_still_moves(rests):
     turned = 0.09 * np.round(500.0 * np.minimum(t, 1.0 - rests) / 0.09)
     cut = round(0.7 * lasting(observed(turned)))
     assert t[cut] < 1.0 - rests
+
+
+def test_known_values_of_terms_are_not_passed_over_in_silence():
+    (note,) = unused(["m", "sensor_delay@load encoder.delay"])
+    assert "sensor_delay@load encoder.delay" in note
+    assert "not used" in note
+    assert unused(["m", "k"]) == []

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -136,6 +136,17 @@ def _background(prepared: Prepared, outcome: Outcome, seed: int) -> dict[str, An
             }
             for r in prepared.recordings
         ],
-        "notes": notes_of(outcome, prepared.notes),
+        "notes": notes_of(outcome, (*prepared.notes, *unused(case.known))),
         "provenance": provenance("diagnose", settings, seed, prepared.inputs),
     }
+
+
+def unused(known: Iterable[str]) -> list[str]:
+    """Return a note on the known values of terms in a case: a diagnosis begins with the model alone."""
+    terms = [name for name in known if "." in name]
+    if not terms:
+        return []
+    return [
+        f"{', '.join(terms)} in [model.known] is not used: a diagnosis begins with the model alone and estimates each"
+        " term that it tries; `identify --term` takes terms with known values."
+    ]
