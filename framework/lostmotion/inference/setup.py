@@ -18,11 +18,12 @@ from lostmotion.inference.unseen import settled
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.drive import substeps
 from lostmotion.likelihood.levels import LEVELS_TRIED, noise_frees, own_levels, random_level, usual_of
-from lostmotion.likelihood.observation import Observation, filled
+from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import Problem, Scales
 from lostmotion.likelihood.space import LEVELS, NOISE, OFFSET, RANDOM, Free, keys_of
 from lostmotion.likelihood.system import Slot, System
 from lostmotion.quantities import quantity_of, unit_of
+from lostmotion.recording.checks import filled
 
 HELD_OUT = 0.3
 BLOCKS, ALIVE, DIED = 60, 4.0, 1.0 - HELD_OUT

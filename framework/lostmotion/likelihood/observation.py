@@ -367,12 +367,6 @@ def tone_of(observation: Observation) -> Tone:
     )
 
 
-def filled(values: Array) -> Array:
-    """Return readings (samples,) with straight lines over those that were not taken."""
-    there = np.flatnonzero(np.isfinite(values))
-    return np.asarray(np.interp(np.arange(len(values)), there, values[there]), dtype=float)
-
-
 def period_of(signal: Array) -> float | None:
     """Return the period of a signal in samples, or None where no line stands out of its spectrum.
 

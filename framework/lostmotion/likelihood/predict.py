@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lostmotion.contracts import Array
+from lostmotion.kernels.filter import SILENT
 from lostmotion.likelihood.motion import derivatives
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import Problem
@@ -32,6 +33,11 @@ class Filtered:
     errors: Array
     variances: Array
 
+    @property
+    def taken(self) -> NDArray[np.bool_]:
+        """Which readings (samples, sensors) were taken: of the others an engine notes a variance of its own."""
+        return np.abs(self.variances - SILENT) > 1e-12
+
     def log_score(self, held: slice) -> float:
         """Return the mean log density per sample of one-step predictions over the held-out part, of all sensors."""
         e, v = self.errors[held], self.variances[held]
@@ -40,8 +46,7 @@ class Filtered:
     def expected_score(self, held: slice) -> float:
         """Return what `log_score` would be if the errors were as large as their variances say."""
         v = self.variances[held]
-        taken = np.log(2.0 * np.pi * v) != 0.0
-        return float(np.mean(np.sum(-0.5 * (taken + np.log(2.0 * np.pi * v)), axis=1)))
+        return float(np.mean(np.sum(-0.5 * (self.taken[held] + np.log(2.0 * np.pi * v)), axis=1)))
 
 
 @dataclass(frozen=True)

@@ -222,22 +222,11 @@ class Problem:
 
     def late(self, thetas: Array, index: int = 0) -> list[tuple[int, ...]]:
         """Return for each of some coordinates (points, n) by how many whole samples each sensor is late."""
-        dt = self.observations[index].dt
-        return [tuple(np.rint(row / dt).astype(int).tolist()) for row in self.lags(self.full(thetas, index), index)]
-
-    def lags(self, fulls: Array, index: int) -> Array:
-        """Return by how much (s) each sensor of a recording is late, (points, sensors); one alone never is.
-
-        What makes a sensor late that is alone delays the drive.
-        """
-        observation, most = self.observations[index], self._latest(index)
-        found = np.zeros((len(fulls), len(observation.sensors)))
-        if most and self.system.gauging(self.active):
-            for s, sensor in enumerate(observation.sensors):
-                for i, full in enumerate(fulls):
-                    terms = self.system.at_sensor(full, self.active, sensor.place)
-                    found[i, s] = sum(term.delay(p) for term, p in terms)
-        return np.clip(found, 0.0, most * observation.dt)
+        observation = self.observations[index]
+        if not self._latest(index) or not self.system.gauging(self.active):
+            return [(0,) * len(observation.sensors)] * len(thetas)
+        late = self._gauged(self.full(thetas, index), index)[2] / observation.dt
+        return [tuple(row) for row in np.rint(late).astype(int).tolist()]
 
     def _each(self, tasks: Sequence[tuple[int, NDArray[np.intp]]], thetas: Array) -> list[Innovations]:
         def work(task: tuple[int, NDArray[np.intp]]) -> Innovations:
@@ -257,8 +246,7 @@ class Problem:
         white, slow, fade, offset = (
             np.stack([np.broadcast_to(c[k], len(thetas)) for c in columns], axis=1) for k in range(4)
         )
-        gain, more = self._gauged(fulls, index)
-        lag = self.lags(fulls, index)
+        gain, more, lag = self._gauged(fulls, index)
         lag = lag - np.rint(lag / observation.dt) * observation.dt
         drives, which = self._drives(fulls, index)
         mean, covariance = initial(self, fulls, gain, offset + more, index)
@@ -282,17 +270,22 @@ class Problem:
         left = np.exp(-observation.dt / np.exp(fade))
         return np.exp(2.0 * noise), np.exp(2.0 * slow), left, 0.0 if offset is None else offset
 
-    def _gauged(self, fulls: Array, index: int) -> tuple[Array, Array]:
-        """Return what each sensor shows of one unit, and of nothing, (points, sensors) each."""
-        sensors = self.observations[index].sensors
-        gain, offset = np.ones((len(fulls), len(sensors))), np.zeros((len(fulls), len(sensors)))
+    def _gauged(self, fulls: Array, index: int) -> tuple[Array, Array, Array]:
+        """Return what each sensor shows of one unit, and of nothing, and how late (s) it is, (points, sensors) each.
+
+        One that is alone never is late: what makes it so delays the drive.
+        """
+        observation = self.observations[index]
+        shape = (len(fulls), len(observation.sensors))
+        gain, offset, lag = np.ones(shape), np.zeros(shape), np.zeros(shape)
         if self.system.gauging(self.active):
-            for s, sensor in enumerate(sensors):
+            for s, sensor in enumerate(observation.sensors):
                 for i, full in enumerate(fulls):
                     terms = self.system.at_sensor(full, self.active, sensor.place)
                     gain[i, s] = math.prod(term.gain(p) for term, p in terms)
                     offset[i, s] = sum(term.offset(p) for term, p in terms)
-        return gain, offset
+                    lag[i, s] = sum(term.delay(p) for term, p in terms)
+        return gain, offset, np.clip(lag, 0.0, self._latest(index) * observation.dt)
 
     def _drives(self, fulls: Array, index: int) -> tuple[tuple[Drive, ...], NDArray[np.int64]]:
         """Return the distinct inputs that act in a recording, and which of them acts at each point."""
@@ -333,9 +326,9 @@ class Problem:
     def gauge(self, theta: Array, index: int = 0, sensor: int = 0) -> tuple[float, float, float]:
         """Return what a sensor shows of one unit, what at zero (unit of the channel), and how late it is (s)."""
         fulls = self.full(theta, index)[None]
-        gain, more = self._gauged(fulls, index)
+        gain, more, lag = self._gauged(fulls, index)
         zero = float(self._sensor(theta, index, sensor)[3])
-        return float(gain[0, sensor]), zero + float(more[0, sensor]), float(self.lags(fulls, index)[0, sensor])
+        return float(gain[0, sensor]), zero + float(more[0, sensor]), float(lag[0, sensor])
 
     def begun(self, theta: Array, index: int = 0) -> Array:
         """Return the mean state (n,) of model and terms at the first sample of a recording."""

@@ -32,11 +32,6 @@ def parted(key: str) -> tuple[str, str | None]:
     return (parameter, recording[:-1]) if bracket else (key, None)
 
 
-def is_level(key: str) -> bool:
-    """Return whether a key is that of a level, and of no physics, whatever sensor and recording it belongs to."""
-    return parted(key)[0].partition(":")[0] in LEVELS
-
-
 def level_of(level: str, sensor: str, many: bool) -> str:
     """Return the parameter for a noise level of a sensor: `log_noise`, or `log_noise:name` where there are several."""
     return f"{level}:{sensor}" if many else level

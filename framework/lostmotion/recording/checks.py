@@ -158,20 +158,27 @@ def _check_missing(missing: NDArray[np.bool_], what: str, source: str, may_miss:
     return (f"{what}: {found}, at most {longest_run(missing)} in a row; they are bridged, not filled",)
 
 
+def filled(values: Array) -> Array:
+    """Return the samples (n,) with straight lines over the lost ones, which are NaN."""
+    there = np.flatnonzero(np.isfinite(values))
+    return np.asarray(np.interp(np.arange(values.size), there, values[there]), dtype=float)
+
+
 def longest_run(flags: NDArray[np.bool_]) -> int:
     """Return the length (samples) of the longest unbroken run of true flags (n,)."""
-    return max(_runs(flags), default=0)
+    return int(np.diff(runs_of(flags), axis=1).max(initial=0))
 
 
-def _runs(flags: NDArray[np.bool_]) -> list[int]:
-    edges = np.flatnonzero(np.diff(np.concatenate(([False], flags, [False])).astype(np.int8)))
-    return [int(n) for n in edges[1::2] - edges[::2]]
+def runs_of(flags: NDArray[np.bool_]) -> NDArray[np.intp]:
+    """Return where unbroken runs of true flags (n,) begin and end, (runs, 2): from the first sample up to the last."""
+    return np.flatnonzero(np.diff(np.concatenate(([False], flags, [False])).astype(np.int8))).reshape(-1, 2)
 
 
 def note_stuck(values: Array, what: str) -> Iterator[str]:
     """Yield a note when the samples (n,) sit at their largest or smallest value in runs of three or more."""
     for word, edge in (("largest", np.nanmax(values)), ("smallest", np.nanmin(values))):
-        stuck = sum(run for run in _runs(values == edge) if run >= 3)
+        lengths = np.diff(runs_of(values == edge), axis=1)
+        stuck = int(lengths[lengths >= 3].sum())
         if stuck > CLIPPED * values.size:
             yield (
                 f"{what} sits at its {word} value {edge:.6g} for {stuck} of {values.size} samples: "

@@ -13,6 +13,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from lostmotion.recording.checks import filled, runs_of
+
 if TYPE_CHECKING:
     import xarray as xr
 
@@ -88,7 +90,7 @@ def factor_for(values: Array, dt: float) -> int:
     size = min(SEGMENT, 2 * values.size // (FEWEST + 1))
     if size < 64 or np.ptp(values[there]) == 0.0:
         return 1
-    whole = np.interp(np.arange(values.size), np.flatnonzero(there), values[there])
+    whole = filled(values)
     frequency, power = welch(whole / np.abs(whole).max(), 1.0 / dt, "blackmanharris", size, detrend="linear")
     floor = float(np.median(power[-int(FLOOR * power.size) :]))
     signal = np.flatnonzero(np.convolve(power, np.ones(3) / 3.0, "same") > max(ABOVE * floor, LOUD * power.max()))
@@ -126,9 +128,8 @@ def decimated(values: Array, factor: int) -> Array:
 
 def _long(lost: NDArray[np.bool_], most: int) -> NDArray[np.bool_]:
     """Return which samples (n,) lie in gaps of more than `most` samples."""
-    edges = np.flatnonzero(np.diff(np.concatenate(([False], lost, [False])).astype(np.int8)))
     gone = np.zeros(lost.size, dtype=bool)
-    for first, last in edges.reshape(-1, 2):
+    for first, last in runs_of(lost):
         gone[first:last] = last - first > most
     return gone
 

@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from lostmotion.recording.checks import filled, runs_of
 from lostmotion.recording.drift import note_drift
 
 Array = NDArray[np.float64]
@@ -109,13 +110,12 @@ def note_units(excitation: Signal, response: Signal) -> Iterator[str]:
 
 def note_frozen(values: Array, what: str, dt: float) -> Iterator[str]:
     """Yield a note when the samples (n,) stand still in a stretch, and hardly ever repeat anywhere else."""
-    same = np.diff(values) == 0.0
-    edges = np.flatnonzero(np.diff(np.concatenate(([False], same, [False])).astype(np.int8)))
-    lengths = edges[1::2] - edges[::2]
+    runs = runs_of(np.diff(values) == 0.0)
+    lengths = np.diff(runs, axis=1)[:, 0]
     long = lengths >= FROZEN
     if not long.any() or lengths[~long].sum() > REPEATS * values.size:
         return
-    first = int(edges[::2][long][0])
+    first = int(runs[long, 0][0])
     yield (
         f"{what} stays at exactly {values[first]:.6g} for {int(lengths[long][0]) + 1} samples from {first * dt:.6g} s "
         f"after its start, {int(long.sum())} such stretches in all, and repeats hardly anywhere else: the sensor may "
@@ -145,19 +145,13 @@ def note_power(excitation: Signal, response: Signal, dt: float) -> Iterator[str]
         force, motion, order = excitation, response, _POWERS[pair]
     else:
         return
-    share, sure = mean_power(_filled(force.values), _filled(motion.values), dt, order)
+    share, sure = mean_power(filled(force.values), filled(motion.values), dt, order)
     if share < DRAWN and sure < SURE:
         yield (
             f"on the whole power flows from the machine to its drive ({-share:.2g} of force times speed): one of the "
             f"signs is wrong (factor = -1.0), or {excitation.column!r} and {response.column!r} are swapped, or one of "
             "them is late"
         )
-
-
-def _filled(values: Array) -> Array:
-    """Return the samples with straight lines over the lost ones."""
-    there = np.flatnonzero(np.isfinite(values))
-    return np.asarray(np.interp(np.arange(values.size), there, values[there]), dtype=float)
 
 
 def mean_power(force: Array, motion: Array, dt: float, order: int) -> tuple[float, float]:

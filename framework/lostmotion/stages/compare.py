@@ -25,9 +25,6 @@ from lostmotion.likelihood.predict import (
 )
 from lostmotion.likelihood.problem import Problem
 
-SILENT = 0.5 / math.pi
-"""The variance that an engine notes where nothing was read."""
-
 STARTS = 150
 REACH = 8.0
 """Error growth is followed over this many Lyapunov times or periods."""
@@ -105,7 +102,6 @@ def predict(fit: Fit, pieces: Sequence[Piece], horizon: Horizon, rates: Array) -
     first, main = tracked[0], joint[0]
     forecasts, restarts = _forecast(problems[0], fit, first.states, pieces[0], horizon)
     tail = slice(pieces[0].begin, None)
-    acf = [autocorrelation(*_taken(first, tail, sensor)) for sensor in range(len(joint))]
     return Prediction(
         log_score=float(np.average([s for s, _ in scores], weights=lengths)),
         expected_score=float(np.average([s for _, s in scores], weights=lengths)),
@@ -119,7 +115,7 @@ def predict(fit: Fit, pieces: Sequence[Piece], horizon: Horizon, rates: Array) -
         valid_time=main.valid_time(own_motion(fit, pieces)),
         forecasts=forecasts,
         restarts=restarts,
-        acf=acf[0],
+        acf=autocorrelation(*_taken(first, tail, 0)),
         white=_white([whiteness(*_taken(first, tail, sensor)) for sensor in range(len(joint))]),
     )
 
@@ -131,9 +127,8 @@ def deviation(pieces: Sequence[Piece], sensor: int) -> float:
 
 def _taken(seen: Filtered, held: slice, sensor: int) -> tuple[Array, Array]:
     """Return errors and variances of those held-out readings of a sensor that were taken."""
-    errors, variances = seen.errors[held, sensor], seen.variances[held, sensor]
-    there = np.abs(variances - SILENT) > 1e-12
-    return errors[there], variances[there]
+    there = seen.taken[held, sensor]
+    return seen.errors[held, sensor][there], seen.variances[held, sensor][there]
 
 
 def _white(told: Sequence[float]) -> float:

@@ -24,7 +24,7 @@ from lostmotion.likelihood.latent import Missing, missing_force
 from lostmotion.likelihood.motion import derivatives
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import Problem
-from lostmotion.likelihood.space import is_level
+from lostmotion.likelihood.space import LEVELS
 from lostmotion.likelihood.system import System
 
 SIGNIFICANT = 8.0
@@ -305,4 +305,5 @@ def base_keys(fit: Fit) -> list[str]:
     """Return the keys of the physical parameters of a fit, noise levels and coefficients of learned curves left out."""
     system = fit.problem.system
     curves = tuple(f"{k}." for k, t in zip(system.keys, system.terms, strict=True) if isinstance(t, Learned))
-    return [k for k in fit.problem.keys if not is_level(k) and not (curves and k.startswith(curves))]
+    physical = [f.key for f in fit.problem.free if f.level not in LEVELS]
+    return [k for k in physical if not (curves and k.startswith(curves))]

@@ -11,7 +11,7 @@ from lostmotion.inference.fit import Fit
 from lostmotion.inference.unseen import place_of_body
 from lostmotion.likelihood.initial import placed
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.space import is_level
+from lostmotion.likelihood.space import LEVELS
 from lostmotion.stages.diagnose import Diagnosis
 from lostmotion.workflow.decays import note_anew
 from lostmotion.workflow.findings import Outcome
@@ -104,7 +104,7 @@ def _on_the_edge(d: Diagnosis) -> list[str]:
     notes = []
     for f, at in zip(d.after.problem.free, d.after.theta, strict=True):
         reach = EDGE * (f.high - f.low)
-        if not is_level(f.key) and "." not in f.parameter and not f.low + reach < at < f.high - reach:
+        if f.level not in LEVELS and "." not in f.parameter and not f.low + reach < at < f.high - reach:
             bound = f.value(f.low if at <= f.low + reach else f.high)
             notes.append(
                 f"{f.key} lies on the bound {bound:.4g} {f.unit} of its prior: widen the prior, or doubt what is"
