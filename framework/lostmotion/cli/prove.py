@@ -18,6 +18,7 @@ from lostmotion.cli._options import on_a_trial
         "lostmotion prove --cases 200 --out proof",
         "lostmotion prove --cases 40 --only coulomb_friction --only lugre_friction --out friction",
         "lostmotion prove --cases 300 --clean --out clean     false alarms, some with coloured noise and outliers",
+        "lostmotion prove --world imperfect --cases 200 --samples 3000 --out rough     machines with the flaws of real rigs",
     )
 )
 @click.option("--cases", default=200, show_default=True, type=click.IntRange(1), help="How many cases to conceal.")
@@ -29,6 +30,13 @@ from lostmotion.cli._options import on_a_trial
     help="Hide nothing but this mechanism; may be given again.",
 )
 @click.option("--clean", is_flag=True, help="Hide nothing at all: a study of false alarms.")
+@click.option(
+    "--world",
+    default="perfect",
+    show_default=True,
+    type=click.Choice(["perfect", "imperfect"]),
+    help="In an imperfect world machines have flaws that no term describes; kinds of drives take turns.",
+)
 @click.option(
     "--samples", default=20_000, show_default=True, type=click.IntRange(500), help="Samples of the longest recording."
 )
@@ -50,7 +58,7 @@ def command(ctx: click.Context, /, out: Path, only: tuple[str, ...], **given: An
     from lostmotion.workflow.sealing import Blind
 
     plugins = tuple(str(Path(file).absolute()) for file in ctx.find_root().params.get("plugin") or ())
-    blind = Blind(given["seed"], given["samples"], only, given["clean"])
+    blind = Blind(given["seed"], given["samples"], only, given["clean"], given["world"])
     with _bar(given["cases"], quiet=given["quiet"]) as say:
         options = {key: given[key] for key in ("cases", "jobs", "fresh")}
         content = run_proof(blind, out, plugins=plugins, say=say, **options)

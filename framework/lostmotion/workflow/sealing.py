@@ -22,6 +22,17 @@ from lostmotion.kernels.independent_zoo import Hidden
 from lostmotion.provenance import digest
 from lostmotion.storage import folder_for, save_json, save_table, whole
 from lostmotion.workflow.hiding import hidden_in
+from lostmotion.workflow.imperfect import (
+    CYCLE,
+    IMPACTS,
+    KINDS,
+    World,
+    draw_effect,
+    draw_machine,
+    draw_world,
+    moved_roughly,
+    recorded_roughly,
+)
 from lostmotion.workflow.mechanisms import NAMES, SPRUNG, TABLE, Effect, Pilot, drawn
 from lostmotion.workflow.zoo import USUAL, Meddling, Rig, draw_rig, moved
 
@@ -37,22 +48,30 @@ TOUCHES = (0.05, 0.98)
 RUNAWAY = 4.0
 """A softening spring may throw a machine out of its range: then another one is drawn."""
 TRIES = 2000
+PERFECT, IMPERFECT = "perfect", "imperfect"
+WORLDS = (PERFECT, IMPERFECT)
 
 
 @dataclass(frozen=True)
 class Blind:
-    """What is concealed: the seed, the longest recording (samples), if need be only some mechanisms, or none at all."""
+    """What is concealed: the seed, the longest recording (samples), if need be only some mechanisms, or none at all.
+
+    In an imperfect world machines have flaws beside what is hidden (`imperfect.py`), and kinds of drives take turns.
+    """
 
     seed: int = 0
     most: int = 20_000
     only: tuple[str, ...] = ()
     clean: bool = False
+    world: str = PERFECT
 
     def check(self) -> None:
         """Refuse names that no mechanism has, and wishes that exclude one another."""
         for name in self.only:
             if name not in NAMES:
                 raise DataError(f"no mechanism is called {name!r}: there are {', '.join(NAMES)}")
+        if self.world not in WORLDS:
+            raise DataError(f"no world is called {self.world!r}: there are {', '.join(WORLDS)}")
         if self.only and self.clean:
             raise DataError("clean cases hide nothing: give either --clean or --only")
 
@@ -66,13 +85,20 @@ def concealed(blind: Blind, out: Path, number: int) -> dict[str, Any]:
     """Return the digests of case `number` after writing it, and its sealed truth, into the folder `out`."""
     rng = np.random.default_rng([blind.seed, number])
     salt = rng.bytes(16).hex()
-    names, variant = _chosen(blind, rng)
-    rig, effects, truth = _machine(blind, names, rng)
+    kind = KINDS[number % len(KINDS)]
+    names, variant = _chosen(blind, rng, kind if blind.world == IMPERFECT else "")
     place = folder_for(out / "cases" / label(number))
-    excitation, response, noise = _recorded(rig, truth, hidden_in(rig, effects)[1].step, variant, rng)
+    world = None
+    if blind.world == IMPERFECT:
+        rig, effects, truth, world = _rough_machine(blind, names[:1], kind, rng)
+        response, noise = recorded_roughly(rig, truth, world, rng)
+        excitation = rig.signal.value(rig.time) + USUAL * rig.signal.amplitude * rng.standard_normal(len(truth))
+    else:
+        rig, effects, truth = _machine(blind, names, rng)
+        excitation, response, noise = _recorded(rig, truth, hidden_in(rig, effects)[1].step, variant, rng)
     save_table(place / "recording.csv", {"time": rig.time, "excitation": excitation, "response": response}, {}, {})
     with whole(place / "case.toml") as spare:
-        dump_case(_case(rig, number), spare)
+        dump_case(_case(rig, number, world), spare)
     sealed = folder_for(out / "sealed") / f"{label(number)}.json"
     save_json(
         sealed,
@@ -83,6 +109,7 @@ def concealed(blind: Blind, out: Path, number: int) -> dict[str, Any]:
             "variant": variant,
             "effects": [asdict(effect) for effect in effects],
             "machine": {**asdict(rig), "measurement_noise": noise},
+            **({"world": asdict(world)} if world else {}),
         },
     )
     return {"case": label(number), "digests": _digests(out, label(number))}
@@ -117,12 +144,14 @@ def _digests(out: Path, case: str) -> dict[str, str]:
     return {name: digest(path) for name, path in files.items()}
 
 
-def _chosen(blind: Blind, rng: np.random.Generator) -> tuple[tuple[str, ...], str]:
-    """Return what is to be hidden, and the kind of measurement noise."""
+def _chosen(blind: Blind, rng: np.random.Generator, kind: str = "") -> tuple[tuple[str, ...], str]:
+    """Return what is to be hidden, and the kind of measurement noise; `kind` is that of the drive, if it is given."""
     lot, noisy = rng.random(), str(rng.choice(list(VARIANTS), p=list(VARIANTS.values())))
     if blind.clean or (not blind.only and lot < CLEAN):
         return (), noisy
-    offered = list(blind.only or NAMES)
+    offered = [name for name in blind.only or NAMES if not kind or _possible(name, kind)]
+    if not offered:
+        raise DataError(f"{' and '.join(blind.only)} cannot be hidden in a machine under {kind}: name more mechanisms")
     weights = np.array([RARE if name == "unknown" else 1.0 for name in offered])
     count = 1 if blind.only or lot < 1.0 - SEVERAL else int(rng.integers(2, 4))
     picked = rng.choice(offered, size=count, replace=False, p=weights / weights.sum()).tolist()
@@ -154,6 +183,37 @@ def _machine(blind: Blind, names: Sequence[str], rng: np.random.Generator) -> tu
     raise DataError(f"no machine was drawn that can have {' and '.join(names) or 'nothing'}")
 
 
+def _rough_machine(
+    blind: Blind, names: Sequence[str], kind: str, rng: np.random.Generator
+) -> tuple[Rig, tuple[Effect, ...], Array, World]:
+    """Return a machine of an imperfect world under a kind of drive, what is hidden in it, its motion and its flaws."""
+    for _ in range(TRIES):
+        rig = draw_machine(kind, rng, blind.most)
+        if not all(TABLE[name].fits(rig) if name in TABLE else rig.model in SPRUNG for name in names):
+            continue
+        with suppress(DataError):
+            pilot = Pilot(rig, moved(rig, Hidden(), Meddling(), rng))
+            if "x0" in rig.values and not TOUCHES[0] < float(np.mean(np.abs(pilot.touching))) < TOUCHES[1]:
+                continue
+            world = draw_world(kind, pilot, rng)
+            effects = tuple(draw_effect(name, pilot, rng) for name in names)
+            truth = moved_roughly(rig, hidden_in(rig, effects), world, rng)
+            if float(np.std(truth)) < RUNAWAY * float(np.std(pilot.q)):
+                return rig, effects, truth, world
+    raise DataError(f"no machine was drawn that can have {' and '.join(names) or 'nothing'}")
+
+
+def _possible(name: str, kind: str) -> bool:
+    """Return whether a mechanism can be hidden under a kind of drive: some need one whose frequency stays, or a joint.
+
+    No joint is hit.
+    """
+    mechanism = TABLE.get(name)
+    if mechanism is None:
+        return True
+    return (kind == CYCLE or not mechanism.tone) and not (kind == IMPACTS and mechanism.models == ("robot_joint",))
+
+
 def _recorded(
     rig: Rig, truth: Array, step: float, variant: str, rng: np.random.Generator
 ) -> tuple[Array, Array, float]:
@@ -179,8 +239,9 @@ def _remembering(white: Array, memory: float) -> Array:
     return np.asarray(lfilter([(1.0 - memory**2) ** 0.5], [1.0, -memory], white), dtype=float)
 
 
-def _case(rig: Rig, number: int) -> dict[str, Any]:
-    """Return what the owner of the machine believes; nothing of it is hidden."""
+def _case(rig: Rig, number: int, world: World | None) -> dict[str, Any]:
+    """Return what the owner of the machine believes; nothing of it is hidden, but it may be slightly wrong."""
+    stated = world.stated if world else {}
     excitation, units = ("base_position", ("rad", "rad")) if rig.based else ("force", ("N", "m"))
     recording = {
         "file": "recording.csv",
@@ -188,6 +249,6 @@ def _case(rig: Rig, number: int) -> dict[str, Any]:
         "excitation": {"column": "excitation", "quantity": excitation, "unit": units[0]},
         "response": {"column": "response", "quantity": "position", "unit": units[1]},
     }
-    known = {name: value for name, value in rig.values.items() if name not in rig.estimated}
+    known = {name: value * stated.get(name, 1.0) for name, value in rig.values.items() if name not in rig.estimated}
     model = {"name": rig.model, "known": known, "estimate": dict(rig.priors)}
     return {"title": f"Blind case {label(number)}", "recordings": [recording], "model": model}

@@ -20,6 +20,8 @@ PIECE = 500
 """Samples that are computed at a time."""
 SETTLE = 40
 """Periods of the drive that pass before a recording begins."""
+AT_REST = 20
+"""Samples before a recording that begins at rest."""
 ACROSS = 12.0
 """Samples to a cycle of the contact at the least."""
 USUAL = 1e-3
@@ -31,33 +33,65 @@ GAPPED = ("lin_backlash", "robot_joint")
 class Signal:
     """A drive of `tones` (amplitude, angular frequency in rad/s, phase), the first the strongest.
 
-    With `sweep` (rad/s^2) its frequency rises from the beginning of the recording on.
+    With `sweep` (rad/s^2) its frequency rises from the beginning of the recording on. `steps` and `hits` have (time in
+    s, size, length in s) each: a step stays, a hit is one hump. Without tones `pace` (rad/s) says what is slow or fast.
     """
 
     tones: tuple[tuple[float, float, float], ...]
     sweep: float = 0.0
+    steps: tuple[tuple[float, float, float], ...] = ()
+    hits: tuple[tuple[float, float, float], ...] = ()
+    pace: float = 0.0
 
     @property
     def omega(self) -> float:
         """The angular frequency of the strongest tone, in rad/s."""
-        return self.tones[0][1]
+        return self.tones[0][1] if self.tones else self.pace
 
     @property
     def amplitude(self) -> float:
-        """sqrt(2) standard deviations over a long time."""
-        return math.sqrt(sum(a**2 for a, _, _ in self.tones))
+        """sqrt(2) standard deviations over a long time; of steps and hits the largest size."""
+        events = max((abs(size) for _, size, _ in (*self.steps, *self.hits)), default=0.0)
+        return max(math.sqrt(sum(a**2 for a, _, _ in self.tones)), events)
 
     def value(self, t: Array) -> Array:
         """Return the drive at the times `t` (s)."""
         more = 0.5 * self.sweep * np.maximum(t, 0.0) ** 2
-        return np.asarray(sum(a * np.cos(w * t + p + more) for a, w, p in self.tones), dtype=float)
+        value = sum((a * np.cos(w * t + p + more) for a, w, p in self.tones), np.zeros(len(t)))
+        for at, size, long in self.steps:
+            value[t >= at] += size * _risen((t[t >= at] - at) / long)[0]
+        for at, size, long in self.hits:
+            during = (t > at) & (t < at + long)
+            value[during] += size * _hump((t[during] - at) / long)[0]
+        return np.asarray(value, dtype=float)
 
     def slope(self, t: Array) -> Array:
         """Return its time derivative."""
         late = np.maximum(t, 0.0)
         more = 0.5 * self.sweep * late**2
         slopes = (-a * (w + self.sweep * late) * np.sin(w * t + p + more) for a, w, p in self.tones)
-        return np.asarray(sum(slopes), dtype=float)
+        slope = sum(slopes, np.zeros(len(t)))
+        for events, shape in ((self.steps, _risen), (self.hits, _hump)):
+            for at, size, long in events:
+                during = (t > at) & (t < at + long)
+                slope[during] += size / long * shape((t[during] - at) / long)[1]
+        return np.asarray(slope, dtype=float)
+
+    def settling(self, rate: float) -> int:
+        """Return how many samples pass before a recording begins: before steps and hits a machine is at rest."""
+        return math.ceil(SETTLE * 2.0 * math.pi / self.omega * rate) if self.tones else AT_REST
+
+
+def _risen(z: Array) -> tuple[Array, Array]:
+    """Return a smooth step from 0 to 1 over 0 < z < 1, and its slope."""
+    at = np.clip(z, 0.0, 1.0)
+    return at**3 * (10.0 - 15.0 * at + 6.0 * at**2), 30.0 * (at * (1.0 - at)) ** 2
+
+
+def _hump(z: Array) -> tuple[Array, Array]:
+    """Return one hump of height 1 over 0 < z < 1, and its slope."""
+    at = np.clip(z, 0.0, 1.0)
+    return np.sin(math.pi * at) ** 2, math.pi * np.sin(2.0 * math.pi * at)
 
 
 @dataclass(frozen=True)
@@ -122,7 +156,7 @@ def moved(rig: Rig, hidden: Hidden, meddling: Meddling, rng: np.random.Generator
     """Return the true position (samples,) that a sensor without noise shows, after the machine has settled."""
     fastest = math.sqrt((rig.body.k + rig.body.k0) / rig.body.m) + rig.body.c / rig.body.m + rig.signal.omega
     every = int(min(max(math.ceil(fastest / rig.rate / FINE), FEWEST), MOST))
-    settle = math.ceil(SETTLE * 2.0 * math.pi / rig.signal.omega * rig.rate)
+    settle = rig.signal.settling(rig.rate)
     step = 1.0 / (rig.rate * every)
     kicks = meddling.rms * rng.standard_normal(settle + rig.samples)
     state, seen = np.zeros(4), []
@@ -149,37 +183,43 @@ def draw_rig(rng: np.random.Generator, most: int) -> Rig:
     model = str(
         rng.choice(["lin_backlash", "robot_joint", "linear_oscillator", "rigid_drive"], p=[0.5, 0.3, 0.15, 0.05])
     )
-    natural, mass = _log(rng, 5.0, 300.0), _log(rng, 0.05, 50.0)
-    ratio = _log(rng, *((0.12, 0.5) if model == "robot_joint" else (0.2, 1.2)))
-    values, amplitude = _sized(model, mass, natural, rng)
+    natural, mass = drawn_log(rng, 5.0, 300.0), drawn_log(rng, 0.05, 50.0)
+    ratio = drawn_log(rng, *((0.12, 0.5) if model == "robot_joint" else (0.2, 1.2)))
+    values, amplitude = sized(model, mass, natural, rng)
     signal = _signal(amplitude, ratio * natural, rng, single=model in GAPPED)
     top = max(w for _, w, _ in signal.tones)
-    samples = round(_log(rng, min(3000, most), most))
-    period = max(_log(rng, 20.0, 200.0), ACROSS / ratio, ACROSS * top / signal.omega)
+    samples = round(drawn_log(rng, min(3000, most), most))
+    period = max(drawn_log(rng, 20.0, 200.0), ACROSS / ratio, ACROSS * top / signal.omega)
     rate = period * signal.omega / (2.0 * math.pi)
     if rng.random() < 0.15:
         signal = Signal(signal.tones[:1], float(rng.uniform(0.3, 1.0)) * signal.omega * rate / samples)
     estimated = {"linear_oscillator": ("c", "k"), "rigid_drive": ("m", "c")}.get(model, ("c", "x0"))
     priors = {name: _prior(values[name], rng) for name in estimated}
-    return Rig(model, values, estimated, signal, rate, samples, _log(rng, 0.003, 0.1), priors)
+    return Rig(model, values, estimated, signal, rate, samples, drawn_log(rng, 0.003, 0.1), priors)
 
 
-def _log(rng: np.random.Generator, low: float, high: float) -> float:
+def drawn_log(rng: np.random.Generator, low: float, high: float) -> float:
     """Return a number whose logarithm is uniform."""
     return float(math.exp(rng.uniform(math.log(low), math.log(high))))
 
 
-def _sized(model: str, mass: float, natural: float, rng: np.random.Generator) -> tuple[dict[str, float], float]:
+def sized(model: str, mass: float, natural: float, rng: np.random.Generator) -> tuple[dict[str, float], float]:
     """Return the parameters of a machine and the amplitude of its drive, in SI units."""
-    stiff, zeta = mass * natural**2, _log(rng, 0.01, 0.1)
+    stiff, zeta = mass * natural**2, drawn_log(rng, 0.01, 0.1)
     damping = 2.0 * zeta * mass * natural
     if model == "robot_joint":
-        values = {"m": mass / 100.0, "c": damping / 100.0, "k0": stiff / 100.0, "x0": _log(rng, 2e-3, 3e-2), "mgl": 0.0}
-        return values, _log(rng, 1.5, 8.0) * values["x0"]
-    length = _log(rng, 1e-5, 1e-2)
+        values = {
+            "m": mass / 100.0,
+            "c": damping / 100.0,
+            "k0": stiff / 100.0,
+            "x0": drawn_log(rng, 2e-3, 3e-2),
+            "mgl": 0.0,
+        }
+        return values, drawn_log(rng, 1.5, 8.0) * values["x0"]
+    length = drawn_log(rng, 1e-5, 1e-2)
     if model == "lin_backlash":
         values = {"m": mass, "c": damping, "k1": 0.0, "k0": stiff, "x0": length}
-        return values, _log(rng, 0.15, 2.0) * stiff * length
+        return values, drawn_log(rng, 0.15, 2.0) * stiff * length
     if model == "linear_oscillator":
         return {"m": mass, "c": damping, "k": stiff}, stiff * length
     return {"m": mass, "c": 10.0 * damping}, stiff * length

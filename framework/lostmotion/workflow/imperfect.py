@@ -1,0 +1,272 @@
+"""Machines of an imperfect world: beside what is hidden each has the flaws of real rigs, which no term describes.
+
+Small smooth forces over position, velocity, phase or time; friction whose level follows a random curve over the speed;
+a foot that gives way; a far mode in what the sensor shows; known values that are slightly wrong; a sensor that is bent;
+noise with a memory, mains hum and a quantised reading. What is hidden has its size as a share of the force of inertia.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from lostmotion.contracts import Array
+from lostmotion.errors import DataError
+from lostmotion.kernels.independent_rough import CELLS, REACH, Flaws, move_rough
+from lostmotion.kernels.independent_zoo import Hidden
+from lostmotion.workflow.mechanisms import NOISY, TABLE, UNKNOWN, Effect, Pilot
+from lostmotion.workflow.zoo import ACROSS, FEWEST, MOST, PIECE, Meddling, Rig, Signal, drawn_log, sized
+
+CYCLE, MULTISINE, SWEEP, STEPS, IMPACTS = "cycle", "multisine", "sweep", "steps", "impacts"
+KINDS = (CYCLE, MULTISINE, SWEEP, STEPS, IMPACTS)
+FINE = 0.003
+"""Steps times the fastest rate: a fifth of those of a final fit."""
+SHORTEST = 1500
+SIZE = (0.02, 0.3)
+"""The force of what is hidden over that of inertia, both rms; of an error of a sensor over the motion."""
+SMOOTH = (0.005, 0.05)
+"""The rms of all smooth forces together over the amplitude of the drive, or of the force of inertia if that is less."""
+WAVES = 4
+Curve = tuple[tuple[float, float], ...]
+"""Cosine and sine of each wave of a random function."""
+
+
+@dataclass(frozen=True)
+class Blemish:
+    """A small smooth force: the rms (N) of it, what it runs `over`, and the waves of its random function."""
+
+    over: str
+    rms: float
+    waves: Curve
+
+
+@dataclass(frozen=True)
+class World:
+    """The flaws of one rig.
+
+    `friction` is the random curve of the level of friction over the speed, `stated` what the case says of each known
+    value over the truth, `bend` the share of the amplitude by which the sensor is bent (even, odd). Of the noise `slow`
+    is the share with a `memory` per sample, `hum` the amplitude at `hum_pace` (rad/s), `step` the quantisation, all in
+    deviations of the noise.
+    """
+
+    kind: str
+    smooth: tuple[Blemish, ...]
+    friction: Curve
+    flaws: Mapping[str, float]
+    stated: Mapping[str, float]
+    bend: tuple[float, float]
+    slow: float
+    memory: float
+    hum: float
+    hum_pace: float
+    step: float
+    curves: Mapping[str, list[float]] = field(default_factory=dict)
+
+
+def draw_machine(kind: str, rng: np.random.Generator, most: int) -> Rig:
+    """Return a machine of random size under a drive of a kind, with recordings of `most` samples at most."""
+    gapped = 0.55 if kind == IMPACTS else 0.45
+    joint = 0.0 if kind == IMPACTS else 0.3
+    names, weights = ["lin_backlash", "robot_joint", "linear_oscillator"], [gapped, joint, 1.0 - gapped - joint]
+    model = str(rng.choice(names, p=weights))
+    natural, mass = drawn_log(rng, 5.0, 300.0), drawn_log(rng, 0.05, 50.0)
+    values, amplitude = sized(model, mass, natural, rng)
+    if model == "lin_backlash" and kind in (IMPACTS, STEPS):
+        values["k1"] = float(rng.uniform(0.03, 0.2)) * values["k0"]
+    ratio = drawn_log(rng, *((0.12, 0.5) if model == "robot_joint" else (0.2, 1.2)))
+    samples = round(drawn_log(rng, min(SHORTEST, most), most))
+    period = max(drawn_log(rng, 25.0, 100.0), ACROSS / ratio)
+    rate = period * ratio * natural / (2.0 * math.pi)
+    signal = _signal(kind, amplitude, ratio * natural, (natural, samples / rate), rng)
+    top = max((w for _, w, _ in signal.tones), default=0.0) / (ratio * natural)
+    rate *= max(1.0, ACROSS * top / period)
+    estimated = ("c", "k") if model == "linear_oscillator" else ("c", "x0")
+    priors = {name: _prior(values[name], rng) for name in estimated}
+    return Rig(model, values, estimated, signal, rate, samples, drawn_log(rng, 0.002, 0.03), priors)
+
+
+def _prior(value: float, rng: np.random.Generator) -> dict[str, float | str]:
+    below, above = 10.0 ** rng.uniform(0.4, 1.2, 2)
+    return {"low": float(f"{value / below:.3g}"), "high": float(f"{value * above:.3g}"), "scale": "log"}
+
+
+def _signal(kind: str, size: float, omega: float, times: tuple[float, float], rng: np.random.Generator) -> Signal:
+    """Return a drive of a kind; `times` are the natural angular frequency (rad/s) and the duration (s)."""
+    natural, duration = times
+    turn = float(rng.uniform(0.0, 2.0 * math.pi))
+    if kind == CYCLE:
+        return Signal(((size, omega, turn),))
+    if kind == SWEEP:
+        return Signal(((size, 0.5 * omega, turn),), float(rng.uniform(0.7, 1.5)) * omega / duration)
+    if kind == MULTISINE:
+        base = 2.0 * math.pi * float(rng.integers(2, 5)) / duration
+        lines = np.unique(np.round(np.linspace(0.3, 1.8, int(rng.integers(8, 17))) * omega / base))
+        turns = rng.uniform(0.0, 2.0 * math.pi, len(lines))
+        each = size * math.sqrt(2.0 / len(lines))
+        return Signal(tuple((each, float(n) * base, float(p)) for n, p in zip(lines, turns, strict=True) if n > 0))
+    cycle = 2.0 * math.pi / natural
+    events, at = [], 0.02 * duration
+    spaced = max(0.1 * duration, 4.0 * cycle) if kind == IMPACTS else max(0.03 * duration, 2.0 * cycle)
+    while at < duration:
+        long = float(rng.uniform(0.3, 0.7)) * cycle
+        events.append((at, size * float(rng.uniform(0.5, 1.5)) * float(rng.choice([-1.0, 1.0])), long))
+        at += spaced * float(rng.uniform(0.7, 1.5))
+    if kind == IMPACTS:
+        return Signal((), hits=tuple((t, 3.0 * s, long) for t, s, long in events), pace=omega)
+    levels = [s for _, s, _ in events]
+    jumps = [new - old for new, old in zip(levels, [0.0, *levels[:-1]], strict=True)]
+    return Signal((), steps=tuple((t, j, long) for (t, _, long), j in zip(events, jumps, strict=True)), pace=omega)
+
+
+def draw_world(kind: str, pilot: Pilot, rng: np.random.Generator) -> World:
+    """Return the flaws of a rig whose motion with nothing hidden is that of the pilot."""
+    rig, body = pilot.rig, pilot.rig.body
+    offered = ["position", "velocity", "time", *(["phase"] if kind == CYCLE else [])]
+    overs = [str(o) for o in rng.choice(offered, size=int(rng.integers(1, 4)), replace=False)]
+    drive = math.inf if rig.based else rig.signal.amplitude
+    whole = drawn_log(rng, *SMOOTH) * min(drive, math.sqrt(2.0) * pilot.inertial) / math.sqrt(len(overs))
+    stiff = body.k + body.k0
+    pace = math.sqrt(stiff / body.m)
+    foot = stiff * drawn_log(rng, 50.0, 500.0)
+    flaws = {
+        "position": float(np.std(pilot.q)),
+        "velocity": float(np.std(pilot.v)),
+        "foot": foot,
+        "foot_drag": foot * float(rng.uniform(0.03, 0.1)) / pace,
+        "far_pace": float(rng.uniform(6.0, 15.0)) * pace,
+        "far_loss": drawn_log(rng, 0.005, 0.03),
+        "far_compliance": drawn_log(rng, 0.001, 0.01) / stiff,
+    }
+    known = [name for name, value in rig.values.items() if name not in rig.estimated and value]
+    smooth = tuple(Blemish(over, whole, _waves(rng)) for over in overs)
+    made = World(
+        kind=kind,
+        smooth=smooth,
+        friction=_waves(rng),
+        flaws=flaws,
+        stated={name: 1.0 + float(rng.choice([-1.0, 1.0])) * drawn_log(rng, 0.001, 0.01) for name in known},
+        bend=(float(rng.uniform(-0.005, 0.005)), float(rng.uniform(-0.005, 0.005))),
+        slow=float(rng.uniform(0.1, 0.8)),
+        memory=float(rng.uniform(0.3, 0.9)),
+        hum=drawn_log(rng, 0.1, 1.0),
+        hum_pace=float(rng.uniform(0.1, 2.5)) * rig.rate,
+        step=drawn_log(rng, 0.1, 2.0),
+    )
+    return replace(made, curves=_tables(made, pilot, rng))
+
+
+def _waves(rng: np.random.Generator) -> Curve:
+    """Return the waves of a random smooth function, the faster the smaller."""
+    return tuple(tuple((rng.standard_normal(2) / k).tolist()) for k in range(1, WAVES + 1))  # type: ignore[misc]
+
+
+def _function(waves: Curve, angle: Array) -> Array:
+    """Return a random function at angles: half a wave of the slowest over pi."""
+    rows = (a * np.cos(k * angle) + b * np.sin(k * angle) for k, (a, b) in enumerate(waves, start=1))
+    return np.asarray(sum(rows), dtype=float)
+
+
+def _tables(world: World, pilot: Pilot, rng: np.random.Generator) -> dict[str, list[float]]:
+    """Return the curves (CELLS + 1,) over position, velocity and speed that the integrator reads."""
+    z = np.linspace(-REACH, REACH, CELLS + 1)
+    shape = _function(world.friction, 0.5 * math.pi * np.abs(z))
+    level = float(rng.uniform(0.05, 0.2))
+    tables = {name: np.zeros(CELLS + 1) for name in ("position", "velocity")}
+    moved = {"position": pilot.q, "velocity": pilot.v}
+    for blemish in world.smooth:
+        if blemish.over in tables:
+            raw = _function(blemish.waves, 0.5 * math.pi * z / 2.0 + 0.25 * math.pi)
+            seen = moved[blemish.over] / world.flaws[blemish.over]
+            tables[blemish.over] += _scaled(raw, z, seen, blemish.rms)
+    friction = np.exp(level * shape / max(float(np.std(shape)), 1e-12))
+    return {"friction": friction.tolist(), **{k: v.tolist() for k, v in tables.items()}}
+
+
+def _scaled(raw: Array, z: Array, seen: Array, rms: float) -> Array:
+    """Return a curve over `z` of this rms along what was seen, without the straight line in it.
+
+    A constant is an offset and a slope a stiffness or a damping: these have names.
+    """
+    along = np.interp(seen, z, raw)
+    line = np.linalg.lstsq(np.column_stack([np.ones_like(seen), seen]), along, rcond=None)[0]
+    rest = float(np.std(along - line[0] - line[1] * seen))
+    curve = (raw - line[0] - line[1] * z) * rms / max(rest, 1e-300)
+    return np.where(np.abs(z) < REACH, curve, np.interp(z, z[1:-1], curve[1:-1]))
+
+
+def moved_roughly(rig: Rig, hidden: tuple[Hidden, Meddling], world: World, rng: np.random.Generator) -> Array:
+    """Return what the sensor shows (samples,) before its noise, after the machine has settled."""
+    inside, meddling = hidden
+    fastest = math.sqrt((rig.body.k + rig.body.k0) / rig.body.m) + rig.body.c / rig.body.m + rig.signal.omega
+    fastest = max(fastest, 0.4 * world.flaws["far_pace"])
+    every = int(min(max(math.ceil(fastest / rig.rate / FINE), FEWEST), MOST))
+    settle = rig.signal.settling(rig.rate)
+    step = 1.0 / (rig.rate * every)
+    kicks = meddling.rms * rng.standard_normal(settle + rig.samples)
+    curves = np.array([world.curves[name] for name in ("position", "velocity", "friction")])
+    state, seen = np.zeros(7), []
+    state[0] = rig.signal.value(np.array([-settle / rig.rate]))[0] if rig.based else 0.0
+    for first in range(-settle, rig.samples, PIECE):
+        count = min(PIECE, rig.samples - first)
+        begin = first / rig.rate - meddling.sensor_delay
+        edges = np.asarray(begin + np.arange(count * every + 1) * step, dtype=float)
+        middles = edges[:-1] + 0.5 * step
+        value, slope = meddling.drive(rig.signal, middles)
+        kick = np.repeat(kicks[settle + first : settle + first + count], every) + _timed(world, rig, middles)
+        base = np.zeros((3, len(value)))
+        if rig.based:
+            base[0], base[1], base[2] = value, slope, meddling.drive(rig.signal, edges[1:])[1]
+        force = kick if rig.based else kick + value
+        flaws = Flaws(**world.flaws)
+        seen.append(move_rough(force, base, rig.body, inside, flaws, curves, state, (begin, step), every))
+    position = np.concatenate(seen)[settle:]
+    if not np.isfinite(position).all():
+        raise DataError("the simulated motion left all bounds")
+    return (1.0 + meddling.sensor_gain) * position
+
+
+def _timed(world: World, rig: Rig, t: Array) -> Array:
+    """Return the smooth forces (samples,) over phase and time at the times `t` (s)."""
+    total, duration = np.zeros(len(t)), rig.samples / rig.rate
+    for blemish in world.smooth:
+        if blemish.over in ("phase", "time"):
+            pace = rig.signal.omega if blemish.over == "phase" else math.pi / duration
+            size = math.sqrt(0.5 * sum(a * a + b * b for a, b in blemish.waves))
+            total += blemish.rms / max(size, 1e-300) * _function(blemish.waves, pace * t)
+    return total
+
+
+def recorded_roughly(rig: Rig, truth: Array, world: World, rng: np.random.Generator) -> tuple[Array, float]:
+    """Return the response (samples,) as the acquisition shows it, and the deviation of its noise."""
+    from scipy.signal import lfilter
+
+    clean = rig.signal.value(rig.time)
+    own = truth - clean if rig.based else truth
+    noise, size = rig.noise * float(np.std(own)), math.sqrt(2.0) * float(np.std(truth))
+    z = (truth - float(np.mean(truth))) / size
+    bent = truth + size * (world.bend[0] * z**2 + world.bend[1] * z**3)
+    white, slow = rng.standard_normal((2, len(truth)))
+    slow = lfilter([math.sqrt(1.0 - world.memory**2)], [1.0, -world.memory], slow)
+    hum = world.hum * np.cos(world.hum_pace * rig.time + float(rng.uniform(0.0, 2.0 * math.pi)))
+    shown = bent + noise * (math.sqrt(1.0 - world.slow) * white + math.sqrt(world.slow) * slow + hum)
+    step = world.step * noise
+    return step * np.round(shown / step), noise
+
+
+def draw_effect(name: str, pilot: Pilot, rng: np.random.Generator) -> Effect:
+    """Return a mechanism of a random size among those that matter beside flaws: its force over that of inertia."""
+    what = str(rng.choice(list(UNKNOWN))) if name == "unknown" else ""
+    mechanism = UNKNOWN[what] if what else TABLE[name]
+    at = str(rng.choice(mechanism.spots(pilot.rig)))
+    draft = mechanism.plan(pilot, at, rng)
+    if name in NOISY:
+        return Effect(name, at, draft.parameters(NOISY[name](pilot, float(rng.random()))))
+    share = drawn_log(rng, *SIZE)
+    reference = float(np.std(pilot.q)) if draft.shown else pilot.inertial
+    size = share * reference / max(float(np.sqrt(np.mean(draft.felt**2))), 1e-300)
+    size *= rng.choice([-1.0, 1.0]) if mechanism.signed else 1.0
+    return Effect(name, at, draft.parameters(float(size)), what)
