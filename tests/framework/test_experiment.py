@@ -11,7 +11,7 @@ import pytest
 
 from lostmotion.case import Experiment, load_case
 from lostmotion.errors import CaseError
-from lostmotion.inference.selection import Selection, Visit
+from lostmotion.inference.course import Selection, Visit
 from lostmotion.likelihood.drive import Tone
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.space import FADE, SLOW, Free

@@ -18,7 +18,7 @@ from lostmotion.cli._options import on_a_trial
         "lostmotion prove --cases 200 --out proof",
         "lostmotion prove --cases 40 --only coulomb_friction --only lugre_friction --out friction",
         "lostmotion prove --cases 300 --clean --out clean     false alarms, some with coloured noise and outliers",
-        "lostmotion prove --world imperfect --cases 200 --samples 3000 --out rough     machines with the flaws of real rigs",
+        "lostmotion prove --world imperfect --cases 200 --samples 3000 --out rough",
     )
 )
 @click.option("--cases", default=200, show_default=True, type=click.IntRange(1), help="How many cases to conceal.")

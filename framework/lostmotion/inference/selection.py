@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -22,6 +22,7 @@ from lostmotion.inference.candidates import (
     term_of,
     with_term,
 )
+from lostmotion.inference.course import BEAM, CLOSE, Selection, Visit
 from lostmotion.inference.fit import MANY, Fit, alone, maximise, restarted, together, warmed
 from lostmotion.inference.standing import CERTAIN, standing
 from lostmotion.kernels.threads import each
@@ -31,10 +32,10 @@ PROMISING = 3.0
 """A term is fitted when its score test promises at least this gain in log-likelihood."""
 MOST_FITTED = 6
 MOST_TERMS = 5
-BEAM = 3
 EXTRA = 1.5
 """The log price of each parameter of a term beyond its first."""
-CLOSE = 12.0
+CONTESTED = 4
+"""So many of the heaviest sets are held against the discrepancy in each round: each costs a hundred filter runs."""
 NEARLY = 2.5
 DECISIVE = math.log(20.0)
 """A term is taken when it makes the posterior odds of the model twenty times better."""
@@ -52,55 +53,6 @@ at that pace the most terms that are taken would reach half of it."""
 Progress = Callable[[str], None]
 Promise = Callable[[Fit], float]
 """Tells what the best learned curve would add to the log evidence of a nominal fit."""
-
-
-@dataclass(frozen=True)
-class Visit:
-    """A set of terms with its fit and its log posterior weight (log evidence plus log prior of the set)."""
-
-    terms: frozenset[str]
-    fit: Fit
-    weight: float
-
-
-@dataclass
-class Selection:
-    """The course of a selection: the nominal fit, every set visited, the hints of the first round, the set chosen.
-
-    `declined` names terms with evidence that was not believed, since what is left over has a memory.
-    """
-
-    nominal: Fit
-    chosen: Fit
-    visits: dict[frozenset[str], Visit] = field(default_factory=dict)
-    hints: dict[str, Hint] = field(default_factory=dict)
-    declined: set[str] = field(default_factory=set)
-
-    def probabilities(self) -> dict[frozenset[str], float]:
-        """Return the posterior probability of each set among those visited, but for sets that were not believed."""
-        doubted = self.declined - self.chosen.problem.active
-        believed = {k: v for k, v in self.visits.items() if not k & doubted}
-        top = max(v.weight for v in believed.values())
-        raw = {k: math.exp(v.weight - top) for k, v in believed.items()}
-        total = sum(raw.values())
-        return {k: w / total for k, w in raw.items()}
-
-    def close(self) -> list[Fit]:
-        """Return the fits of the best sets but for the chosen one, as far as they are close to it."""
-        top = self.visits[self.chosen.problem.active].weight - CLOSE
-        good = [v for v in self.visits.values() if v.weight > top and v.fit is not self.chosen]
-        return [v.fit for v in sorted(good, key=lambda v: -v.weight)[:BEAM]]
-
-    def inclusion(self, key: str) -> float:
-        """Return the posterior probability that a term is at work."""
-        return sum(p for terms, p in self.probabilities().items() if key in terms)
-
-    def gain(self, key: str) -> float:
-        """Return the log evidence that the term alone adds to the nominal model, or what its score test bounds."""
-        alone = self.visits.get(frozenset({key}))
-        if alone:
-            return alone.fit.log_evidence - self.nominal.log_evidence
-        return self.hints[key].gain - 5.0 if key in self.hints else 0.0
 
 
 class Selector:
@@ -189,17 +141,30 @@ class Selector:
         return self._better(here)
 
     def _better(self, here: Visit) -> bool:
-        """Take the best set visited in place of the chosen one, if it is decisively better and may be believed."""
-        for visit in sorted(self.course.visits.values(), key=lambda v: -v.weight):
-            needed = DECISIVE if visit.terms > here.terms else 0.0
-            if visit.terms == here.terms or visit.weight < here.weight + needed:
-                return False
+        """Take the best set visited in place of the chosen one, if it is decisively better and may be believed.
+
+        It has to be better alone, and beside the smooth force that nobody has named.
+        """
+        good = [v for v in self.course.visits.values() if v.terms != here.terms and self._decided(v, here)]
+        good = sorted(good, key=lambda v: -v.weight)[:CONTESTED]
+        leads = {v.terms: self.course.lead(v, here) for v in good}
+        self.course.unbeaten = set()
+        for visit in sorted(good, key=lambda v: -leads[v.terms]):
+            if not leads[visit.terms] > (DECISIVE if visit.terms > here.terms else 0.0):
+                self.course.unbeaten |= visit.terms - here.terms
+                continue
             if self._certain(visit, here):
                 self.course.chosen = visit.fit
                 self.course.declined.clear()
+                self.course.unbeaten = set()
                 return True
             self.course.declined.update(visit.terms - here.terms)
         return False
+
+    @staticmethod
+    def _decided(visit: Visit, here: Visit) -> bool:
+        """Return whether a set has decisively more weight than the chosen one, by the evidence alone."""
+        return visit.weight > here.weight + (DECISIVE if visit.terms > here.terms else 0.0)
 
     def _nearly(self, here: Visit) -> list[Visit]:
         """Return the best sets of one more term, where none is decisive but some are not far from it.
@@ -349,7 +314,7 @@ class Selector:
             terms = chosen.problem.active - {key}
             self.say(f"without {key}")
             visit = self.course.visits.get(terms) or self._visit(maximise(chosen.problem.reduced(key, chosen.values)))
-            if visit.weight + DECISIVE > here.weight:
+            if visit.weight + DECISIVE > here.weight or not self.course.lead(here, visit) > DECISIVE:
                 self.course.chosen = visit.fit
                 return True
         return False

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from lostmotion.inference.candidates import Shapes
+from lostmotion.inference.course import Selection
 from lostmotion.inference.fit import Fit, maximise
 from lostmotion.inference.memory import selected
-from lostmotion.inference.selection import Progress, Promise, Selection, Selector
+from lostmotion.inference.selection import Progress, Promise, Selector
 from lostmotion.inference.unseen import begun
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import Problem

@@ -1,8 +1,8 @@
 """A body as real rigs have it: moved by leapfrog, with small forces and flaws that no term of the library describes.
 
-The hidden mechanisms are those of `independent_zoo`. Beside them act a force over the position, one over the velocity, a
-law of friction whose level follows a curve over the speed, a foot that gives way, and a far mode that the sensor sees.
-With none of these it is the same motion as that of `independent_zoo.move` (`tests/science/test_rough.py`).
+The hidden mechanisms are those of `independent_zoo`. Beside them act a force over the position, one over the velocity,
+a law of friction whose level follows a curve over the speed, a foot that gives way, and a far mode that the sensor
+sees. With none of these it is the same motion as that of `independent_zoo.move` (`tests/science/test_rough.py`).
 """
 
 from __future__ import annotations

@@ -10,11 +10,12 @@ import numpy as np
 from lostmotion.case import Case
 from lostmotion.contracts import Array, Interface, Model, SensorTerm, Term, Values, place_of
 from lostmotion.errors import DataError
+from lostmotion.inference.course import Selection
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.learned import Learned
 from lostmotion.inference.locate import Curve, covariates, curve, edges_of, further, summary
 from lostmotion.inference.scout import scoutable, scouted
-from lostmotion.inference.selection import Selection, significant_random_force
+from lostmotion.inference.selection import significant_random_force
 from lostmotion.inference.setup import HELD_OUT, polish, problem_of, search, split, stepped
 from lostmotion.inference.shares import Covariate, Share, shares_of, significant
 from lostmotion.inference.stretches import sought

@@ -161,7 +161,7 @@ def draw_world(kind: str, pilot: Pilot, rng: np.random.Generator) -> World:
 
 def _waves(rng: np.random.Generator) -> Curve:
     """Return the waves of a random smooth function, the faster the smaller."""
-    return tuple(tuple((rng.standard_normal(2) / k).tolist()) for k in range(1, WAVES + 1))  # type: ignore[misc]
+    return tuple(tuple((rng.standard_normal(2) / k).tolist()) for k in range(1, WAVES + 1))
 
 
 def _function(waves: Curve, angle: Array) -> Array:
@@ -195,7 +195,7 @@ def _scaled(raw: Array, z: Array, seen: Array, rms: float) -> Array:
     line = np.linalg.lstsq(np.column_stack([np.ones_like(seen), seen]), along, rcond=None)[0]
     rest = float(np.std(along - line[0] - line[1] * seen))
     curve = (raw - line[0] - line[1] * z) * rms / max(rest, 1e-300)
-    return np.where(np.abs(z) < REACH, curve, np.interp(z, z[1:-1], curve[1:-1]))
+    return np.asarray(np.where(np.abs(z) < REACH, curve, np.interp(z, z[1:-1], curve[1:-1])), dtype=float)
 
 
 def moved_roughly(rig: Rig, hidden: tuple[Hidden, Meddling], world: World, rng: np.random.Generator) -> Array:

@@ -10,6 +10,7 @@ from typing import Any
 
 from lostmotion.errors import LostMotionError, PlaceError
 from lostmotion.registry import Registry
+from lostmotion.workflow.mechanisms import TABLE
 from lostmotion.workflow.oracle import ALIKE, Yardstick, alike, covered, spelled, yardstick
 from lostmotion.workflow.prepare import prepare
 from lostmotion.workflow.sealing import label, unsealed
@@ -20,6 +21,9 @@ OUTCOMES = (HIT, CONFUSED, NOTICED, MISNAMED, MISSED)
 """What may become of an effect: named; named as one that the diagnosis says it cannot tell from it; called unknown;
 called something else; not noticed."""
 VAGUE = ("unknown", "random_force")
+RUB = tuple(name for name, mechanism in TABLE.items() if mechanism.kin == "rub")
+"""Laws of dry friction: where the true one has a random shape, each of them names it."""
+SURE = 0.95
 REPEATED = ("cosine", "sine")
 """Parameters that say again what an amplitude and a phase say."""
 TURNING = {"phase": ("depth", "amplitude")}
@@ -36,6 +40,8 @@ def judged(out: Path, registry: Registry, number: int) -> dict[str, Any]:
     place = out / "cases" / case
     path = place / "diagnosis" / "diagnosis.json"
     diagnosis = json.loads(path.read_text(encoding="utf-8")) if path.exists() else None
+    if "world" in truth:
+        return _judged_roughly({**told, "kind": truth["world"]["kind"]}, diagnosis, truth)
     try:
         prepared = prepare(place / "case.toml", registry)
         best = yardstick(prepared, truth, diagnosis)
@@ -54,6 +60,46 @@ def judged(out: Path, registry: Registry, number: int) -> dict[str, Any]:
         return {**told, "verdict": "failed", "effects": [{**e, "outcome": MISSED} for e in effects], **_nothing()}
     answer = _held_against(diagnosis, effects, truth, several=places > 1)
     return {**told, "verdict": diagnosis["verdict"], **answer, **_heldout(diagnosis, best)}
+
+
+def _judged_roughly(told: dict[str, Any], diagnosis: Row | None, truth: Row) -> dict[str, Any]:
+    """Return what became of a case in an imperfect world, where no model is true: nothing is held against an oracle.
+
+    Names that were stated with more than `SURE` are listed with whether what they name is there.
+    """
+    several = told["model"] == "robot_joint"
+    effects = [{**effect, "gain": None, "status": "no true model"} for effect in truth["effects"]]
+    if diagnosis is None:
+        missed = [{**e, "outcome": MISSED} for e in effects]
+        return {**told, "verdict": "failed", "effects": missed, "sure": [], **_nothing()}
+    answer = _held_against(diagnosis, effects, truth, several=several)
+    sure = [
+        [_name(entry), any(in_kind(e, entry, several=several) for e in effects)]
+        for entry in diagnosis["found"]
+        if entry["mechanism"] not in VAGUE and entry["probability"] > SURE and entry.get("state", "named") == "named"
+    ]
+    there = {name for name, right in sure if right}
+    answer["effects"] = [{**e, "outcome": HIT if there else e["outcome"]} for e in answer["effects"]]
+    answer["false"] = [name for name, right in sure if not right]
+    errors = [diagnosis["fit"][when]["heldout_nrmse"] for when in ("before", "after")]
+    fallen = None if None in errors else errors[1] - errors[0]
+    return {
+        **told,
+        "verdict": diagnosis["verdict"],
+        **answer,
+        "sure": sure,
+        "parameters": [],
+        "worse": fallen,
+        "heldout": None,
+    }
+
+
+def in_kind(effect: Row, entry: Row, *, several: bool) -> bool:
+    """Return whether an entry names an effect, at its place; any law of friction names friction of a random shape."""
+    if same(effect, entry, several=several):
+        return True
+    as_named = {**effect, "mechanism": entry["mechanism"]}
+    return {effect["mechanism"], entry["mechanism"]} <= set(RUB) and same(as_named, entry, several=several)
 
 
 def _nothing() -> dict[str, Any]:

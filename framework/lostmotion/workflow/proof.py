@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from scipy.stats import beta, chi2, ncx2
 
-from lostmotion.workflow.judging import HIT, MISNAMED, OUTCOMES
+from lostmotion.workflow.judging import HIT, MISNAMED, OUTCOMES, VAGUE
 from lostmotion.workflow.oracle import alike
 from lostmotion.workflow.proof_words import says_of
 from lostmotion.workflow.sealing import PLAIN
@@ -51,6 +51,7 @@ def summary(rows: Sequence[Row], failed: Sequence[Row]) -> dict[str, Any]:
         "coverage": _coverage([one for row in rows if row["variant"] == PLAIN for one in row["parameters"]]),
         "heldout": _heldout([row["heldout"] for row in rows if row["heldout"] and row["effects"]]),
         "alarms": _alarms(clean),
+        "sure": _sure([row for row in rows if "sure" in row]),
         "misses": [_told(e) for e in effects if e["outcome"] != HIT],
         "false_alarms": [_alarm(row) for row in rows if row["false"]],
         "failed": [{"case": row["case"], "says": row["says"]} for row in failed],
@@ -170,6 +171,26 @@ def _alarms(clean: Sequence[Row]) -> list[dict[str, Any]]:
     return [{"noise": name, **rate(sum(bool(row["named"]) for row in rows), len(rows))} for name, rows in groups]
 
 
+def _sure(rows: Sequence[Row]) -> list[dict[str, Any]]:
+    """Return for each kind of drive in an imperfect world how many of the sure names are there, and what was named.
+
+    `rate` counts names that were stated with more than 0.95, `named` machines whose hidden effect is among them,
+    `worse` machines whose held-out error rose by what was found.
+    """
+    kinds = sorted({row["kind"] for row in rows})
+    groups = [("all", rows), *((kind, [row for row in rows if row["kind"] == kind]) for kind in kinds)] if rows else []
+    told = []
+    for kind, own in groups:
+        names = [right for row in own for _, right in row["sure"]]
+        hiding = [row for row in own if row["effects"] and row["effects"][0]["mechanism"] not in VAGUE]
+        named = rate(sum(row["effects"][0]["outcome"] == HIT for row in hiding), len(hiding))
+        worse = rate(sum((row["worse"] or 0.0) > 0.0 for row in own if "worse" in row), len(own))
+        told.append(
+            {"kind": kind, "machines": len(own), **rate(sum(names), len(names)), "named": named, "worse": worse}
+        )
+    return told
+
+
 def _told(effect: Row) -> dict[str, Any]:
     kept = ("case", "mechanism", "what", "at", "gain", "status", "outcome", "named", "margin")
     return {**{key: effect[key] for key in kept}, "folder": f"cases/{effect['case']}"}
@@ -190,6 +211,7 @@ def _targets(told: Row, effects: Sequence[Row]) -> list[dict[str, Any]]:
         ("false alarms on clean cases, white noise", plain, 0.0, ALARMS),
         ("cases with a held-out error within 5 % of the true model's", told["heldout"]["within"], WITHIN, 1.0),
     ]
+    rows += [(f"sure names that are there, {row['kind']}", row, LEVEL, 1.0) for row in told["sure"]]
     return [_target(what, found, low, high) for what, found, low, high in rows]
 
 

@@ -1,0 +1,102 @@
+"""The course of a selection: the sets of terms that were visited, what they are worth, and their probabilities."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+from lostmotion.inference.candidates import Hint
+from lostmotion.inference.fit import Fit
+from lostmotion.inference.rival import Expansion, expanded
+
+CLOSE = 12.0
+"""Sets that are so close to the best in log weight are fitted again, and kept for comparison."""
+BEAM = 3
+
+
+@dataclass(frozen=True)
+class Visit:
+    """A set of terms with its fit and its log posterior weight (log evidence plus log prior of the set)."""
+
+    terms: frozenset[str]
+    fit: Fit
+    weight: float
+
+
+@dataclass
+class Selection:
+    """The course of a selection: the nominal fit, every set visited, the hints of the first round, the set chosen.
+
+    `declined` names terms with evidence that was not believed, since what is left over has a memory. `rivals` holds the
+    expansions of fits with the discrepancy that every name has to beat.
+    """
+
+    nominal: Fit
+    chosen: Fit
+    visits: dict[frozenset[str], Visit] = field(default_factory=dict)
+    hints: dict[str, Hint] = field(default_factory=dict)
+    declined: set[str] = field(default_factory=set)
+    rivals: dict[frozenset[str], tuple[Fit, Expansion]] = field(default_factory=dict)
+    unbeaten: set[str] = field(default_factory=set)
+
+    def expansion(self, visit: Visit) -> Expansion:
+        """Return the expansion of a visited set with the discrepancy; it is made once for each fit."""
+        known = self.rivals.get(visit.terms)
+        if known is None or known[0] is not visit.fit:
+            self.rivals[visit.terms] = (visit.fit, expanded(visit.fit))
+        return self.rivals[visit.terms][1]
+
+    def lead(self, visit: Visit, over: Visit) -> float:
+        """Return the log odds of a set over another one where either stands beside the discrepancy.
+
+        What one-step errors win is divided by how much their scores scatter more than independent ones would. Where
+        the other is a part of the set, it is also asked what it is worth seen from here: with a random force that
+        is no larger than it has to be once the terms are in.
+        """
+        if visit.terms < over.terms:
+            return -self.lead(over, visit)
+        here, there = self.expansion(visit), self.expansion(over)
+        worse = max(here.worse, 1.0)
+        prices = (visit.fit.log_evidence - visit.weight) - (over.fit.log_evidence - over.weight)
+        own = here.gain(worse=worse)
+        other = (over.fit.log_evidence - visit.fit.log_evidence) / worse + there.gain(worse=worse)
+        if over.terms < visit.terms:
+            gone = visit.terms - over.terms
+            keys = visit.fit.problem.keys
+            dropped = [i for i, key in enumerate(keys) if key.rpartition(".")[0] in gone]
+            other = max(other, here.gain(dropped, worse=worse))
+        return own - other - prices
+
+    def probabilities(self) -> dict[frozenset[str], float]:
+        """Return the posterior probability of each set among those visited, but for sets that were not believed.
+
+        Sets of which the expansion is known are weighed beside the discrepancy, all others by their evidence alone.
+        """
+        doubted = self.declined - self.chosen.problem.active
+        believed = {k: v for k, v in self.visits.items() if not k & doubted}
+        chosen = self.visits[self.chosen.problem.active]
+        heights = {k: v.weight - chosen.weight for k, v in believed.items()}
+        for terms in believed:
+            if terms in self.rivals and terms != chosen.terms:
+                heights[terms] = -self.lead(chosen, self.visits[terms])
+        top = max(heights.values())
+        raw = {k: math.exp(height - top) for k, height in heights.items()}
+        total = sum(raw.values())
+        return {k: w / total for k, w in raw.items()}
+
+    def close(self) -> list[Fit]:
+        """Return the fits of the best sets but for the chosen one, as far as they are close to it."""
+        top = self.visits[self.chosen.problem.active].weight - CLOSE
+        good = [v for v in self.visits.values() if v.weight > top and v.fit is not self.chosen]
+        return [v.fit for v in sorted(good, key=lambda v: -v.weight)[:BEAM]]
+
+    def inclusion(self, key: str) -> float:
+        """Return the posterior probability that a term is at work."""
+        return sum(p for terms, p in self.probabilities().items() if key in terms)
+
+    def gain(self, key: str) -> float:
+        """Return the log evidence that the term alone adds to the nominal model, or what its score test bounds."""
+        alone = self.visits.get(frozenset({key}))
+        if alone:
+            return alone.fit.log_evidence - self.nominal.log_evidence
+        return self.hints[key].gain - 5.0 if key in self.hints else 0.0

@@ -1,0 +1,98 @@
+"""Channels that are not quite true: what the usual flaws of sensors and drives do to the one-step errors of a fit."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from lostmotion.contracts import Array
+from lostmotion.inference.fit import Fit
+from lostmotion.likelihood.observation import Observation
+
+CALIBRATED = 0.01
+"""The standard deviation of the scale of a sensor and of a drive, relative."""
+BENT = 0.005
+"""The standard deviation of the square and of the cube that bend a sensor, in its amplitude: 0.5 % are usual."""
+APART = 0.5
+"""The standard deviation of the time between channels, in samples: acquisition systems filter and multiplex."""
+SMALL = 1e-4
+"""Derivatives are taken over so much of each."""
+
+
+@dataclass(frozen=True)
+class Gauge:
+    """What a flaw of a channel does to errors and variances (readings,), and the usual `width` of it.
+
+    It is put on the recording in place of the model: `stretch` is what it adds to the log density of the readings,
+    which become wider or narrower by it.
+    """
+
+    errors: Array
+    variances: Array
+    width: float
+    stretch: float
+
+
+def gauges_of(fit: Fit) -> list[Gauge]:
+    """Return the flaws of channels: scale, square and cube of each sensor, scale and time of each drive."""
+    problem, here = fit.problem, fit.problem.innovations(fit.theta)
+    found = []
+    for change, width, stretch in _flaws(problem.observations):
+        seen = problem.on(tuple(change(o) for o in problem.observations)).innovations(fit.theta)
+        slopes = (seen.errors - here.errors) / SMALL, (seen.variances - here.variances) / SMALL
+        found.append(Gauge(*slopes, width, stretch))
+    return found
+
+
+_Change = Callable[[Observation], Observation]
+
+
+def _flaws(observations: tuple[Observation, ...]) -> Iterator[tuple[_Change, float, float]]:
+    """Yield each flaw as a change of a recording, with its usual width and what it adds to the log density."""
+    first = observations[0]
+    for sensor in range(len(first.sensors)):
+        shown = np.concatenate([o.readings[:, sensor] for o in observations])
+        middle, amplitude = float(np.nanmean(shown)), np.sqrt(2.0) * float(np.nanstd(shown))
+        if not amplitude > 0.0:
+            continue
+        z = (shown[np.isfinite(shown)] - middle) / amplitude
+        for power, width in ((1, CALIBRATED), (2, BENT), (3, BENT)):
+            stretch = float(np.sum(power * z ** (power - 1)))
+            yield _bent(sensor, power, (middle, amplitude)), width, stretch
+    for column in range(first.inputs.shape[1]):
+        if any(np.any(o.inputs[:, column]) for o in observations):
+            yield _scaled(column), CALIBRATED, 0.0
+            yield _moved(column), APART, 0.0
+
+
+def _bent(sensor: int, power: int, scale: tuple[float, float]) -> _Change:
+    middle, amplitude = scale
+
+    def change(o: Observation) -> Observation:
+        readings = o.readings.copy()
+        shown = o.readings[:, sensor]
+        more = shown if power == 1 else amplitude * ((shown - middle) / amplitude) ** power
+        readings[:, sensor] = shown + SMALL * more
+        return replace(o, readings=readings)
+
+    return change
+
+
+def _scaled(column: int) -> _Change:
+    def change(o: Observation) -> Observation:
+        inputs = o.inputs.copy()
+        inputs[:, column] *= 1.0 + SMALL
+        return replace(o, inputs=inputs)
+
+    return change
+
+
+def _moved(column: int) -> _Change:
+    def change(o: Observation) -> Observation:
+        inputs = o.inputs.copy()
+        inputs[:, column] += SMALL * np.gradient(o.inputs[:, column])
+        return replace(o, inputs=inputs)
+
+    return change

@@ -1,0 +1,202 @@
+"""The rival that every name has: some smooth force that nobody has named, and known values that are slightly wrong.
+
+No model of a real machine is exact. A likelihood that does not know this takes any term that resembles what is left
+over, and is the surer the longer the recording. So each set of terms is weighed together with a discrepancy (Kennedy,
+O'Hagan, J. R. Stat. Soc. B 63 (2001) 425-464): Gaussian processes of reduced rank over position, velocity, phase and
+time, of the size that such forces have on real rigs; known values that are free within what is usual; and channels that
+are not quite true (`gauges.py`). One-step errors are close to straight in all of these, so the evidence has a closed
+form about a fit, and costs one pass of the filter for each coefficient.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from lostmotion.contracts import Array
+from lostmotion.inference.candidates import slopes_of
+from lostmotion.inference.curves import size_of, transplanted
+from lostmotion.inference.fit import BLOCKS, Fit, Sensitivity, solved
+from lostmotion.inference.gauges import gauges_of
+from lostmotion.inference.learned import OverPhase, OverPosition, OverTime, OverVelocity, spread
+from lostmotion.likelihood.problem import Free, Problem
+from lostmotion.likelihood.system import key_of
+
+SMOOTH = (OverPosition, OverVelocity, OverTime, OverPhase)
+SIZES = (0.005, 0.015, 0.05)
+"""Standard deviations of a smooth force that are tried, in units of the drive: what real rigs have."""
+LENGTHS = (0.15, 0.3, 0.6, 1.2)
+"""Correlation lengths that are tried, in half widths of the range."""
+MOST_WAVES = 20
+"""A smooth force has no more waves than this: shorter ones have no weight at these lengths."""
+KNOWN = 0.01
+"""The standard deviation of a known value, relative: drawings and data sheets are not more exact than this."""
+NUDGE, STEP = 3e-4, 1e-3
+"""Finite-difference steps of a coefficient in units of the drive, and of the logarithm of a known value."""
+SWEEPS = 3
+PRICE = math.log(len(SIZES) * len(LENGTHS))
+"""The log price of the size and the length of a smooth force that were chosen."""
+
+
+@dataclass(frozen=True)
+class Group:
+    """Coefficients of one smooth force: their columns, and the prior widths (count,) that are tried."""
+
+    name: str
+    columns: slice
+    options: tuple[Array, ...]
+
+
+@dataclass(frozen=True)
+class Discrepancy:
+    """What a discrepancy is worth: the log evidence it adds, and the option that was chosen for each group, or -1."""
+
+    gain: float
+    chosen: tuple[tuple[str, int], ...]
+
+
+@dataclass(frozen=True)
+class Expansion:
+    """The log posterior of a fit about its maximum, in its own coordinates (first) and those of the discrepancy.
+
+    `gradient` (n,) and `information` (n, n) hold the priors of the fit's own coordinates, `own` counts these. `widths`
+    (n - own,) are the prior widths of what is always there, zero for smooth forces. `worse` is by how much scores that
+    have a memory scatter more than independent ones would, as a factor of the variance, 1 at the least.
+    """
+
+    fit: Fit
+    gradient: Array
+    information: Array
+    own: int
+    groups: tuple[Group, ...]
+    widths: Array
+    worse: float
+
+    def gain(self, dropped: Sequence[int] = (), worse: float = 0.0) -> float:
+        """Return the log evidence that the discrepancy adds to the fit; see `best`."""
+        return self.best(dropped, worse or self.worse).gain
+
+    def best(self, dropped: Sequence[int] = (), worse: float = 1.0) -> Discrepancy:
+        """Return the discrepancy of the best smoothness, where likelihoods count by one over `worse`.
+
+        Own coordinates that are `dropped` are put at zero, all others moving along: what the set is worth without a
+        term, as far as one-step errors are straight in it. The drop of the log posterior is counted.
+        """
+        kept = np.setdiff1d(np.arange(self.own), np.asarray(dropped, dtype=int))
+        more = np.arange(self.own, len(self.gradient))
+        gradient, lost = self._without(dropped)
+        cross = self.information[np.ix_(kept, more)]
+        pulled = solved(self.information[np.ix_(kept, kept)], np.column_stack([cross, gradient[kept]]))
+        information = self.information[np.ix_(more, more)] - cross.T @ pulled[:, :-1]
+        force = gradient[more] - cross.T @ pulled[:, -1]
+        moved = 0.5 * float(gradient[kept] @ pulled[:, -1]) if len(dropped) else 0.0
+        h, g = 0.5 * (information + information.T) / worse, force / worse
+        found = self._smoothest(h, g)
+        return Discrepancy(found.gain + (moved - lost) / worse, found.chosen)
+
+    def _without(self, dropped: Sequence[int]) -> tuple[Array, float]:
+        """Return the gradient where some own coordinates are zero, and what the log posterior loses on the way."""
+        away = np.zeros(len(self.gradient))
+        away[list(dropped)] = -self.fit.theta[list(dropped)]
+        pulled = self.information @ away
+        return self.gradient - pulled, 0.5 * float(away @ pulled) - float(self.gradient @ away)
+
+    def _smoothest(self, h: Array, g: Array) -> Discrepancy:
+        """Return the best discrepancy: each smooth force in turn gets the width that pays most, or none."""
+        widths, chosen = self.widths.copy(), [-1] * len(self.groups)
+        best = evidence_of(h, g, widths)
+        for _ in range(SWEEPS):
+            before = best
+            for k, group in enumerate(self.groups):
+                rest = sum(option >= 0 for j, option in enumerate(chosen) if j != k)
+                none = np.zeros_like(widths[group.columns])
+                for option, wide in itertools.chain([(-1, none)], enumerate(group.options)):
+                    trial = widths.copy()
+                    trial[group.columns] = wide
+                    value = evidence_of(h, g, trial) - PRICE * (rest + (option >= 0))
+                    if value > best:
+                        best, chosen[k], widths = value, option, trial
+            if best <= before:
+                break
+        return Discrepancy(best, tuple((g.name, option) for g, option in zip(self.groups, chosen, strict=True)))
+
+
+def evidence_of(h: Array, g: Array, widths: Array) -> float:
+    """Return the log evidence that normal coefficients add, of information `h` (n, n) and gradient `g` (n,) at zero.
+
+    With D the prior `widths` (n,): (g'D (I + D h D)^-1 D g - log det(I + D h D)) / 2; zero widths are left out.
+    """
+    used = widths > 0.0
+    if not used.any():
+        return 0.0
+    d = widths[used]
+    try:
+        lower = np.linalg.cholesky(np.eye(len(d)) + h[np.ix_(used, used)] * np.outer(d, d))
+    except np.linalg.LinAlgError:
+        return -math.inf
+    pulled = np.linalg.solve(lower, d * g[used])
+    return 0.5 * float(pulled @ pulled) - float(np.sum(np.log(np.diag(lower))))
+
+
+def expanded(fit: Fit) -> Expansion:
+    """Return the expansion of a fit with its discrepancy."""
+    slopes, problem, own = slopes_of(fit), transplanted(fit, fit.problem.system.keys).problem, len(fit.theta)
+    known = _known(problem)
+    curves = [(key_of(t), t) for t in problem.system.terms if isinstance(t, SMOOTH)]
+    frees, steps = list(known), [STEP] * len(known)
+    groups = []
+    for key, term in curves:
+        size, count = size_of(term, problem), min(term.count, MOST_WAVES)
+        options = tuple(s * size * spread(term, length)[:count] for s in SIZES for length in LENGTHS)
+        groups.append(Group(key, slice(len(frees), len(frees) + count), options))
+        frees += [Free(f"{key}.v{i}", "", 0.0, -1e3 * size, 1e3 * size, straight=True) for i in range(count)]
+        steps += [NUDGE * size] * count
+    errors, variances = _rows(problem.extended(frees, {key for key, _ in curves}), slopes, np.array(steps))
+    gauges = gauges_of(fit)
+    joint = Sensitivity(
+        slopes.theta,
+        slopes.here,
+        np.vstack([slopes.errors, errors, *(g.errors for g in gauges)]),
+        np.vstack([slopes.variances, variances, *(g.variances for g in gauges)]),
+        slopes.steps,
+    )
+    gradient, information = joint.gradient(), joint.information()
+    gradient[own + len(frees) :] += [g.stretch for g in gauges]
+    pull = np.array([f.pull for f in fit.problem.free])
+    gradient[:own] -= pull * (slopes.theta - np.array([f.mean for f in fit.problem.free]))
+    information[np.arange(own), np.arange(own)] += pull
+    widths = np.array([KNOWN] * len(known) + [0.0] * (len(frees) - len(known)) + [g.width for g in gauges])
+    return Expansion(fit, gradient, information, own, tuple(groups), widths, _memory(joint, own, information))
+
+
+def _rows(wider: Problem, slopes: Sensitivity, steps: Array) -> tuple[Array, Array]:
+    """Return the derivatives (count, readings) of errors and variances by coordinates behind those of the fit."""
+    own = len(slopes.theta)
+    zero = np.concatenate([slopes.theta, [f.start for f in wider.free[own:]]])
+    seen = wider.many(np.vstack([zero[None], zero + np.eye(len(zero))[own:] * steps[:, None]]))
+    above = np.where(seen.finite[1:], np.arange(1, len(seen)), 0)
+    errors = (seen.errors[above] - seen.errors[0]) / steps[:, None]
+    return errors, (seen.variances[above] - seen.variances[0]) / steps[:, None]
+
+
+def _known(problem: Problem) -> list[Free]:
+    """Return the known values of the model that are above zero, free in their logarithm."""
+    estimated, found = {f.parameter for f in problem.free}, []
+    for param in problem.system.model.params:
+        value = float(problem.known[problem.system.index[param.name]])
+        if param.name not in estimated and 0.0 < value < math.inf:
+            at = math.log(value)
+            found.append(Free(param.name, "", at, at - 1.0, at + 1.0, log=True, mean=at, sd=KNOWN))
+    return found
+
+
+def _memory(joint: Sensitivity, own: int, information: Array) -> float:
+    """Return by how much scores of the discrepancy scatter more over blocks than independent ones would (median)."""
+    blocks = np.array([part.sum(axis=1) for part in np.array_split(joint.scores()[own:], BLOCKS, axis=1)])
+    usual = np.diag(information)[own:]
+    told = usual > 0.0
+    return max(1.0, float(np.median(blocks.var(axis=0)[told] * BLOCKS / usual[told]))) if told.any() else 1.0
