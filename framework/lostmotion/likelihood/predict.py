@@ -40,8 +40,16 @@ class Filtered:
 
     def log_score(self, held: slice) -> float:
         """Return the mean log density per sample of one-step predictions over the held-out part, of all sensors."""
+        return float(np.mean(self._densities(held)))
+
+    def scores(self, held: slice, blocks: int = 20) -> Array:
+        """Return the log score (blocks,) of successive blocks of the held-out part."""
+        parts = np.array_split(self._densities(held), blocks)
+        return np.array([float(np.mean(part)) for part in parts if len(part)])
+
+    def _densities(self, held: slice) -> Array:
         e, v = self.errors[held], self.variances[held]
-        return float(np.mean(np.sum(-0.5 * (e * e / v + np.log(2.0 * np.pi * v)), axis=1)))
+        return np.asarray(np.sum(-0.5 * (e * e / v + np.log(2.0 * np.pi * v)), axis=1))
 
     def expected_score(self, held: slice) -> float:
         """Return what `log_score` would be if the errors were as large as their variances say."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -29,6 +29,8 @@ STARTS = 150
 REACH = 8.0
 """Error growth is followed over this many Lyapunov times or periods."""
 SEGMENT = 3.0
+RISE = 0.01
+"""A held-out error that rises by a smaller share than this has not changed."""
 
 
 @dataclass(frozen=True)
@@ -45,7 +47,7 @@ class Prediction:
 
     `nrmse` is the mean over the sensors, `by_sensor` that of each, over the standard deviations `scales` of what was
     held out; error growth is that of the first. `expected_score` is the log score of a recording that the model itself
-    had made.
+    had made. `scores` (blocks,) are the log scores of successive blocks.
     """
 
     log_score: float
@@ -62,6 +64,7 @@ class Prediction:
     restarts: Array
     acf: Array
     white: float
+    scores: Array = field(default_factory=lambda: np.zeros(0))
 
 
 def pieces_of(observations: Sequence[Observation], held: Sequence[Observation]) -> tuple[Piece, ...]:
@@ -117,6 +120,7 @@ def predict(fit: Fit, pieces: Sequence[Piece], horizon: Horizon, rates: Array) -
         restarts=restarts,
         acf=autocorrelation(*_taken(first, tail, 0)),
         white=_white([whiteness(*_taken(first, tail, sensor)) for sensor in range(len(joint))]),
+        scores=np.concatenate([one.scores(slice(p.begin, None)) for one, p in zip(tracked, pieces, strict=True)]),
     )
 
 
@@ -144,6 +148,18 @@ def _joined(runs: Sequence[FreeRuns]) -> FreeRuns:
 
 def _nrmse(runs: FreeRuns, horizon: Horizon, scale: float) -> float:
     return float(np.sqrt(np.nanmean(runs.error[:, : horizon.steps + 1] ** 2)) / scale)
+
+
+def worsened(before: Prediction, after: Prediction) -> bool:
+    """Return whether held-out data speak against a model: free runs err more after than before, or it scores less.
+
+    A rise of the error by less than `RISE` of it is none, and the log score of one-step predictions may fall by its
+    standard error, from the scatter over blocks of time.
+    """
+    if after.nrmse > (1.0 + RISE) * before.nrmse or not math.isfinite(after.nrmse):
+        return True
+    more = after.scores - before.scores
+    return len(more) > 1 and float(np.mean(more)) < -float(np.std(more, ddof=1)) / math.sqrt(len(more))
 
 
 def own_motion(fit: Fit, pieces: Sequence[Piece]) -> float:

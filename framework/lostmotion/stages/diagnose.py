@@ -10,12 +10,13 @@ import numpy as np
 from lostmotion.case import Case
 from lostmotion.contracts import Array, Interface, Model, SensorTerm, Term, Values, place_of
 from lostmotion.errors import DataError
-from lostmotion.inference.course import Selection
-from lostmotion.inference.fit import Fit
+from lostmotion.inference.candidates import term_of
+from lostmotion.inference.course import Selection, Visit
+from lostmotion.inference.fit import Fit, maximise
 from lostmotion.inference.learned import Learned
 from lostmotion.inference.locate import Curve, covariates, curve, edges_of, further, summary
 from lostmotion.inference.scout import scoutable, scouted
-from lostmotion.inference.selection import significant_random_force
+from lostmotion.inference.selection import price_of, significant_random_force
 from lostmotion.inference.setup import HELD_OUT, polish, problem_of, search, split, stepped
 from lostmotion.inference.shares import Covariate, Share, shares_of, significant
 from lostmotion.inference.stretches import sought
@@ -72,6 +73,7 @@ class Diagnosis:
     `shown` is the recording (or the first held-out one) that curves and figures are about; `law` (samples,) is the
     force of the found terms along it. `random_gain` is the log-likelihood that a random force beyond the usual adds.
     `learned` are the curves that were learned where the library did not suffice; `after` is the fit with them.
+    `withdrawn` tells what was found by likelihood and taken back, since held-out data spoke against it.
     """
 
     before: Fit
@@ -88,6 +90,7 @@ class Diagnosis:
     held: tuple[Observation, ...]
     marks: Mapping[str, tuple[Values, Values]] = field(default_factory=dict)
     learned: Unknown | None = None
+    withdrawn: tuple[str, ...] = ()
 
     @property
     def found(self) -> tuple[str, ...]:
@@ -193,6 +196,30 @@ def diagnose(
     after = polish(learned.fit)
     gain = significant_random_force(after)
     return _located(replace(bare, after=after, random_gain=gain, learned=replace(learned, fit=after)), chance)
+
+
+def simpler(d: Diagnosis, rng: np.random.Generator) -> Diagnosis | None:
+    """Return the diagnosis without its learned curves, else without its least probable term; None where none is left.
+
+    All that was fitted is fitted anew, and the missing force located again.
+    """
+    if not d.found:
+        return None
+    chosen, gone, visits = d.selection.chosen, "unknown", d.selection.visits
+    if not d.learned:
+        gone = d.found[-1]
+        terms = chosen.problem.active - {gone}
+        if terms not in visits:
+            less = maximise(chosen.problem.reduced(gone, chosen.values))
+            price = price_of(term_of(chosen.problem, gone)[0], len(fitted_keys(chosen.problem.system)))
+            dearer = chosen.log_evidence - visits[chosen.problem.active].weight
+            visits = {**visits, terms: Visit(terms, less, less.log_evidence - dearer + price)}
+        chosen = visits[terms].fit
+    after = polish(chosen) if chosen.problem.active else d.before
+    selection = replace(d.selection, chosen=chosen, visits=visits)
+    bare = replace(d, after=after, selection=selection, learned=None, left=None, law=_NO, laws={}, law_curves={})
+    told = replace(bare, random_gain=significant_random_force(after), withdrawn=(*d.withdrawn, gone))
+    return _located(told, rng)
 
 
 def _check_moving(held: Sequence[Observation]) -> None:

@@ -15,8 +15,8 @@ from lostmotion.likelihood.system import System, key_of
 from lostmotion.provenance import provenance
 from lostmotion.registry import Registry
 from lostmotion.report import write_report
-from lostmotion.stages.compare import exponent_of, horizon_for, pieces_of, predict, rates_of
-from lostmotion.stages.diagnose import Diagnosis, diagnose
+from lostmotion.stages.compare import exponent_of, horizon_for, pieces_of, predict, rates_of, worsened
+from lostmotion.stages.diagnose import Diagnosis, diagnose, simpler
 from lostmotion.storage import folder_for, save_arrays, save_json
 from lostmotion.workflow.arrays import arrays_of
 from lostmotion.workflow.attractors import motions_of
@@ -56,7 +56,8 @@ def run_diagnosis(
     folder = folder_for(out)
     diagnosis, prepared, rng = _diagnosed(prepared, registry, seed, jobs=jobs, say=say)
     say("held-out predictions")
-    outcome = judged(diagnosis, prepared, rng)
+    outcome = upheld(diagnosis, prepared, rng, say)
+    diagnosis = outcome.diagnosis
     motions = motions_of(diagnosis)
     say("attractors")
     show = shown(Seen(outcome, motions, prepared.observations, registry), np.random.default_rng([seed, SHOW]))
@@ -119,6 +120,22 @@ def judged(diagnosis: Diagnosis, prepared: Prepared, rng: np.random.Generator) -
     before, after = both[0], both[-1]
     draws = draws_of(diagnosis.before, rng)
     return Outcome(diagnosis, before, after, horizon, draws, draws if same else draws_after(diagnosis, rng))
+
+
+def upheld(diagnosis: Diagnosis, prepared: Prepared, rng: np.random.Generator, say: Say = lambda _: None) -> Outcome:
+    """Return the diagnosis with its predictions, less what held-out data speak against.
+
+    They have a veto: where free runs or one-step predictions are worse with what was found than without it, learned
+    curves are taken back first, then one term after the other, the least probable one first.
+    """
+    outcome = judged(diagnosis, prepared, rng)
+    while outcome.diagnosis.found and worsened(outcome.before, outcome.after):
+        less = simpler(outcome.diagnosis, rng.spawn(1)[0])
+        if less is None:
+            break
+        say(f"held-out predictions without {less.withdrawn[-1]}")
+        outcome = judged(less, prepared, rng)
+    return outcome
 
 
 def _background(prepared: Prepared, outcome: Outcome, seed: int) -> dict[str, Any]:
