@@ -38,6 +38,7 @@ class Selection:
     declined: set[str] = field(default_factory=set)
     rivals: dict[frozenset[str], tuple[Fit, Expansion]] = field(default_factory=dict)
     unbeaten: set[str] = field(default_factory=set)
+    leads: dict[tuple[frozenset[str], ...], tuple[Visit, Visit, float]] = field(default_factory=dict)
 
     def expansion(self, visit: Visit) -> Expansion:
         """Return the expansion of a visited set with the discrepancy; it is made once for each fit."""
@@ -55,14 +56,18 @@ class Selection:
         """
         if visit.terms < over.terms:
             return -self.lead(over, visit)
+        known = self.leads.get((visit.terms, over.terms))
+        if known is None or known[0] is not visit or known[1] is not over:
+            known = self.leads[visit.terms, over.terms] = (visit, over, self._led(visit, over))
+        return known[2]
+
+    def _led(self, visit: Visit, over: Visit) -> float:
         here, there = self.expansion(visit), self.expansion(over)
-        worse = max(here.worse, 1.0)
         prices = (visit.fit.log_evidence - visit.weight) - (over.fit.log_evidence - over.weight)
-        own = here.gain(worse=worse)
+        own, worse = here.gain(worse=here.worse), here.worse
         other = (over.fit.log_evidence - visit.fit.log_evidence) / worse + there.gain(worse=worse)
         if over.terms < visit.terms:
-            gone = visit.terms - over.terms
-            keys = visit.fit.problem.keys
+            gone, keys = visit.terms - over.terms, visit.fit.problem.keys
             dropped = [i for i, key in enumerate(keys) if key.rpartition(".")[0] in gone]
             other = max(other, here.gain(dropped, worse=worse))
         return own - other - prices

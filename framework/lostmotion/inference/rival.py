@@ -16,6 +16,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.linalg.lapack import dpotrf, dtrtrs
 
 from lostmotion.contracts import Array
 from lostmotion.inference.candidates import slopes_of
@@ -134,11 +135,12 @@ def evidence_of(h: Array, g: Array, widths: Array) -> float:
     if not used.any():
         return 0.0
     d = widths[used]
-    try:
-        lower = np.linalg.cholesky(np.eye(len(d)) + h[np.ix_(used, used)] * np.outer(d, d))
-    except np.linalg.LinAlgError:
+    inner = h[np.ix_(used, used)] * d * d[:, None]
+    inner.flat[:: len(d) + 1] += 1.0
+    lower, failed = dpotrf(inner, lower=1)
+    if failed:
         return -math.inf
-    pulled = np.linalg.solve(lower, d * g[used])
+    pulled = dtrtrs(lower, d * g[used], lower=1)[0]
     return 0.5 * float(pulled @ pulled) - float(np.sum(np.log(np.diag(lower))))
 
 
