@@ -96,7 +96,12 @@ def size_of(term: Learned, problem: Problem) -> float:
 
 
 def shape_of(fit: Fit, slopes: Sensitivity, key: str) -> Shape:
-    """Return what a curve promises at its best smoothness, the free parameters of the fit moving along.
+    """Return what a curve promises at its best smoothness, the free parameters of the fit moving along."""
+    return max(shapes_of(fit, slopes, key), key=lambda s: s.gain)
+
+
+def shapes_of(fit: Fit, slopes: Sensitivity, key: str) -> list[Shape]:
+    """Return what a curve promises at each smoothness, the free parameters of the fit moving along.
 
     With gradient g and information H of its coefficients, prior widths D: the evidence gains
     (g'D (I + D H D)^-1 D g - log det(I + D H D)) / 2.
@@ -112,7 +117,7 @@ def shape_of(fit: Fit, slopes: Sensitivity, key: str) -> Shape:
         gain = 0.5 * float(widths * gradient @ pull) - 0.5 * float(np.linalg.slogdet(inner)[1])
         told = widths**2 * np.diag(information) > TOLD
         options.append(Shape(key, gain, np.where(told, widths, 0.0), np.where(told, widths * pull, 0.0)))
-    return max(options, key=lambda s: s.gain)
+    return options
 
 
 def _learned(problem: Problem, key: str) -> Learned:
