@@ -65,11 +65,13 @@ GOES_WITH: Mapping[str, tuple[str, ...]] = {
     "cubic_stiffness": ("position",),
     "ripple over position": ("position",),
     "bump at one position": ("position",),
-    "friction that depends on position": ("sign of velocity",),
+    "friction that depends on position": ("sign of velocity", "velocity"),
     "excitation_harmonic": ("phase",),
 }
-"""The covariates that a hidden force goes with: any of them is right."""
+"""The covariates that a hidden force goes with: any of them is right. Friction is a function of the velocity, too."""
 TRIES = 500
+STUCK = 0.2
+"""A machine that friction holds shows nothing."""
 Row = dict[str, Any]
 
 
@@ -103,7 +105,7 @@ def machine_of(kind: str, rng: np.random.Generator, number: int) -> tuple[Rig, E
                 return rig, None, moved(rig, Hidden(), Meddling(rms=kick), rng) if kick else pilot.q
             effect = drawn(name, pilot, rng)
             truth = moved(rig, *hidden_in(rig, (effect,)), rng)
-            if float(np.std(truth)) < RUNAWAY * float(np.std(pilot.q)):
+            if STUCK < float(np.std(truth)) / float(np.std(pilot.q)) < RUNAWAY:
                 return rig, effect, truth
     raise DataError("no machine was drawn that can have what is to be hidden")
 

@@ -96,19 +96,14 @@ def size_of(term: Learned, problem: Problem) -> float:
 
 
 def shape_of(fit: Fit, slopes: Sensitivity, key: str) -> Shape:
-    """Return what a curve promises at its best smoothness, the free parameters of the fit moving along."""
-    return max(shapes_of(fit, slopes, key), key=lambda s: s.gain)
-
-
-def shapes_of(fit: Fit, slopes: Sensitivity, key: str) -> list[Shape]:
-    """Return what a curve promises at each smoothness, the free parameters of the fit moving along.
+    """Return what a curve promises at its best smoothness, the free parameters of the fit moving along.
 
     With gradient g and information H of its coefficients, prior widths D: the evidence gains
     (g'D (I + D H D)^-1 D g - log det(I + D H D)) / 2.
     """
     problem = fit.problem
     term = _learned(problem, key)
-    gradient, information = _projected(fit, slopes, key)
+    gradient, information = projected(fit, slopes, key)
     options = []
     for size, length in itertools.product(SIZES, LENGTHS):
         widths = size * size_of(term, problem) * spread(term, length)
@@ -117,7 +112,7 @@ def shapes_of(fit: Fit, slopes: Sensitivity, key: str) -> list[Shape]:
         gain = 0.5 * float(widths * gradient @ pull) - 0.5 * float(np.linalg.slogdet(inner)[1])
         told = widths**2 * np.diag(information) > TOLD
         options.append(Shape(key, gain, np.where(told, widths, 0.0), np.where(told, widths * pull, 0.0)))
-    return options
+    return max(options, key=lambda s: s.gain)
 
 
 def _learned(problem: Problem, key: str) -> Learned:
@@ -127,7 +122,7 @@ def _learned(problem: Problem, key: str) -> Learned:
     return term
 
 
-def _projected(fit: Fit, slopes: Sensitivity, key: str) -> tuple[Array, Array]:
+def projected(fit: Fit, slopes: Sensitivity, key: str) -> tuple[Array, Array]:
     """Return gradient (count,) and information (count, count) of the coefficients of a curve at zero.
 
     What the free parameters of the fit explain as well is taken out.

@@ -1,21 +1,23 @@
 """The likelihood ratio of a curve over each covariate, inside the filter: where a missing force lives.
 
-A smooth curve with normal coefficients acts in the model, all free parameters of the fit moving along. Its marginal
-likelihood over that of the model without it, averaged over sizes and correlation lengths, comes in closed form from one
-score test of its coefficients (`curves.py`). When nothing is missing such a ratio has the mean one, so by Markov's
-inequality it exceeds 1 / a with a probability of a at most: its inverse is a p-value, without any surrogates (Vovk,
-Wang, Annals of Statistics 49 (2021) 1736-1754).
+A curve with normal coefficients acts in the model, all free parameters of the fit moving along. Its marginal likelihood
+over that of the model without it, averaged over sizes and correlation lengths, comes in closed form from one score test
+of its coefficients (`curves.py`). When nothing is missing such a ratio has the mean one, so by Markov's inequality it
+exceeds 1 / a with a probability of a at most: its inverse is a p-value, without any surrogates (Vovk, Wang, Annals of
+Statistics 49 (2021) 1736-1754). An average of such ratios is one as well, so several curves may stand for a covariate.
 """
 
 from __future__ import annotations
 
+import itertools
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
+from lostmotion.contracts import Array
 from lostmotion.inference.candidates import slopes_of
-from lostmotion.inference.curves import shapes_of, transplanted
+from lostmotion.inference.curves import LENGTHS, SIZES, projected, size_of, transplanted
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.learned import (
     DragOverPosition,
@@ -25,32 +27,46 @@ from lostmotion.inference.learned import (
     OverPosition,
     OverTime,
     OverVelocity,
+    spread,
 )
 
 NAMES: Mapping[type[Learned], str] = {
     OverPosition: "position",
     OverVelocity: "velocity",
     FrictionOverPosition: "sign of velocity",
-    DragOverPosition: "drag over position",
+    DragOverPosition: "velocity",
     OverTime: "time",
     OverPhase: "phase",
 }
-"""The covariate that a curve runs over; friction of any size over the position goes with the sign of the velocity."""
+"""The covariate of a curve: friction of any size over the position goes with the sign of the velocity, and drag of any
+size with the velocity."""
+SIMPLEST: Mapping[type[Learned], int] = {
+    OverPosition: 1,
+    OverVelocity: 1,
+    OverTime: 1,
+    FrictionOverPosition: 0,
+    DragOverPosition: 0,
+}
+"""The power of the simplest curve: a linear spring, linear drag, linear drift, constant friction, constant drag. Sines
+need many coefficients for these, and a curve over the phase of a periodic drive then seems more likely."""
 
 
 def log_odds(fit: Fit) -> dict[str, float]:
     """Return the log marginal likelihood that a curve over each covariate adds to a fit, at each place of the model.
 
-    Names are those of `locate.covariates`: "position", "velocity at base".
+    Names are those of `locate.covariates`, such as "position" or "velocity at base".
     """
     wider = transplanted(fit, fit.problem.active)
     slopes = slopes_of(wider)
-    found = {}
+    found: dict[str, list[float]] = {}
     for key, term in zip(wider.problem.system.keys, wider.problem.system.terms, strict=True):
         if isinstance(term, Learned):
-            gains = np.array([shape.gain for shape in shapes_of(wider, slopes, key)])
-            found[named(term)] = _averaged(gains)
-    return found
+            gradient, information = projected(wider, slopes, key)
+            size = size_of(term, wider.problem)
+            kinds = ([size * w for w in widths] for widths in _kinds(term))
+            told = [averaged([gained(gradient, information, w) for w in widths]) for widths in kinds]
+            found.setdefault(named(term), []).append(averaged(told))
+    return {name: averaged(values) for name, values in found.items()}
 
 
 def named(term: Learned) -> str:
@@ -59,9 +75,28 @@ def named(term: Learned) -> str:
     return name if term.at == "ground" or name in ("time", "phase") else f"{name} at {term.at}"
 
 
-def _averaged(gains: np.ndarray) -> float:
-    """Return the log of the mean ratio; minus infinity where none is a number."""
-    kept = np.where(np.isfinite(gains), gains, -math.inf)
+def _kinds(term: Learned) -> Iterator[list[Array]]:
+    """Yield square roots (count, rank) of prior covariances for a unit drive: smooth curves, then the simplest one."""
+    yield [np.diag(size * spread(term, length)).astype(float) for size, length in itertools.product(SIZES, LENGTHS)]
+    if type(term) in SIMPLEST:
+        z = np.linspace(-1.0, 1.0, 201)
+        weights = np.linalg.lstsq(term.basis(z), z ** SIMPLEST[type(term)], rcond=1e-6)[0]
+        yield [size * weights[:, None] for size in SIZES]
+
+
+def gained(gradient: Array, information: Array, root: Array) -> float:
+    """Return the log marginal likelihood that coefficients add of which `root` (count, rank) is the prior's root.
+
+    With gradient g and information H at zero, root R: (g'R (I + R'HR)^-1 R'g - log det(I + R'HR)) / 2.
+    """
+    inner = np.eye(root.shape[1]) + root.T @ information @ root
+    pull = root.T @ gradient
+    return 0.5 * float(pull @ np.linalg.solve(inner, pull)) - 0.5 * float(np.linalg.slogdet(inner)[1])
+
+
+def averaged(gains: Sequence[float]) -> float:
+    """Return the log of the mean of ratios of which the logs are given; minus infinity where none is a number."""
+    kept = np.array([gain if math.isfinite(gain) else -math.inf for gain in gains])
     top = float(kept.max())
     return top + math.log(float(np.mean(np.exp(kept - top)))) if math.isfinite(top) else -math.inf
 

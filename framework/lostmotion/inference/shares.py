@@ -110,7 +110,7 @@ def adjusted(values: Array) -> tuple[Array, Array]:
 
 
 def significant(found: Mapping[str, Share]) -> list[str]:
-    """Return the covariates whose shares noise would not reach, largest first; p-values are adjusted for all of them."""
+    """Return the covariates whose shares noise would not reach, largest first; p is adjusted for all of them."""
     names = [name for name, share in found.items() if share.p <= LEVEL and share.value > 0.0]
     return sorted(names, key=lambda name: -found[name].value)
 
