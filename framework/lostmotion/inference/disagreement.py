@@ -26,8 +26,8 @@ from lostmotion.likelihood.predict import filtered
 
 WINDOWS = 30
 """A recording has so many windows at most: more are too narrow to be read in a figure of a page."""
-SHORTEST, PERIODS = 40, 2
-"""A window has so many samples and so many periods of the drive at least, so that it holds all phases of the motion."""
+SHORTEST, PERIODS = 40, 1
+"""A window has so many samples and periods of the drive at least, so that it holds all phases of the motion."""
 FEWEST = 4
 """With fewer windows, or blocks to a window, nothing is tested."""
 MEMORIES = 3

@@ -12,13 +12,14 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from lostmotion.contracts import Array
 from lostmotion.inference.candidates import slopes_of
 from lostmotion.inference.curves import LENGTHS, SIZES, projected, size_of, transplanted
-from lostmotion.inference.fit import Fit
+from lostmotion.inference.fit import Fit, Sensitivity
 from lostmotion.inference.learned import (
     DragOverPosition,
     FrictionOverPosition,
@@ -29,6 +30,13 @@ from lostmotion.inference.learned import (
     OverVelocity,
     spread,
 )
+from lostmotion.inference.setup import stepped
+from lostmotion.inference.shares import LEVEL
+from lostmotion.inference.stretches import spread_over
+from lostmotion.likelihood.problem import Problem
+
+MOST_SAMPLES = 8000
+"""Of longer recordings stretches are asked, evenly spread over them: a curve has dozens of coefficients."""
 
 NAMES: Mapping[type[Learned], str] = {
     OverPosition: "position",
@@ -54,19 +62,43 @@ need many coefficients for these, and a curve over the phase of a periodic drive
 def log_odds(fit: Fit) -> dict[str, float]:
     """Return the log marginal likelihood that a curve over each covariate adds to a fit, at each place of the model.
 
-    Names are those of `locate.covariates`, such as "position" or "velocity at base".
+    Names are those of `locate.covariates`, such as "position" or "velocity at base". Curves that a fit has already are
+    not asked. Steps are those of a search: a fit with finer ones costs four times as much and says the same.
     """
-    wider = transplanted(fit, fit.problem.active)
+    wider = _ready(fit)
     slopes = slopes_of(wider)
     found: dict[str, list[float]] = {}
     for key, term in zip(wider.problem.system.keys, wider.problem.system.terms, strict=True):
-        if isinstance(term, Learned):
-            gradient, information = projected(wider, slopes, key)
-            size = size_of(term, wider.problem)
-            kinds = ([size * w for w in widths] for widths in _kinds(term))
-            told = [averaged([gained(gradient, information, w) for w in widths]) for widths in kinds]
-            found.setdefault(named(term), []).append(averaged(told))
+        if isinstance(term, Learned) and key not in wider.problem.active:
+            found.setdefault(named(term), []).append(_of_curve(wider, slopes, key, term))
     return {name: averaged(values) for name, values in found.items()}
+
+
+def _ready(fit: Fit) -> Fit:
+    """Return a fit in a system with every curve, with the steps of a search, on as many samples as are asked."""
+    problem = fit.problem
+    if not any(isinstance(term, Learned) for term in problem.system.terms):
+        fit = transplanted(fit, problem.active)
+    short = stepped(_shortened(fit.problem), fit.theta)
+    return replace(fit, problem=short)
+
+
+def _shortened(problem: Problem) -> Problem:
+    share = MOST_SAMPLES / problem.samples
+    if share >= 1.0:
+        return problem
+    return problem.on(tuple(part for one in problem.observations for part in spread_over(one, share)))
+
+
+def _of_curve(fit: Fit, slopes: Sensitivity, key: str, term: Learned) -> float:
+    """Return the log likelihood ratio of one curve, averaged over all that it may look like."""
+    try:
+        gradient, information = projected(fit, slopes, key)
+    except np.linalg.LinAlgError:  # the filter ran away
+        return -math.inf
+    size = size_of(term, fit.problem)
+    told = [averaged([gained(gradient, information, size * root) for root in roots]) for roots in _kinds(term)]
+    return averaged(told)
 
 
 def named(term: Learned) -> str:
@@ -77,11 +109,16 @@ def named(term: Learned) -> str:
 
 def _kinds(term: Learned) -> Iterator[list[Array]]:
     """Yield square roots (count, rank) of prior covariances for a unit drive: smooth curves, then the simplest one."""
-    yield [np.diag(size * spread(term, length)).astype(float) for size, length in itertools.product(SIZES, LENGTHS)]
+    yield [_diagonal(size * spread(term, length)) for size, length in itertools.product(SIZES, LENGTHS)]
     if type(term) in SIMPLEST:
         z = np.linspace(-1.0, 1.0, 201)
         weights = np.linalg.lstsq(term.basis(z), z ** SIMPLEST[type(term)], rcond=1e-6)[0]
-        yield [size * weights[:, None] for size in SIZES]
+        column = np.asarray(weights[:, None], dtype=float)
+        yield [size * column for size in SIZES]
+
+
+def _diagonal(widths: Array) -> Array:
+    return np.asarray(np.diag(widths), dtype=float)
 
 
 def gained(gradient: Array, information: Array, root: Array) -> float:
@@ -99,6 +136,12 @@ def averaged(gains: Sequence[float]) -> float:
     kept = np.array([gain if math.isfinite(gain) else -math.inf for gain in gains])
     top = float(kept.max())
     return top + math.log(float(np.mean(np.exp(kept - top)))) if math.isfinite(top) else -math.inf
+
+
+def likely(odds: Mapping[str, float]) -> list[str]:
+    """Return the covariates that are beyond chance at the level `LEVEL` over all of them, the likeliest first."""
+    p = p_values(odds)
+    return sorted((name for name in odds if p[name] <= LEVEL), key=lambda name: -odds[name])
 
 
 def p_values(odds: Mapping[str, float]) -> dict[str, float]:
