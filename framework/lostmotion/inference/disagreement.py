@@ -82,12 +82,19 @@ def means_of(squares: Array, windows: Windows) -> Array:
 def memory_of(squares: Array, windows: Windows) -> int:
     """Return the lag (samples) from which on squared errors of one window are uncorrelated.
 
-    The mean of each window is taken out first: what differs from window to window is no memory.
+    The mean of each window is taken out first: what differs from window to window is no memory. Of windows that begin
+    with an event the mean course after it is taken out as well.
     """
     left = np.zeros(len(squares))
     for a, b in zip(windows.edges[:-1], windows.edges[1:], strict=True):
         part = squares[a:b]
         left[a:b] = np.nan_to_num(part - np.nanmean(part)) if np.isfinite(part).any() else 0.0
+    if windows.aligned:
+        whole, long = _comparable(windows)
+        rows = windows.edges[whole][:, None] + np.arange(long)[None, :]
+        course = left[rows] - np.mean(left[rows], axis=0)
+        left = np.zeros(len(squares))
+        left[rows] = course
     power = np.abs(np.fft.rfft(left, 2 * len(left))) ** 2
     correlation = np.fft.irfft(power)[: len(left)]
     if not correlation[0] > 0.0:
@@ -100,7 +107,7 @@ def beyond_chance(squares: Array, windows: Windows, rng: np.random.Generator) ->
     """Return the p-value (windows,) of each window, adjusted for all of them; None where too little is there."""
     block = block_of(squares, windows)
     if windows.aligned:
-        return _permuted(*_aligned(squares, windows, block), rng)
+        return _after_events(squares, windows, block, rng)
     starts = np.arange(0, len(squares) - block + 1, block)
     which = np.searchsorted(windows.edges, starts + block // 2, side="right") - 1
     return _permuted(_blocked(squares, starts, block), which, np.zeros_like(which), rng)
@@ -144,12 +151,28 @@ def block_of(squares: Array, windows: Windows) -> int:
     return max(1, MEMORIES * memory_of(squares, windows), len(squares) // MOST_BLOCKS)
 
 
-def _aligned(squares: Array, windows: Windows, block: int) -> tuple[Array, Numbers, Numbers]:
-    """Return blocks, their windows, and how many blocks after the event each begins, over the shortest window."""
-    count = int(np.min(np.diff(windows.edges))) // block
-    after = np.tile(np.arange(count), len(windows))
-    which = np.repeat(np.arange(len(windows)), count)
-    return _blocked(squares, windows.edges[which] + after * block, block), which, after
+def _comparable(windows: Windows) -> tuple[Numbers, int]:
+    """Return the windows that are not cut short, at less than half of the usual length, and the length of the shortest.
+
+    A hit just before the end of a recording, or before the next one, leaves too little to be compared.
+    """
+    lengths = np.diff(windows.edges)
+    whole = np.flatnonzero(lengths >= 0.5 * np.median(lengths))
+    return whole, int(lengths[whole].min())
+
+
+def _after_events(squares: Array, windows: Windows, block: int, rng: np.random.Generator) -> Array | None:
+    """Return the p-value (windows,) of each window; blocks that begin equally long after an event change places."""
+    whole, long = _comparable(windows)
+    count = long // block
+    after = np.tile(np.arange(count), len(whole))
+    which = np.repeat(np.arange(len(whole)), count)
+    told = _permuted(_blocked(squares, windows.edges[whole][which] + after * block, block), which, after, rng)
+    if told is None:
+        return None
+    p = np.ones(len(windows))
+    p[whole] = told
+    return p
 
 
 def _blocked(squares: Array, starts: Numbers, block: int) -> Array:

@@ -30,7 +30,7 @@ def draw(evidence: Evidence) -> Figure | None:
     edges = np.array(told["edges"], dtype=float)
     rows = {who: _row(told, who.key) for who in versions(evidence)}
     scale = style.scale_of(edges, "s")
-    figure = style.blank(0.45 * len(rows) + 2.2)
+    figure = style.blank(0.45 * len(rows) + 2.6)
     panels = figure.subplots(len(rows) + 1, 1, sharex=True, height_ratios=[*(0.32,) * len(rows), 1.6])
     values = np.concatenate(list(rows.values()))
     most = max(SPAN, float(np.nanmax(values)), 1.0 / max(float(np.nanmin(values)), 1e-3))
@@ -44,12 +44,15 @@ def draw(evidence: Evidence) -> Figure | None:
         axes.spines[:].set_visible(False)
     below = panels[-1]
     for who, row in rows.items():
-        below.stairs(row, scale.factor * edges, color=who.colour, linewidth=1.6, label=who.named("disagreement"))
+        below.stairs(
+            row, scale.factor * edges, baseline=None, color=who.colour, linewidth=1.6, label=who.named("disagreement")
+        )
     _mark(below, told, scale.factor, edges)
     below.set_yscale("log")
+    below.margins(y=0.15)
     style.log_ticks(below.yaxis)
     below.set_xlabel(with_unit("time", scale.unit))
-    below.set_ylabel("variance of one-step\nerrors over expected")
+    below.set_ylabel("one-step error variance\nover expected")
     below.set_xlim(scale.factor * edges[0], scale.factor * edges[-1])
     bar = figure.colorbar(shown, ax=panels[:-1], aspect=6, pad=0.01)
     style.log_ticks(bar.ax.yaxis, 3)
