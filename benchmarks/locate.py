@@ -12,9 +12,10 @@ rough formula of the blind trial to gain 50 to 500 in log-likelihood. Motions ar
 trial, which knows no terms. Each recording of 1500 to 2500 samples gets a nominal fit, and two tests:
 
 `shares`  cross-validated shares of the smoothed missing force, against surrogates by the maximum statistic
-`odds`    the likelihood ratio of a curve over each covariate inside the filter
+`plain`   the likelihood ratio of a curve over each covariate inside the filter, as the model states its noise
+`odds`    the same, but beyond chance only where the robust ratio is
 
-Both at 5 % over all covariates together. One line of JSON for each machine goes to a file in FOLDER as it is done: a
+All at 5 % over all covariates together. One line of JSON for each machine goes to a file in FOLDER as it is done: a
 run that was stopped goes on from there.
 """
 
@@ -37,7 +38,7 @@ from scipy.stats import beta
 from lostmotion.case import dump_case
 from lostmotion.errors import DataError
 from lostmotion.inference.candidates import screen, slopes_of
-from lostmotion.inference.odds import log_odds, p_values
+from lostmotion.inference.odds import Ratio, likely, log_odds
 from lostmotion.inference.setup import problem_of, search, stepped
 from lostmotion.inference.shares import LEVEL
 from lostmotion.kernels.independent_zoo import Hidden
@@ -69,6 +70,7 @@ GOES_WITH: Mapping[str, tuple[str, ...]] = {
     "excitation_harmonic": ("phase",),
 }
 """The covariates that a hidden force goes with: any of them is right. Friction is a function of the velocity, too."""
+TESTS = ("shares", "plain", "odds")
 TRIES = 500
 STUCK = 0.2
 """A machine that friction holds shows nothing."""
@@ -148,7 +150,7 @@ def prepared(rig: Rig, excitation: np.ndarray, response: np.ndarray) -> Prepared
 
 
 def one(kind: str, seed: int, number: int) -> Row:
-    """Return what both tests say of a machine, beside the truth."""
+    """Return what the tests say of a machine, beside the truth."""
     rng = np.random.default_rng([seed, ("two", "one", "noise").index(kind), number])
     rig, effect, truth = machine_of(kind, rng, number)
     noise = _noise_of(number) if kind == "noise" else "white"
@@ -186,8 +188,9 @@ def ranked(row: Row, test: str) -> list[str]:
     if test == "shares":
         told = {k: s for k, s in row["shares"].items() if s[2] <= LEVEL and s[0] > 0.0}
         return sorted(told, key=lambda k: -told[k][0])
-    p = p_values(row["odds"])
-    return sorted((k for k in p if p[k] <= LEVEL), key=lambda k: -row["odds"][k])
+    if test == "odds":
+        return likely({k: Ratio(*told) for k, told in row["odds"].items()})
+    return likely({k: Ratio(told[0], told[0]) for k, told in row["odds"].items()})
 
 
 def judged(row: Row, test: str) -> dict[str, bool]:
@@ -207,7 +210,7 @@ def band(hits: int, of: int, level: float = 0.95) -> tuple[float, float]:
 
 
 def summary(rows: Sequence[Row]) -> str:
-    """Return the rates of both tests with their bands."""
+    """Return the rates of all tests with their bands."""
     lines = []
     for kind in ("two", "one", "noise"):
         own = [row for row in rows if row["kind"] == kind]
@@ -215,7 +218,7 @@ def summary(rows: Sequence[Row]) -> str:
         part = "noise" if kind == "noise" else "hidden"
         groups |= {f"  {name}": [r for r in own if r[part] == name] for name in dict.fromkeys(r[part] for r in own)}
         for name, chosen in groups.items():
-            for test in ("shares", "odds"):
+            for test in TESTS:
                 told = [judged(row, test) for row in chosen]
                 asked = ("any",) if kind == "noise" else ("any", "covariate", "place", "both")
                 cells = [_cell(sum(t[what] for t in told), len(told), what) for what in asked]

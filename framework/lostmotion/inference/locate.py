@@ -10,7 +10,7 @@ import numpy as np
 from scipy.special import chdtrc
 
 from lostmotion.contracts import Array, Model
-from lostmotion.inference.odds import likely
+from lostmotion.inference.odds import Ratio, likely
 from lostmotion.inference.shares import Covariate, Share, significant
 from lostmotion.likelihood.latent import Missing
 from lostmotion.likelihood.observation import Observation
@@ -119,7 +119,7 @@ def summary(
     table: Mapping[str, Array],
     force: Array,
     found: Mapping[str, Share],
-    odds: Mapping[str, float] | None = None,
+    odds: Mapping[str, Ratio] | None = None,
 ) -> str:
     """Return one sentence on where the force lives: of covariates only those that are beyond chance.
 
@@ -129,7 +129,7 @@ def summary(
     if not known:
         asked = [name for name in ("position", "velocity", "phase", "time") if name in table]
         return f"no structure over {', '.join(asked[:-1])} or {asked[-1]} beyond chance"
-    tied = [k for k in known[1:] if odds and odds[known[0]] - odds[k] < TIED]
+    tied = [k for k in known[1:] if odds and odds[known[0]].log - odds[k].log < TIED]
     name = known[0] if odds else _signed(known[0], found)
     bent = name in table and name.startswith(("position", "velocity"))
     kind = parity(curve(table[name], force)) if bent else "neither"
@@ -143,7 +143,7 @@ def summary(
     return f"{how} {name}, {_sure(name, found, odds)}{open_}{also}{nothing}"
 
 
-def _sure(name: str, found: Mapping[str, Share], odds: Mapping[str, float] | None) -> str:
+def _sure(name: str, found: Mapping[str, Share], odds: Mapping[str, Ratio] | None) -> str:
     """Return how much of a force goes with a covariate, and how likely that is beside nothing."""
     share = found[name]
     explains = f"which explains {share.value:.0%} +- {share.error:.0%} of its variance"
@@ -151,7 +151,7 @@ def _sure(name: str, found: Mapping[str, Share], odds: Mapping[str, float] | Non
         return explains
     if share.value < WORTH_SAYING:
         explains = f"which explains less than {WORTH_SAYING:.0%} of the variance of the smoothed force"
-    return f"{explains} (log likelihood ratio {odds[name]:.0f})"
+    return f"{explains} (log likelihood ratio {odds[name].log:.0f})"
 
 
 def _with_share(name: str, found: Mapping[str, Share]) -> str:

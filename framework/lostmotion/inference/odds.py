@@ -5,6 +5,10 @@ over that of the model without it, averaged over sizes and correlation lengths, 
 of its coefficients (`curves.py`). When nothing is missing such a ratio has the mean one, so by Markov's inequality it
 exceeds 1 / a with a probability of a at most: its inverse is a p-value, without any surrogates (Vovk, Wang, Annals of
 Statistics 49 (2021) 1736-1754). An average of such ratios is one as well, so several curves may stand for a covariate.
+
+That holds where the noise is as the model says. Where errors have a memory or outliers, scores scatter more than their
+information says, and the ratio overstates: so it is told a second time with its log divided by that excess, and the
+robust one decides what is beyond chance.
 """
 
 from __future__ import annotations
@@ -13,13 +17,14 @@ import itertools
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
 from lostmotion.contracts import Array
 from lostmotion.inference.candidates import slopes_of
-from lostmotion.inference.curves import LENGTHS, SIZES, projected, size_of, transplanted
-from lostmotion.inference.fit import Fit, Sensitivity
+from lostmotion.inference.curves import LENGTHS, SIZES, joint_of, projection, size_of, transplanted
+from lostmotion.inference.fit import BLOCKS, Fit, Sensitivity
 from lostmotion.inference.learned import (
     DragOverPosition,
     FrictionOverPosition,
@@ -59,19 +64,26 @@ SIMPLEST: Mapping[type[Learned], int] = {
 need many coefficients for these, and a curve over the phase of a periodic drive then seems more likely."""
 
 
-def log_odds(fit: Fit) -> dict[str, float]:
-    """Return the log marginal likelihood that a curve over each covariate adds to a fit, at each place of the model.
+class Ratio(NamedTuple):
+    """The log likelihood ratio of curves over a covariate: as the model states its noise, and as the errors scatter."""
+
+    log: float
+    robust: float
+
+
+def log_odds(fit: Fit) -> dict[str, Ratio]:
+    """Return the log likelihood ratio of a curve over each covariate beside a fit, at each place of the model.
 
     Names are those of `locate.covariates`, such as "position" or "velocity at base". Curves that a fit has already are
     not asked. Steps are those of a search: a fit with finer ones costs four times as much and says the same.
     """
     wider = _ready(fit)
     slopes = slopes_of(wider)
-    found: dict[str, list[float]] = {}
+    found: dict[str, list[Ratio]] = {}
     for key, term in zip(wider.problem.system.keys, wider.problem.system.terms, strict=True):
         if isinstance(term, Learned) and key not in wider.problem.active:
             found.setdefault(named(term), []).append(_of_curve(wider, slopes, key, term))
-    return {name: averaged(values) for name, values in found.items()}
+    return {name: Ratio(*map(averaged, zip(*values, strict=True))) for name, values in found.items()}
 
 
 def _ready(fit: Fit) -> Fit:
@@ -90,15 +102,42 @@ def _shortened(problem: Problem) -> Problem:
     return problem.on(tuple(part for one in problem.observations for part in spread_over(one, share)))
 
 
-def _of_curve(fit: Fit, slopes: Sensitivity, key: str, term: Learned) -> float:
+def _of_curve(fit: Fit, slopes: Sensitivity, key: str, term: Learned) -> Ratio:
     """Return the log likelihood ratio of one curve, averaged over all that it may look like."""
+    joint, k = joint_of(fit, slopes, key), len(slopes.theta)
     try:
-        gradient, information = projected(fit, slopes, key)
+        gradient, information, pulled = projection(fit, joint, k)
     except np.linalg.LinAlgError:  # the filter ran away
-        return -math.inf
+        return Ratio(-math.inf, -math.inf)
+    scores = joint.scores()
+    sums = _blocked(scores[k:] - pulled.T @ scores[:k])
     size = size_of(term, fit.problem)
-    told = [averaged([gained(gradient, information, size * root) for root in roots]) for roots in _kinds(term)]
-    return averaged(told)
+    plain, robust = [], []
+    for roots in _kinds(term):
+        wider = [size * root for root in roots]
+        plain.append(averaged([gained(gradient, information, root) for root in wider]))
+        over = [inflation(sums, information, root) for root in wider]
+        told = [gained(gradient / f, information / f, root) for f, root in zip(over, wider, strict=True)]
+        robust.append(averaged(told))
+    return Ratio(averaged(plain), averaged(robust))
+
+
+def _blocked(scores: Array) -> Array:
+    """Return the scores (count, samples) added up over blocks of time, (count, blocks), less their mean."""
+    edges = np.linspace(0, scores.shape[1], BLOCKS + 1).astype(int)[:-1]
+    sums = np.add.reduceat(scores, edges, axis=1)
+    return np.asarray(sums - sums.mean(axis=1, keepdims=True))
+
+
+def inflation(sums: Array, information: Array, root: Array) -> float:
+    """Return by how much the scores (count, blocks) of a curve scatter more than their information says; 1 at least.
+
+    It is the ratio of variances over all that a prior `root` allows. Where errors have a memory, or outliers, scores
+    scatter more, and a likelihood counts for less by that factor (Huber 1967; White, Econometrica 50 (1982) 1-25).
+    """
+    scatter = float(np.sum((root.T @ sums) ** 2)) * BLOCKS / (BLOCKS - 1.0)
+    stated = float(np.sum(root * (information @ root)))
+    return max(1.0, scatter / stated) if stated > 0.0 else 1.0
 
 
 def named(term: Learned) -> str:
@@ -138,12 +177,12 @@ def averaged(gains: Sequence[float]) -> float:
     return top + math.log(float(np.mean(np.exp(kept - top)))) if math.isfinite(top) else -math.inf
 
 
-def likely(odds: Mapping[str, float]) -> list[str]:
+def likely(odds: Mapping[str, Ratio]) -> list[str]:
     """Return the covariates that are beyond chance at the level `LEVEL` over all of them, the likeliest first."""
     p = p_values(odds)
-    return sorted((name for name in odds if p[name] <= LEVEL), key=lambda name: -odds[name])
+    return sorted((name for name in odds if p[name] <= LEVEL), key=lambda name: -odds[name].log)
 
 
-def p_values(odds: Mapping[str, float]) -> dict[str, float]:
-    """Return the p-value of each covariate, adjusted for all of them (Bonferroni)."""
-    return {name: min(1.0, len(odds) * math.exp(min(-value, 0.0))) for name, value in odds.items()}
+def p_values(odds: Mapping[str, Ratio]) -> dict[str, float]:
+    """Return the p-value of each covariate by its robust ratio, adjusted for all of them (Bonferroni)."""
+    return {name: min(1.0, len(odds) * math.exp(min(-ratio.robust, 0.0))) for name, ratio in odds.items()}

@@ -13,7 +13,7 @@ from lostmotion.errors import DataError
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.learned import Learned
 from lostmotion.inference.locate import Curve, covariates, curve, edges_of, further, summary
-from lostmotion.inference.odds import likely, log_odds
+from lostmotion.inference.odds import Ratio, likely, log_odds
 from lostmotion.inference.scout import scoutable, scouted
 from lostmotion.inference.selection import Selection, significant_random_force
 from lostmotion.inference.setup import HELD_OUT, polish, problem_of, search, split, stepped
@@ -56,7 +56,7 @@ class Located:
     curves: dict[str, Curve]
     explained: dict[str, Share]
     summary: str
-    odds: Mapping[str, float] = field(default_factory=dict)
+    odds: Mapping[str, Ratio] = field(default_factory=dict)
 
     @property
     def shares(self) -> dict[str, float]:
@@ -278,7 +278,7 @@ def locate(
     *,
     plays: Mapping[str, float] | None = None,
     rng: np.random.Generator | None = None,
-    odds: Callable[[], Mapping[str, float]] = dict,
+    odds: Callable[[], Mapping[str, Ratio]] = dict,
 ) -> Located:
     """Return where a missing force lives; `plays` are the half gaps by place, `rng` draws surrogates of the force.
 

@@ -29,7 +29,7 @@ OVER: dict[str, tuple[str, Dimension]] = {
 NOT_FOUND = "A proposal, not a finding: the curve is what was found, and the formula is only one that fits it."
 NONE_FITS = "No short formula fits the curve: it stands for itself."
 BAND = 1.96
-RATIO = "the likelihood ratio of a curve over each covariate in the filter"
+RATIO = "the robust likelihood ratio of a curve over each covariate in the filter"
 
 
 def learned_entry(d: Diagnosis) -> dict[str, Any]:
@@ -153,7 +153,8 @@ def where(located: Located, learned: Unknown | None = None) -> dict[str, Any]:
         "summary": summary,
         "explained_by": located.shares,
         "standard_error": {name: share.error for name, share in explained.items()},
-        "log_likelihood_ratio": dict(located.odds),
+        "log_likelihood_ratio": {name: ratio.log for name, ratio in located.odds.items()},
+        "robust_log_likelihood_ratio": {name: ratio.robust for name, ratio in located.odds.items()},
         "p_value": p_values(located.odds) if located.odds else by_share,
         "p_value_of_share": by_share,
         "significant": located.significant,
