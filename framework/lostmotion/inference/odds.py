@@ -40,6 +40,8 @@ from lostmotion.inference.shares import LEVEL
 from lostmotion.inference.stretches import spread_over
 from lostmotion.likelihood.problem import Problem
 
+LEAST = 1e-6
+"""A smaller p-value is told as this one: no model of the noise is known that far out."""
 MOST_SAMPLES = 8000
 """Of longer recordings stretches are asked, evenly spread over them: a curve has dozens of coefficients."""
 
@@ -185,4 +187,5 @@ def likely(odds: Mapping[str, Ratio]) -> list[str]:
 
 def p_values(odds: Mapping[str, Ratio]) -> dict[str, float]:
     """Return the p-value of each covariate by its robust ratio, adjusted for all of them (Bonferroni)."""
-    return {name: min(1.0, len(odds) * math.exp(min(-ratio.robust, 0.0))) for name, ratio in odds.items()}
+    told = {name: len(odds) * math.exp(min(-ratio.robust, 0.0)) for name, ratio in odds.items()}
+    return {name: min(max(p, LEAST), 1.0) for name, p in told.items()}

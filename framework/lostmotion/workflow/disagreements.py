@@ -38,7 +38,7 @@ def disagreement_in(d: Diagnosis, rng: np.random.Generator) -> dict[str, Any]:
     fits = {"before": d.before, "after": d.after} if d.found else {"before": d.before}
     shown = {name: squares_of(fit, d.shown) for name, fit in fits.items()}
     content = {"over_time": over_time(d.shown, shown, rng)}
-    if len(d.train) + len(d.held) > 2 or len(d.train) > 1:
+    if d.shown.samples == d.held[0].samples:
         begun = (*d.after.problem.observations, *d.held)
         all_of = {name: [squares_of(fit, one) for one in begun] for name, fit in fits.items()}
         motion = d.after.problem.system.model.motion
