@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import report_fixture as made
 
-from lostmotion.report import style, strip
+from lostmotion.report import strip, style
 from lostmotion.report.evidence import Evidence
 
 WORST = {"window": 1, "begin": 1.0, "end": 2.0, "ratio": 4.3, "p": 0.001, "beyond_chance": True}

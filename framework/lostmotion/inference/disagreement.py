@@ -33,6 +33,8 @@ FEWEST = 4
 MEMORIES = 3
 """A block is so many times as long as it takes until squared errors are uncorrelated."""
 DRAWS = 999
+LARGEST = 1e12
+"""A filter that ran away errs by no more: squares of squares must be numbers."""
 MOST_BLOCKS = 3000
 """More blocks make the test slower, and not sharper."""
 
@@ -56,8 +58,10 @@ class Windows:
 def squares_of(fit: Fit, observation: Observation) -> Array:
     """Return the squared standardised one-step error (samples,), mean over the sensors; NaN where none was read."""
     seen = filtered(fit.problem.on((observation,)), fit.theta)
-    squares = np.where(seen.taken, seen.errors**2 / seen.variances, np.nan)
-    counts = np.sum(seen.taken, axis=1)
+    read = seen.taken & np.isfinite(seen.errors) & np.isfinite(seen.variances)
+    with np.errstate(over="ignore", invalid="ignore"):
+        squares = np.where(read, np.minimum(seen.errors**2 / seen.variances, LARGEST), np.nan)
+    counts = np.sum(read, axis=1)
     return np.asarray(np.where(counts > 0, np.nansum(squares, axis=1) / np.maximum(counts, 1), np.nan))
 
 

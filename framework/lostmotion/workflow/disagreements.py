@@ -37,6 +37,8 @@ def disagreement_in(d: Diagnosis, rng: np.random.Generator) -> dict[str, Any]:
     """Return what goes into `where`: `over_time` of the recording that is shown, and `by_recording` of several."""
     fits = {"before": d.before, "after": d.after} if d.found else {"before": d.before}
     shown = {name: squares_of(fit, d.shown) for name, fit in fits.items()}
+    if not all(np.isfinite(one).any() for one in shown.values()):
+        return {}
     content = {"over_time": over_time(d.shown, shown, rng)}
     if d.shown.samples == d.held[0].samples:
         begun = (*d.after.problem.observations, *d.held)
