@@ -119,7 +119,11 @@ def test_the_level_that_disagrees_most_is_named_and_a_trend_is_told():
     assert [row["fitted"] for row in told["rows"]] == [True, True, True, False]
     assert told["rows"][3]["level"] == pytest.approx(8.0, rel=0.1)
     assert "the disagreement grows with the level" in told["says"]
-    assert told["trend"]["p"] < 0.01
+    assert told["trend"]["after"]["p"] < 0.01
+    alike = [squares(rng, 2000) for _ in levels]
+    told = by_recording(recordings, {"before": parts, "after": alike}, 3, "translation", rng)
+    assert told["says"].startswith("Of 4 recordings the nominal model disagrees most in seen (level 8")
+    assert by_recording(recordings, {"before": alike}, 3, "translation", rng)["says"] == ""
 
 
 def test_recordings_that_agree_alike_are_seldom_told_apart():

@@ -19,7 +19,7 @@ TOLD = {
     "says": "The model disagrees most between 1 and 2 s (4.3 times the variance expected, p = 0.001 over 3 windows).",
 }
 ROWS = [
-    {"name": "low", "level": 1.0, "unit": "N", "fitted": True, "before": 1.1, "after": 1.0, "p": 0.6},
+    {"name": "low", "level": 1.0, "unit": "N", "fitted": True, "before": 1.1, "after": 1.0, "p_after": 0.6},
     {"name": "<b>high", "level": 8.0, "unit": "N", "fitted": False, "before": 3.0, "after": 2.0},
 ]
 

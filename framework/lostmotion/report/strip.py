@@ -103,7 +103,7 @@ def table(evidence: Evidence) -> Table:
                 "fitted" if row["fitted"] else "held out",
                 figures(row["before"]),
                 figures(row["after"]),
-                figures(row["p"], 2) if "p" in row else DASH,
+                figures(row["p_after"], 2) if "p_after" in row else DASH,
             ]
             for row in rows
         ],

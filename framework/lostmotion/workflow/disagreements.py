@@ -158,18 +158,26 @@ def by_recording(
         }
         for i, (one, level) in enumerate(zip(recordings, levels, strict=True))
     ]
-    p, tend = between(last, rng), trend(last, levels, rng)
-    worst = None if p is None else _most(np.array([row["after"] for row in rows]), p)
-    if worst is not None and p is not None:
-        for row, one in zip(rows, p, strict=True):
-            row["p"] = float(one)
+    told = {"after": last, "before": squares["before"]}
+    worst = {when: _stands_out(rows, when, between(parts, rng)) for when, parts in told.items()}
+    tends = {when: trend(parts, levels, rng) for when, parts in told.items()}
     return {
         "rows": rows,
         "level_of": "response" if first.free else "drive",
         "expected": EXPECTED,
-        "trend": None if tend is None else {"correlation": tend[0], "p": tend[1]},
-        "says": _level_says(rows, worst, tend),
+        "trend": {when: None if t is None else {"correlation": t[0], "p": t[1]} for when, t in tends.items()},
+        "says": _level_says(rows, worst, tends),
     }
+
+
+def _stands_out(rows: Sequence[dict[str, Any]], when: str, p: Array | None) -> int | None:
+    """Return the recording in which a model disagrees most beyond chance, after noting all p-values in the rows."""
+    if p is None:
+        return None
+    for row, one in zip(rows, p, strict=True):
+        row[f"p_{when}"] = float(one)
+    worst = _most(np.array([row[when] for row in rows]), p)
+    return worst if p[worst] <= LEVEL else None
 
 
 def _driver(observation: Observation) -> str:
@@ -180,13 +188,21 @@ def _level(observation: Observation) -> float:
     return float(np.nanstd(observation.response if observation.free else observation.excitation))
 
 
-def _level_says(rows: Sequence[Mapping[str, Any]], worst: int | None, tend: tuple[float, float] | None) -> str:
-    if worst is None or not rows[worst]["p"] <= LEVEL:
+def _level_says(
+    rows: Sequence[Mapping[str, Any]],
+    worst: Mapping[str, int | None],
+    tends: Mapping[str, tuple[float, float] | None],
+) -> str:
+    """Return in which recording a model disagrees most, the last model first; empty where that is not beyond chance."""
+    when = next((name for name in ("after", "before") if worst[name] is not None), None)
+    at = worst[when] if when else None
+    if when is None or at is None:
         return ""
-    row = rows[worst]
+    row, tend = rows[at], tends[when]
+    model = "model" if when == "after" else "nominal model"
     said = (
-        f"Of {len(rows)} recordings the model disagrees most in {row['name']} (level {row['level']:.3g} {row['unit']}"
-        f" rms, {row['after']:.2g} times the variance expected, {chance(row['p'])})"
+        f"Of {len(rows)} recordings the {model} disagrees most in {row['name']} (level {row['level']:.3g} {row['unit']}"
+        f" rms, {row[when]:.2g} times the variance expected, {chance(row[f'p_{when}'])})"
     )
     if tend and tend[1] <= LEVEL:
         said += f"; the disagreement {'grows' if tend[0] > 0.0 else 'falls'} with the level ({chance(tend[1])})"
