@@ -11,7 +11,7 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
 from lostmotion.report import style
-from lostmotion.report.cast import versions
+from lostmotion.report.cast import Version, versions
 from lostmotion.report.evidence import Evidence
 from lostmotion.report.tables import Table
 from lostmotion.report.words import DASH, figures, with_unit
@@ -19,6 +19,8 @@ from lostmotion.results import Array
 
 SPAN = 3.0
 """Colours reach over a factor of three at least: less is no disagreement worth a colour."""
+TWICE = 2.2
+"""The axis holds a half and twice what is expected at least, so that both have a mark."""
 LEVEL = 0.05
 
 
@@ -27,44 +29,54 @@ def draw(evidence: Evidence) -> Figure | None:
     told = evidence.fact("where", "over_time")
     if not told or len(told["edges"]) < 3:
         return None
-    edges = np.array(told["edges"], dtype=float)
     rows = {who: _row(told, who.key) for who in versions(evidence)}
-    scale = style.scale_of(edges, "s")
+    scale = style.scale_of(np.array(told["edges"], dtype=float), "s")
+    edges = scale.factor * np.array(told["edges"], dtype=float)
     figure = style.blank(0.45 * len(rows) + 2.6)
     panels = figure.subplots(len(rows) + 1, 1, sharex=True, height_ratios=[*(0.32,) * len(rows), 1.6])
+    _draw_strips(panels[:-1], edges, rows)
+    below = panels[-1]
+    _draw_steps(below, edges, rows)
+    _mark(below, told, scale.factor)
+    below.set_xlabel(with_unit("time", scale.unit))
+    style.legend_above(figure, below)
+    return figure
+
+
+def _draw_strips(panels: Sequence[Axes], edges: Array, rows: Mapping[Version, Array]) -> None:
+    """Draw a row of colours for each model, with one bar that says what they mean."""
     values = np.concatenate(list(rows.values()))
-    most = max(SPAN, float(np.nanmax(values)), 1.0 / max(float(np.nanmin(values)), 1e-3))
-    for axes, (who, row) in zip(panels[:-1], rows.items(), strict=True):
-        shown = axes.pcolormesh(
-            scale.factor * edges, [0.0, 1.0], row[None], cmap="RdBu_r", norm=LogNorm(1 / most, most)
-        )
+    most = max(SPAN, float(np.nanmax(values)), 1.0 / float(np.nanmin(values)))
+    for axes, (who, row) in zip(panels, rows.items(), strict=True):
+        colours = LogNorm(1.0 / most, most)
+        shown = axes.pcolormesh(edges, [0.0, 1.0], row[None], cmap="RdBu_r", norm=colours)
         axes.set_yticks([0.5], [who.word or "model"])
         axes.tick_params(length=0)
         axes.grid(visible=False)
         axes.spines[:].set_visible(False)
-    below = panels[-1]
-    for who, row in rows.items():
-        below.stairs(
-            row, scale.factor * edges, baseline=None, color=who.colour, linewidth=1.6, label=who.named("disagreement")
-        )
-    _mark(below, told, scale.factor, edges)
-    below.set_yscale("log")
-    below.margins(y=0.15)
-    style.log_ticks(below.yaxis)
-    below.set_xlabel(with_unit("time", scale.unit))
-    below.set_ylabel("one-step error variance\nover expected")
-    below.set_xlim(scale.factor * edges[0], scale.factor * edges[-1])
-    bar = figure.colorbar(shown, ax=panels[:-1], aspect=6, pad=0.01)
+    bar = panels[0].figure.colorbar(shown, ax=panels, aspect=6, pad=0.01)
     style.log_ticks(bar.ax.yaxis, 3)
-    style.legend_above(figure, below)
-    return figure
+
+
+def _draw_steps(axes: Axes, edges: Array, rows: Mapping[Version, Array]) -> None:
+    """Draw the disagreement of each model over time, as steps."""
+    for who, row in rows.items():
+        looks: dict[str, Any] = {"color": who.colour, "linewidth": 1.6, "label": who.named("disagreement")}
+        axes.stairs(row, edges, baseline=None, **looks)
+    values = np.concatenate(list(rows.values()))
+    low, high = float(np.nanmin(values)), float(np.nanmax(values))
+    axes.set_yscale("log")
+    axes.set_ylim(min(1.0 / TWICE, 0.85 * low), max(TWICE, 1.18 * high))
+    style.log_ticks(axes.yaxis)
+    axes.set_ylabel("one-step error variance\nover expected")
+    axes.set_xlim(edges[0], edges[-1])
 
 
 def _row(told: Mapping[str, Any], key: str) -> Array:
     return np.array([np.nan if value is None else max(value, 1e-3) for value in told[key]], dtype=float)
 
 
-def _mark(axes: Axes, told: Mapping[str, Any], factor: float, edges: Array) -> None:
+def _mark(axes: Axes, told: Mapping[str, Any], factor: float) -> None:
     """Draw what is expected, and shade the window that stands out beyond chance."""
     axes.axhline(told["expected"], color=style.RECORDED, linewidth=0.8, label="expected")
     worst = told["worst"]
