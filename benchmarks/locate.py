@@ -223,6 +223,14 @@ def summary(rows: Sequence[Row]) -> str:
                 asked = ("any",) if kind == "noise" else ("any", "covariate", "place", "both")
                 cells = [_cell(sum(t[what] for t in told), len(told), what) for what in asked]
                 lines.append(f"{name:<36}{test:<8}" + "  ".join(cells))
+    gains = [row["gain"] for row in rows if row["gain"] is not None]
+    if gains:
+        lines.append(
+            "true terms gain {:.0f}, {:.0f}, {:.0f} (5, 50, 95 %)".format(*np.quantile(gains, [0.05, 0.5, 0.95]))
+        )
+    wrong = [row for row in rows if row["kind"] != "noise" and not judged(row, "odds")["both"]]
+    phased = sum(ranked(row, "odds")[:1] == ["phase"] for row in wrong)
+    lines.append(f"odds: {len(wrong)} first places are wrong or empty, {phased} of them the phase of the drive")
     seconds = np.median([row["seconds"] for row in rows], axis=0)
     lines.append("median seconds: fit {:.1f}, shares {:.1f}, odds {:.1f}".format(*seconds))
     return "\n".join(lines)
