@@ -161,9 +161,9 @@ def test_what_was_learned_is_drawn_with_its_band_and_its_proposal(tmp_path):
 
 def test_what_noise_would_show_as_well_is_told_from_what_it_would_not(data, tmp_path):
     facts = made.mismatch()
-    facts["where"] |= {"significant": ["velocity"], "against": "199 surrogates"}
+    facts["where"] |= {"significant": ["velocity"], "against": "the likelihood ratio of a curve"}
     page = _page(tmp_path, facts, data)
-    assert "A star marks what goes further than 199 surrogates do." in page
+    assert "A star marks what is beyond chance by the likelihood ratio of a curve." in page
 
 
 def test_a_mismatch_without_sentences_is_told_from_its_numbers(tmp_path):

@@ -95,6 +95,9 @@ def test_keys_and_types_are_those_of_the_contract(hidden):
     assert_shaped(said["unexplained"], {"significant": bool, "rms": float, "unit": str, "share_of_drive": float})
     assert_shaped(said["where"], {"summary": str, "explained_by": dict})
     assert_shaped(said["where"]["explained_by"], dict.fromkeys(("position", "velocity", "phase", "time"), float))
+    told = said["where"]["over_time"]
+    assert_shaped(told, {"edges": list, "unit": str, "before": list, "after": list, "expected": float, "worst": dict})
+    assert len(told["edges"]) == len(told["before"]) + 1 == len(told["after"]) + 1
     for when in ("before", "after"):
         for interval in said["parameters"][when].values():
             assert_shaped(interval, {"median": float, "low": float, "high": float, "unit": str})

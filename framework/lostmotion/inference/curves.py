@@ -103,7 +103,7 @@ def shape_of(fit: Fit, slopes: Sensitivity, key: str) -> Shape:
     """
     problem = fit.problem
     term = _learned(problem, key)
-    gradient, information = _projected(fit, slopes, key)
+    gradient, information = projected(fit, slopes, key)
     options = []
     for size, length in itertools.product(SIZES, LENGTHS):
         widths = size * size_of(term, problem) * spread(term, length)
@@ -122,11 +122,16 @@ def _learned(problem: Problem, key: str) -> Learned:
     return term
 
 
-def _projected(fit: Fit, slopes: Sensitivity, key: str) -> tuple[Array, Array]:
+def projected(fit: Fit, slopes: Sensitivity, key: str) -> tuple[Array, Array]:
     """Return gradient (count,) and information (count, count) of the coefficients of a curve at zero.
 
     What the free parameters of the fit explain as well is taken out.
     """
+    return projection(fit, joint_of(fit, slopes, key), len(slopes.theta))[:2]
+
+
+def joint_of(fit: Fit, slopes: Sensitivity, key: str) -> Sensitivity:
+    """Return the sensitivities of a fit with those of the coefficients of a curve at zero behind them."""
     problem, term = fit.problem, _learned(fit.problem, key)
     width = NUDGE * size_of(term, problem)
     wider = with_curve(problem, key, np.full(term.count, math.inf), np.zeros(term.count))
@@ -135,15 +140,24 @@ def _projected(fit: Fit, slopes: Sensitivity, key: str) -> tuple[Array, Array]:
     above = np.where(seen.finite[1:], np.arange(1, len(seen)), 0)
     de = (seen.errors[above] - seen.errors[0]) / width
     dv = (seen.variances[above] - seen.variances[0]) / width
-    joint = Sensitivity(
+    return Sensitivity(
         zero, seen[0], np.vstack([slopes.errors, de]), np.vstack([slopes.variances, dv]), np.full(len(zero), width)
     )
-    gradient, information, k = joint.gradient(), joint.information(), len(slopes.theta)
+
+
+def projection(fit: Fit, joint: Sensitivity, k: int) -> tuple[Array, Array, Array]:
+    """Return gradient, information, and what the first `k` parameters take of the score of each coefficient (k, count).
+
+    They are those of `projected`, from the sensitivities of `joint_of`.
+    """
+    problem = fit.problem
+    gradient, information = joint.gradient(), joint.information()
     pull = np.array([f.pull for f in problem.free])
-    gradient[:k] -= pull * (slopes.theta - np.array([f.mean for f in problem.free]))
+    gradient[:k] -= pull * (joint.theta[:k] - np.array([f.mean for f in problem.free]))
     pulled = solved(information[:k, :k] + np.diag(pull), information[:k, k:])
     own = information[k:, k:]
-    return _told_apart(gradient[k:] - pulled.T @ gradient[:k], own - information[k:, :k] @ pulled, own)
+    told = _told_apart(gradient[k:] - pulled.T @ gradient[:k], own - information[k:, :k] @ pulled, own)
+    return *told, pulled
 
 
 def _told_apart(gradient: Array, left: Array, own: Array) -> tuple[Array, Array]:

@@ -10,12 +10,15 @@ import numpy as np
 from scipy.special import chdtrc
 
 from lostmotion.contracts import Array, Model
+from lostmotion.inference.odds import Ratio, likely
 from lostmotion.inference.shares import Covariate, Share, significant
 from lostmotion.likelihood.latent import Missing
 from lostmotion.likelihood.observation import Observation
 
 BINS = 25
 WORTH_SAYING = 0.05
+TIED = 3.0
+"""Covariates of which the log likelihood ratios are no further apart, a ratio of twenty, are not told apart."""
 SIGNED = 0.97
 """What goes with the sign of the velocity to this share of what goes with the velocity is said to go with the sign."""
 
@@ -112,25 +115,59 @@ def _earlier(x: Array, v: Array, dt: float) -> Array:
     return np.concatenate([np.full(lag, x[0]), x[:-lag]])
 
 
-def summary(table: Mapping[str, Array], force: Array, found: Mapping[str, Share]) -> str:
-    """Return one sentence on where the force lives: of covariates only those that noise would not reach."""
-    values = {name: share.value for name, share in found.items()}
-    known = [name for name in significant(found) if values[name] >= WORTH_SAYING]
+def summary(
+    table: Mapping[str, Array],
+    force: Array,
+    found: Mapping[str, Share],
+    odds: Mapping[str, Ratio] | None = None,
+) -> str:
+    """Return one sentence on where the force lives: of covariates only those that are beyond chance.
+
+    Log likelihood ratios (`odds`) decide what is, and what comes first; without them the shares do.
+    """
+    known = likely(odds) if odds else [name for name in significant(found) if found[name].value >= WORTH_SAYING]
     if not known:
         asked = [name for name in ("position", "velocity", "phase", "time") if name in table]
-        return f"no structure over {', '.join(asked[:-1])} or {asked[-1]} that noise would not show as well"
-    name = known[0]
-    if name.startswith("velocity"):
-        sign = name.replace("velocity", "sign of velocity")
-        name = sign if values.get(sign, 0.0) > SIGNED * values[name] else name
-    kind = parity(curve(table[name], force)) if name.startswith(("position", "velocity")) else "neither"
+        return f"no structure over {', '.join(asked[:-1])} or {asked[-1]} beyond chance"
+    tied = [k for k in known[1:] if odds and odds[known[0]].log - odds[k].log < TIED]
+    name = known[0] if odds else _signed(known[0], found)
+    bent = name in table and name.startswith(("position", "velocity"))
+    kind = parity(curve(table[name], force)) if bent else "neither"
     how = "a function of" if kind == "neither" else f"{kind} in"
-    sure = f"{values[name]:.0%} +- {found[name].error:.0%} of its variance"
-    more = [f"{k} ({values[k]:.0%})" for k in known if k not in name and name not in k and k != name]
+    others = [k for k in known if k != name and k not in tied and found[k].value >= WORTH_SAYING]
+    more = [_with_share(k, found) for k in others if odds or _apart(k, name)]
     also = f"; with it go {listed(more)}" if more else ""
+    open_ = f"; it cannot be told from a function of {listed(tied)}" if tied else ""
     absent = [k for k in table if k not in known and k not in name]
-    nothing = f"; nothing of it goes with {' or '.join(absent)}" if absent else ""
-    return f"{how} {name}, which explains {sure}{also}{nothing}"
+    nothing = f"; nothing beyond chance goes with {' or '.join(absent)}" if absent else ""
+    return f"{how} {name}, {_sure(name, found, odds)}{open_}{also}{nothing}"
+
+
+def _sure(name: str, found: Mapping[str, Share], odds: Mapping[str, Ratio] | None) -> str:
+    """Return how much of a force goes with a covariate, and how likely that is beside nothing."""
+    share = found[name]
+    explains = f"which explains {share.value:.0%} +- {share.error:.0%} of its variance"
+    if not odds:
+        return explains
+    if share.value < WORTH_SAYING:
+        explains = f"which explains less than {WORTH_SAYING:.0%} of the variance of the smoothed force"
+    return f"{explains} (log likelihood ratio {odds[name].log:.0f})"
+
+
+def _with_share(name: str, found: Mapping[str, Share]) -> str:
+    return f"{name} ({found[name].value:.0%})"
+
+
+def _signed(name: str, found: Mapping[str, Share]) -> str:
+    """Return the sign of the velocity in place of the velocity where it explains as much."""
+    sign = name.replace("velocity", "sign of velocity")
+    close = name.startswith("velocity") and sign in found and found[sign].value > SIGNED * found[name].value
+    return sign if close else name
+
+
+def _apart(one: str, other: str) -> bool:
+    """Return whether two names are not those of a velocity and its sign."""
+    return one not in other and other not in one
 
 
 def listed(names: Sequence[str]) -> str:

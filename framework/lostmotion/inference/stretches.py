@@ -45,11 +45,11 @@ def stretched(problem: Problem) -> Problem:
     """Return the problem on stretches of its recordings, or as it is where they are not long."""
     if problem.samples <= LONG:
         return problem
-    parts = [part for o in problem.observations for part in _stretches(o, SOUGHT / problem.samples)]
+    parts = [part for o in problem.observations for part in spread_over(o, SOUGHT / problem.samples)]
     return problem.on(tuple(parts))
 
 
-def _stretches(observation: Observation, share: float) -> list[Observation]:
+def spread_over(observation: Observation, share: float) -> list[Observation]:
     """Return stretches of a recording, the first and the last at its ends, which make up a share of it."""
     long = max(round(share * observation.samples / STRETCHES), 1)
     gap = (observation.samples - long) / (STRETCHES - 1)

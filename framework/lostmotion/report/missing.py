@@ -59,7 +59,7 @@ def _sought(evidence: Evidence) -> str:
 def _tested(evidence: Evidence) -> str:
     """Return what a star means, or an empty string where nothing was tested."""
     against = evidence.fact("where", "against")
-    return f"A star marks what goes further than {against} do. " if against else ""
+    return f"A star marks what is beyond chance by {against}. " if against else ""
 
 
 def curve_of(evidence: Evidence, name: str, covariate: str) -> Array:
@@ -110,7 +110,7 @@ def _name_share(axes: Axes, evidence: Evidence, covariate: str) -> None:
     elif covariate in known:
         axes.set_title(f"{said} *", color="black", fontweight="bold")
     else:
-        axes.set_title(f"{said}: as noise would be", color="#8c8c8c")
+        axes.set_title(f"{said}: not beyond chance", color="#8c8c8c")
 
 
 def _unit(evidence: Evidence, covariate: str) -> str:

@@ -21,6 +21,7 @@ from lostmotion.report import (
     ranking,
     sensors,
     show,
+    strip,
     style,
     tables,
 )
@@ -41,7 +42,7 @@ class Drawn(NamedTuple):
     words: str = ""
 
 
-TABLES = {"parameters": tables.parameters, "sensors": sensors.table, "show": show.table}
+TABLES = {"parameters": tables.parameters, "sensors": sensors.table, "when": strip.table, "show": show.table}
 WORDS = {"decay": decay.words}
 TITLES = {"portraits": portraits.title}
 """What stands above the figure of a section, and titles that depend on what is drawn."""
@@ -52,6 +53,7 @@ SECTIONS = (
     Section("decay", "Free decay", decay.figure_of, decay.caption_of),
     Section("sensors", "All sensors", sensors.draw, sensors.caption),
     Section("missing", "The force that the model does not explain", missing.draw, missing.caption),
+    Section("when", "When the model disagrees", strip.draw, strip.caption),
     Section("learned", "The force that was learned", learned.draw, learned.caption),
     Section("ranking", "Which physics it may be", ranking.draw, ranking.caption),
     Section("parameters", "Parameters", posteriors.draw, posteriors.caption),

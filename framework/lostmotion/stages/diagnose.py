@@ -15,6 +15,7 @@ from lostmotion.inference.course import Selection, Visit
 from lostmotion.inference.fit import Fit, maximise
 from lostmotion.inference.learned import Learned
 from lostmotion.inference.locate import Curve, covariates, curve, edges_of, further, summary
+from lostmotion.inference.odds import Ratio, likely, log_odds
 from lostmotion.inference.scout import scoutable, scouted
 from lostmotion.inference.selection import price_of, significant_random_force
 from lostmotion.inference.setup import HELD_OUT, polish, problem_of, search, split, stepped
@@ -47,12 +48,17 @@ def fitted_keys(system: System) -> tuple[str, ...]:
 
 @dataclass(frozen=True)
 class Located:
-    """A force over time and over each covariate, and what each covariate explains of it."""
+    """A force over time and over each covariate, and what each covariate explains of it.
+
+    `odds` are the log likelihood ratios of a curve over each covariate, which decide what is beyond chance; where there
+    are none the shares do.
+    """
 
     missing: Missing
     curves: dict[str, Curve]
     explained: dict[str, Share]
     summary: str
+    odds: Mapping[str, Ratio] = field(default_factory=dict)
 
     @property
     def shares(self) -> dict[str, float]:
@@ -60,9 +66,14 @@ class Located:
         return {name: share.value for name, share in self.explained.items()}
 
     @property
+    def significant(self) -> list[str]:
+        """The covariates that are beyond chance, the likeliest first."""
+        return likely(self.odds) if self.odds else significant(self.explained)
+
+    @property
     def structure(self) -> list[str]:
-        """The covariates with which more than `STRUCTURED` of the force goes, and more than noise would show."""
-        return [name for name in significant(self.explained) if self.explained[name].value > STRUCTURED]
+        """The covariates with which more than `STRUCTURED` of the force goes, beyond chance."""
+        return [name for name in self.significant if self.explained[name].value > STRUCTURED]
 
 
 @dataclass(frozen=True)
@@ -260,13 +271,14 @@ def _located(bare: Diagnosis, rng: np.random.Generator) -> Diagnosis:
     model, plays = after.problem.system.model, plays_of(honest, after.theta)
     of_left, of_all = rng, rng.spawn(1)[0]
 
-    def placed(problem: Problem, theta: Array, chance: np.random.Generator) -> Located:
-        return locate(model, shown, missing_force(problem, theta), plays=plays, rng=chance)
+    def placed(problem: Problem, theta: Array, chance: np.random.Generator, fit: Fit) -> Located:
+        missing = missing_force(problem, theta)
+        return locate(model, shown, missing, plays=plays, rng=chance, odds=lambda: log_odds(fit))
 
     if not bare.found:
-        return replace(bare, located=placed(honest, after.theta, of_left))
+        return replace(bare, located=placed(honest, after.theta, of_left, after))
     single = replace(honest, jobs=1)
-    asked = [(single, after.theta, of_left), (*taken_out(single, after.theta), of_all)]
+    asked = [(single, after.theta, of_left, after), (*taken_out(single, after.theta), of_all, bare.before)]
     left, located = each(lambda one: placed(*one), asked, honest.jobs)
     laws = {key: law_of(after, shown, left.missing.states, key) for key in bare.found}
     law = np.sum(list(laws.values()), axis=0)
@@ -294,8 +306,12 @@ def locate(
     *,
     plays: Mapping[str, float] | None = None,
     rng: np.random.Generator | None = None,
+    odds: Callable[[], Mapping[str, Ratio]] = dict,
 ) -> Located:
-    """Return where a missing force lives; `plays` are the half gaps by place, `rng` draws surrogates of the force."""
+    """Return where a missing force lives; `plays` are the half gaps by place, `rng` draws surrogates of the force.
+
+    `odds` returns log likelihood ratios by covariate, as `log_odds` does.
+    """
     if not np.all(np.abs(missing.force) < LARGEST):
         raise DataError(
             f"{observation.name}: the model cannot follow this recording at all: check the units and columns of what"
@@ -305,7 +321,8 @@ def locate(
     asked = {name: Covariate((values,)) for name, values in table.items()} | further(model, observation, missing, plays)
     found = shares_of(asked, missing.force, rng)
     curves = {name: curve(values, missing.force) for name, values in table.items()}
-    return Located(missing, curves, found, summary(table, missing.force, found))
+    ratios = {name: value for name, value in odds().items() if name in found}
+    return Located(missing, curves, found, summary(table, missing.force, found, ratios), ratios)
 
 
 def law_of(fit: Fit, observation: Observation, states: Array, key: str) -> Array:

@@ -77,7 +77,7 @@ def stretches_of(observation: Observation) -> tuple[Stretch, ...]:
         starts = sorted({0, *onsets_of(observation.response, observation.dt)})
         ends = [*starts[1:], observation.samples]
         return tuple(map(Stretch, starts, ends))[:MOST_STRETCHES]
-    if not _is_struck(observation):
+    if not is_struck(observation):
         return ()
     hits = hits_of(observation.excitation, observation.dt)
     ends = [*(hit.start for hit in hits[1:]), observation.samples]
@@ -85,7 +85,7 @@ def stretches_of(observation: Observation) -> tuple[Stretch, ...]:
     return tuple(pair for pair in pairs if pair.stop > pair.start)[:MOST_STRETCHES]
 
 
-def _is_struck(observation: Observation) -> bool:
+def is_struck(observation: Observation) -> bool:
     """Return whether one force alone drives the machine, and is that of a hammer."""
     one = observation.driven is not None and len(observation.driven) == 1
     if not one or quantity_of(observation.driven[0]) != "force":  # type: ignore[index]

@@ -21,6 +21,7 @@ from lostmotion.storage import folder_for, save_arrays, save_json
 from lostmotion.workflow.arrays import arrays_of
 from lostmotion.workflow.attractors import motions_of
 from lostmotion.workflow.decays import decay_in
+from lostmotion.workflow.disagreements import disagreement_in
 from lostmotion.workflow.evidences import evidence_of
 from lostmotion.workflow.findings import Outcome, draws_of
 from lostmotion.workflow.mixed import draws_after
@@ -32,8 +33,8 @@ from lostmotion.workflow.verdict import verdict
 from lostmotion.workflow.vetting import blamed, raising, theirs, told_aside, within_numbers
 
 Say = Callable[[str], None]
-SHOW, NEXT, EVIDENCE = 1, 2, 3
-"""The streams of random numbers for what is shown, proposed and checked: no finding depends on them."""
+SHOW, NEXT, EVIDENCE, WHEN = 1, 2, 3, 4
+"""The streams of random numbers for what is shown, proposed, checked and placed in time: no finding depends on them."""
 
 
 @within_numbers()
@@ -66,6 +67,7 @@ def run_diagnosis(
     say("evidence by sampling")
     evidence = evidence_of(diagnosis, np.random.default_rng([seed, EVIDENCE]))
     said = verdict(outcome)
+    said["where"] |= disagreement_in(diagnosis, np.random.default_rng([seed, WHEN]))
     decay = decay_in(diagnosis)
     content = {
         "title": prepared.case.title,

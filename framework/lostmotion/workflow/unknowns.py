@@ -11,8 +11,9 @@ import numpy as np
 from lostmotion.inference.curves import Band, band_of
 from lostmotion.inference.learned import names_of
 from lostmotion.inference.locate import listed
+from lostmotion.inference.odds import p_values
 from lostmotion.inference.proposal import Axis, proposed
-from lostmotion.inference.shares import LEVEL, SURROGATES, significant
+from lostmotion.inference.shares import LEVEL, SURROGATES
 from lostmotion.inference.unexplained import Unknown
 from lostmotion.quantities import LENGTH, NUMBER, SPEED, TIME, Dimension
 from lostmotion.results import Interval
@@ -28,6 +29,7 @@ OVER: dict[str, tuple[str, Dimension]] = {
 NOT_FOUND = "A proposal, not a finding: the curve is what was found, and the formula is only one that fits it."
 NONE_FITS = "No short formula fits the curve: it stands for itself."
 BAND = 1.96
+RATIO = "the robust likelihood ratio of a curve over each covariate in the filter"
 
 
 def learned_entry(d: Diagnosis) -> dict[str, Any]:
@@ -141,15 +143,20 @@ def unknown_odds(d: Diagnosis) -> tuple[float, float]:
 
 
 def where(located: Located, learned: Unknown | None = None) -> dict[str, Any]:
-    """Return what a force depends on: a sentence, shares of its variance, and whether noise would show them as well."""
+    """Return what a force depends on: a sentence, shares of its variance, and which covariates are beyond chance."""
     explained, summary = located.explained, located.summary
     if learned:
         summary = f"a function of {listed(names_of(learned.terms))}, as the learned curve has it; by itself: {summary}"
+    by_share = {name: share.p for name, share in explained.items()}
+    against = RATIO if located.odds else f"{SURROGATES} phase-randomised surrogates"
     return {
         "summary": summary,
         "explained_by": located.shares,
         "standard_error": {name: share.error for name, share in explained.items()},
-        "p_value": {name: share.p for name, share in explained.items()},
-        "significant": significant(explained),
-        "against": f"{SURROGATES} phase-randomised surrogates, at {LEVEL:.0%} over all covariates together",
+        "log_likelihood_ratio": {name: ratio.log for name, ratio in located.odds.items()},
+        "robust_log_likelihood_ratio": {name: ratio.robust for name, ratio in located.odds.items()},
+        "p_value": p_values(located.odds) if located.odds else by_share,
+        "p_value_of_share": by_share,
+        "significant": located.significant,
+        "against": f"{against}, at {LEVEL:.0%} over all covariates together",
     }

@@ -1,0 +1,204 @@
+"""When a model disagrees with a recording: its one-step errors over windows of time, hits, or recordings.
+
+A one-step error of the filter, squared and divided by the variance that the model states for it, is one on average
+where the model holds. Its mean over a window says how much more the recording varies there than the model expects.
+
+Some window is always the largest. Whether it is larger than chance would make it is asked by permutation: under the
+null hypothesis that the disagreement is the same all along, blocks of errors may change places. Blocks are longer than
+the memory of the squared errors, so that neighbouring errors stay together (Carlstein, Annals of Statistics 14 (1986)
+1171-1179). The p-value of each window is that of the largest excess over all windows (Westfall, Young 1993).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lostmotion.contracts import Array
+from lostmotion.inference.fit import Fit
+from lostmotion.inference.shares import adjusted
+from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.predict import filtered
+
+WINDOWS = 30
+"""A recording has so many windows at most: more are too narrow to be read in a figure of a page."""
+SHORTEST, PERIODS = 40, 1
+"""A window has so many samples and periods of the drive at least, so that it holds all phases of the motion."""
+FEWEST = 4
+"""With fewer windows, or blocks to a window, nothing is tested."""
+MEMORIES = 3
+"""A block is so many times as long as it takes until squared errors are uncorrelated."""
+DRAWS = 999
+LARGEST = 1e12
+"""A filter that ran away errs by no more: squares of squares must be numbers."""
+MOST_BLOCKS = 3000
+"""More blocks make the test slower, and not sharper."""
+
+Numbers = NDArray[np.int64]
+
+
+@dataclass(frozen=True)
+class Windows:
+    """Windows of a series: `edges` (windows + 1,) in samples; `aligned` says that each begins with an event (a hit).
+
+    After an event a motion dies away, so errors are compared at the same time after each event.
+    """
+
+    edges: Numbers
+    aligned: bool = False
+
+    def __len__(self) -> int:
+        return len(self.edges) - 1
+
+
+def squares_of(fit: Fit, observation: Observation) -> Array:
+    """Return the squared standardised one-step error (samples,), mean over the sensors; NaN where none was read."""
+    seen = filtered(fit.problem.on((observation,)), fit.theta)
+    read = seen.taken & np.isfinite(seen.errors) & np.isfinite(seen.variances)
+    with np.errstate(over="ignore", invalid="ignore"):
+        squares = np.where(read, np.minimum(seen.errors**2 / seen.variances, LARGEST), np.nan)
+    counts = np.sum(read, axis=1)
+    return np.asarray(np.where(counts > 0, np.nansum(squares, axis=1) / np.maximum(counts, 1), np.nan))
+
+
+def even_windows(samples: int, period: float | None = None, *, shortest: int = SHORTEST) -> Windows:
+    """Return windows of equal length; `period` is that of the drive in samples."""
+    long = max(shortest, math.ceil(PERIODS * (period or 0.0)))
+    count = max(1, min(WINDOWS, samples // long))
+    return Windows(np.round(np.linspace(0, samples, count + 1)).astype(np.int64))
+
+
+def hit_windows(samples: int, starts: Sequence[int]) -> Windows:
+    """Return one window for each hit, from the sample where it begins to the next one."""
+    return Windows(np.array([*starts, samples], dtype=np.int64), aligned=True)
+
+
+def means_of(squares: Array, windows: Windows) -> Array:
+    """Return the mean (windows,) of squared errors; NaN for a window without any."""
+    parts = [squares[a:b] for a, b in zip(windows.edges[:-1], windows.edges[1:], strict=True)]
+    return np.array([np.nanmean(part) if np.isfinite(part).any() else math.nan for part in parts])
+
+
+def memory_of(squares: Array, windows: Windows) -> int:
+    """Return the lag (samples) from which on squared errors of one window are uncorrelated.
+
+    The mean of each window is taken out first: what differs from window to window is no memory. Of windows that begin
+    with an event the mean course after it is taken out as well.
+    """
+    left = np.zeros(len(squares))
+    for a, b in zip(windows.edges[:-1], windows.edges[1:], strict=True):
+        part = squares[a:b]
+        left[a:b] = np.nan_to_num(part - np.nanmean(part)) if np.isfinite(part).any() else 0.0
+    if windows.aligned:
+        whole, long = _comparable(windows)
+        rows = windows.edges[whole][:, None] + np.arange(long)[None, :]
+        course = left[rows] - np.mean(left[rows], axis=0)
+        left = np.zeros(len(squares))
+        left[rows] = course
+    power = np.abs(np.fft.rfft(left, 2 * len(left))) ** 2
+    correlation = np.fft.irfft(power)[: len(left)]
+    if not correlation[0] > 0.0:
+        return 1
+    below = np.flatnonzero(correlation / correlation[0] < 2.0 / math.sqrt(len(left)))
+    return int(below[0]) if below.size else len(left)
+
+
+def beyond_chance(squares: Array, windows: Windows, rng: np.random.Generator) -> Array | None:
+    """Return the p-value (windows,) of each window, adjusted for all of them; None where too little is there."""
+    block = block_of(squares, windows)
+    if windows.aligned:
+        return _after_events(squares, windows, block, rng)
+    starts = np.arange(0, len(squares) - block + 1, block)
+    which = np.searchsorted(windows.edges, starts + block // 2, side="right") - 1
+    return _permuted(_blocked(squares, starts, block), which, np.zeros_like(which), rng)
+
+
+def between(parts: Sequence[Array], rng: np.random.Generator) -> Array | None:
+    """Return the p-value (recordings,) of the disagreement in each of several recordings, adjusted for all of them."""
+    values, which = _joined(parts)
+    return _permuted(values, which, np.zeros_like(which), rng)
+
+
+def trend(parts: Sequence[Array], levels: Array, rng: np.random.Generator) -> tuple[float, float] | None:
+    """Return the correlation of the disagreement in recordings with their log level, and its two-sided p-value.
+
+    None where there are fewer than three levels: any two differ, and nobody knows by what.
+    """
+    if len(np.unique(levels)) < FEWEST - 1 or not np.all(levels > 0.0):
+        return None
+    values, which = _joined(parts)
+    at = np.log(levels)[which]
+    if len(values) < FEWEST * len(parts) or not np.std(values) > 0.0:
+        return None
+    drawn = rng.permuted(np.tile(values, (DRAWS, 1)), axis=1)
+    at = at - np.mean(at)
+    slopes, slope = np.abs(drawn @ at), float(values @ at)
+    p = (1.0 + float(np.sum(slopes >= abs(slope)))) / (1.0 + DRAWS)
+    return float(np.corrcoef(values, at)[0, 1]), p
+
+
+def _joined(parts: Sequence[Array]) -> tuple[Array, Numbers]:
+    """Return blocks of all recordings, and of which recording each is."""
+    whole = [Windows(np.array([0, len(part)])) for part in parts]
+    block = max(MEMORIES * memory_of(part, one) for part, one in zip(parts, whole, strict=True))
+    block = max(block, sum(map(len, parts)) // MOST_BLOCKS, 1)
+    cut = [_blocked(part, np.arange(0, len(part) - block + 1, block), block) for part in parts]
+    return np.concatenate(cut), np.repeat(np.arange(len(cut)), [len(c) for c in cut])
+
+
+def block_of(squares: Array, windows: Windows) -> int:
+    """Return the length (samples) of the blocks that change places."""
+    return max(1, MEMORIES * memory_of(squares, windows), len(squares) // MOST_BLOCKS)
+
+
+def _comparable(windows: Windows) -> tuple[Numbers, int]:
+    """Return the windows that are not cut short, at less than half of the usual length, and the length of the shortest.
+
+    A hit just before the end of a recording, or before the next one, leaves too little to be compared.
+    """
+    lengths = np.diff(windows.edges)
+    whole = np.flatnonzero(lengths >= 0.5 * np.median(lengths))
+    return whole, int(lengths[whole].min())
+
+
+def _after_events(squares: Array, windows: Windows, block: int, rng: np.random.Generator) -> Array | None:
+    """Return the p-value (windows,) of each window; blocks that begin equally long after an event change places."""
+    whole, long = _comparable(windows)
+    count = long // block
+    after = np.tile(np.arange(count), len(whole))
+    which = np.repeat(np.arange(len(whole)), count)
+    told = _permuted(_blocked(squares, windows.edges[whole][which] + after * block, block), which, after, rng)
+    if told is None:
+        return None
+    p = np.ones(len(windows))
+    p[whole] = told
+    return p
+
+
+def _blocked(squares: Array, starts: Numbers, block: int) -> Array:
+    """Return the mean (starts,) of each block; where nothing was read, the mean of all."""
+    if not len(starts):
+        return np.zeros(0)
+    rows = squares[starts[:, None] + np.arange(block)[None, :]]
+    read = np.isfinite(rows)
+    told = np.sum(np.where(read, rows, 0.0), axis=1) / np.maximum(read.sum(axis=1), 1)
+    return np.asarray(np.where(read.any(axis=1), told, np.nanmean(squares)))
+
+
+def _permuted(values: Array, which: Numbers, strata: Numbers, rng: np.random.Generator) -> Array | None:
+    """Return the p-value of the mean (windows,) of blocks; blocks of one stratum change places with one another."""
+    count = int(which.max()) + 1 if len(which) else 0
+    sizes = np.bincount(which, minlength=count)
+    if count < 2 or len(values) < FEWEST * count or sizes.min() < 1 or not np.std(values) > 0.0:
+        return None
+    drawn = np.tile(values, (1 + DRAWS, 1))
+    for stratum in np.unique(strata):
+        columns = np.flatnonzero(strata == stratum)
+        drawn[1:, columns] = rng.permuted(drawn[1:, columns], axis=1)
+    member = np.zeros((len(values), count))
+    member[np.arange(len(values)), which] = 1.0 / sizes[which]
+    return adjusted((drawn @ member).T)[1]

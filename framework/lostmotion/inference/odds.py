@@ -1,0 +1,191 @@
+"""The likelihood ratio of a curve over each covariate, inside the filter: where a missing force lives.
+
+A curve with normal coefficients acts in the model, all free parameters of the fit moving along. Its marginal likelihood
+over that of the model without it, averaged over sizes and correlation lengths, comes in closed form from one score test
+of its coefficients (`curves.py`). When nothing is missing such a ratio has the mean one, so by Markov's inequality it
+exceeds 1 / a with a probability of a at most: its inverse is a p-value, without any surrogates (Vovk, Wang, Annals of
+Statistics 49 (2021) 1736-1754). An average of such ratios is one as well, so several curves may stand for a covariate.
+
+That holds where the noise is as the model says. Where errors have a memory or outliers, scores scatter more than their
+information says, and the ratio overstates: so it is told a second time with its log divided by that excess, and the
+robust one decides what is beyond chance.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from lostmotion.contracts import Array
+from lostmotion.inference.candidates import slopes_of
+from lostmotion.inference.curves import LENGTHS, SIZES, joint_of, projection, size_of, transplanted
+from lostmotion.inference.fit import BLOCKS, Fit, Sensitivity
+from lostmotion.inference.learned import (
+    DragOverPosition,
+    FrictionOverPosition,
+    Learned,
+    OverPhase,
+    OverPosition,
+    OverTime,
+    OverVelocity,
+    spread,
+)
+from lostmotion.inference.setup import stepped
+from lostmotion.inference.shares import LEVEL
+from lostmotion.inference.stretches import spread_over
+from lostmotion.likelihood.problem import Problem
+
+LEAST = 1e-6
+"""A smaller p-value is told as this one: no model of the noise is known that far out."""
+MOST_SAMPLES = 8000
+"""Of longer recordings stretches are asked, evenly spread over them: a curve has dozens of coefficients."""
+
+NAMES: Mapping[type[Learned], str] = {
+    OverPosition: "position",
+    OverVelocity: "velocity",
+    FrictionOverPosition: "sign of velocity",
+    DragOverPosition: "velocity",
+    OverTime: "time",
+    OverPhase: "phase",
+}
+"""The covariate of a curve: friction of any size over the position goes with the sign of the velocity, and drag of any
+size with the velocity."""
+SIMPLEST: Mapping[type[Learned], int] = {
+    OverPosition: 1,
+    OverVelocity: 1,
+    OverTime: 1,
+    FrictionOverPosition: 0,
+    DragOverPosition: 0,
+}
+"""The power of the simplest curve: a linear spring, linear drag, linear drift, constant friction, constant drag. Sines
+need many coefficients for these, and a curve over the phase of a periodic drive then seems more likely."""
+
+
+class Ratio(NamedTuple):
+    """The log likelihood ratio of curves over a covariate: as the model states its noise, and as the errors scatter."""
+
+    log: float
+    robust: float
+
+
+def log_odds(fit: Fit) -> dict[str, Ratio]:
+    """Return the log likelihood ratio of a curve over each covariate beside a fit, at each place of the model.
+
+    Names are those of `locate.covariates`, such as "position" or "velocity at base". Curves that a fit has already are
+    not asked. Steps are those of a search: a fit with finer ones costs four times as much and says the same.
+    """
+    wider = _ready(fit)
+    slopes = slopes_of(wider)
+    found: dict[str, list[Ratio]] = {}
+    for key, term in zip(wider.problem.system.keys, wider.problem.system.terms, strict=True):
+        if isinstance(term, Learned) and key not in wider.problem.active:
+            found.setdefault(named(term), []).append(_of_curve(wider, slopes, key, term))
+    return {name: Ratio(*map(averaged, zip(*values, strict=True))) for name, values in found.items()}
+
+
+def _ready(fit: Fit) -> Fit:
+    """Return a fit in a system with every curve, with the steps of a search, on as many samples as are asked."""
+    problem = fit.problem
+    if not any(isinstance(term, Learned) for term in problem.system.terms):
+        fit = transplanted(fit, problem.active)
+    short = stepped(_shortened(fit.problem), fit.theta)
+    return replace(fit, problem=short)
+
+
+def _shortened(problem: Problem) -> Problem:
+    share = MOST_SAMPLES / problem.samples
+    if share >= 1.0:
+        return problem
+    return problem.on(tuple(part for one in problem.observations for part in spread_over(one, share)))
+
+
+def _of_curve(fit: Fit, slopes: Sensitivity, key: str, term: Learned) -> Ratio:
+    """Return the log likelihood ratio of one curve, averaged over all that it may look like."""
+    joint, k = joint_of(fit, slopes, key), len(slopes.theta)
+    try:
+        gradient, information, pulled = projection(fit, joint, k)
+    except np.linalg.LinAlgError:  # the filter ran away
+        return Ratio(-math.inf, -math.inf)
+    scores = joint.scores()
+    sums = _blocked(scores[k:] - pulled.T @ scores[:k])
+    size = size_of(term, fit.problem)
+    plain, robust = [], []
+    for roots in _kinds(term):
+        wider = [size * root for root in roots]
+        plain.append(averaged([gained(gradient, information, root) for root in wider]))
+        over = [inflation(sums, information, root) for root in wider]
+        told = [gained(gradient / f, information / f, root) for f, root in zip(over, wider, strict=True)]
+        robust.append(averaged(told))
+    return Ratio(averaged(plain), averaged(robust))
+
+
+def _blocked(scores: Array) -> Array:
+    """Return the scores (count, samples) added up over blocks of time, (count, blocks), less their mean."""
+    edges = np.linspace(0, scores.shape[1], BLOCKS + 1).astype(int)[:-1]
+    sums = np.add.reduceat(scores, edges, axis=1)
+    return np.asarray(sums - sums.mean(axis=1, keepdims=True))
+
+
+def inflation(sums: Array, information: Array, root: Array) -> float:
+    """Return by how much the scores (count, blocks) of a curve scatter more than their information says; 1 at least.
+
+    It is the ratio of variances over all that a prior `root` allows. Where errors have a memory, or outliers, scores
+    scatter more, and a likelihood counts for less by that factor (Huber 1967; White, Econometrica 50 (1982) 1-25).
+    """
+    scatter = float(np.sum((root.T @ sums) ** 2)) * BLOCKS / (BLOCKS - 1.0)
+    stated = float(np.sum(root * (information @ root)))
+    return max(1.0, scatter / stated) if stated > 0.0 else 1.0
+
+
+def named(term: Learned) -> str:
+    """Return the covariate of a curve with its place."""
+    name = NAMES[type(term)]
+    return name if term.at == "ground" or name in ("time", "phase") else f"{name} at {term.at}"
+
+
+def _kinds(term: Learned) -> Iterator[list[Array]]:
+    """Yield square roots (count, rank) of prior covariances for a unit drive: smooth curves, then the simplest one."""
+    yield [_diagonal(size * spread(term, length)) for size, length in itertools.product(SIZES, LENGTHS)]
+    if type(term) in SIMPLEST:
+        z = np.linspace(-1.0, 1.0, 201)
+        weights = np.linalg.lstsq(term.basis(z), z ** SIMPLEST[type(term)], rcond=1e-6)[0]
+        column = np.asarray(weights[:, None], dtype=float)
+        yield [size * column for size in SIZES]
+
+
+def _diagonal(widths: Array) -> Array:
+    return np.asarray(np.diag(widths), dtype=float)
+
+
+def gained(gradient: Array, information: Array, root: Array) -> float:
+    """Return the log marginal likelihood that coefficients add of which `root` (count, rank) is the prior's root.
+
+    With gradient g and information H at zero, root R: (g'R (I + R'HR)^-1 R'g - log det(I + R'HR)) / 2.
+    """
+    inner = np.eye(root.shape[1]) + root.T @ information @ root
+    pull = root.T @ gradient
+    return 0.5 * float(pull @ np.linalg.solve(inner, pull)) - 0.5 * float(np.linalg.slogdet(inner)[1])
+
+
+def averaged(gains: Sequence[float]) -> float:
+    """Return the log of the mean of ratios of which the logs are given; minus infinity where none is a number."""
+    kept = np.array([gain if math.isfinite(gain) else -math.inf for gain in gains])
+    top = float(kept.max())
+    return top + math.log(float(np.mean(np.exp(kept - top)))) if math.isfinite(top) else -math.inf
+
+
+def likely(odds: Mapping[str, Ratio]) -> list[str]:
+    """Return the covariates that are beyond chance at the level `LEVEL` over all of them, the likeliest first."""
+    p = p_values(odds)
+    return sorted((name for name in odds if p[name] <= LEVEL), key=lambda name: -odds[name].log)
+
+
+def p_values(odds: Mapping[str, Ratio]) -> dict[str, float]:
+    """Return the p-value of each covariate by its robust ratio, adjusted for all of them (Bonferroni)."""
+    told = {name: len(odds) * math.exp(min(-ratio.robust, 0.0)) for name, ratio in odds.items()}
+    return {name: min(max(p, LEAST), 1.0) for name, p in told.items()}
