@@ -62,16 +62,19 @@ def proposed(at: Array, mean: Array, covariance: Array, over: Axis) -> Formula |
     aim = np.linalg.solve(root, mean)
     chosen: list[Piece] = []
     best = float(aim @ aim)
-    pieces = [(p, np.linalg.solve(root, p.columns)) for p in _pieces(at, over)]
+    pieces = list(_pieces(at, over))
+    widest = np.stack([np.hstack([p.columns, p.columns])[:, :2] for p in pieces])
+    whitened = np.linalg.solve(root, widest.transpose(1, 0, 2).reshape(len(at), -1)).reshape(len(at), -1, 2)
+    prices = np.array([_price([p]) for p in pieces])
     white: list[Array] = []
     for _ in range(MOST):
-        scores = [_left(aim, [*white, w])[0] + _price([*chosen, p]) for p, w in pieces]
+        scores = _left_by_each(aim, white, whitened) + prices + _price(chosen)
         first = int(np.argmin(scores))
         if scores[first] >= best - MORE:
             break
         best = scores[first]
-        chosen.append(pieces[first][0])
-        white.append(pieces[first][1])
+        chosen.append(pieces[first])
+        white.append(whitened[:, first, : pieces[first].columns.shape[1]])
         if _left(aim, white)[0] < (1.0 - ENOUGH) * float(aim @ aim):
             break
     if not chosen:
@@ -87,6 +90,21 @@ def proposed(at: Array, mean: Array, covariance: Array, over: Axis) -> Formula |
 
 def _price(pieces: list[Piece]) -> float:
     return math.fsum(2.0 * p.columns.shape[1] + p.price for p in pieces)
+
+
+def _left_by_each(aim: Array, white: list[Array], pieces: Array) -> Array:
+    """Return what a fit with some columns and one piece more leaves of the aim, squared, for each piece (count,).
+
+    `pieces` (points, count, 2) have one column twice where they have only one.
+    """
+    rest, more = aim, pieces
+    if white:
+        q = np.linalg.qr(np.hstack(white))[0]
+        rest, more = aim - q @ (q.T @ aim), pieces - np.einsum("ij,jkl->ikl", q, np.einsum("ij,ikl->jkl", q, pieces))
+    gram = np.einsum("ikl,ikm->klm", more, more)
+    told = np.einsum("ikl,i->kl", more, rest)
+    weights = np.einsum("klm,km->kl", np.linalg.pinv(gram, rcond=1e-10, hermitian=True), told)
+    return np.asarray(rest @ rest - np.sum(weights * told, axis=1))
 
 
 def _left(aim: Array, columns: list[Array]) -> tuple[float, Array]:

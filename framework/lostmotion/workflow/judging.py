@@ -23,6 +23,8 @@ called something else; not noticed."""
 VAGUE = ("unknown", "random_force")
 RUB = tuple(name for name, mechanism in TABLE.items() if mechanism.kin == "rub")
 """Laws of dry friction: where the true one has a random shape, each of them names it."""
+FLAWS = ("sensor_quantisation",)
+"""What every machine of an imperfect world has and the library knows."""
 SURE = 0.95
 REPEATED = ("cosine", "sine")
 """Parameters that say again what an amplitude and a phase say."""
@@ -74,7 +76,7 @@ def _judged_roughly(told: dict[str, Any], diagnosis: Row | None, truth: Row) -> 
         return {**told, "verdict": "failed", "effects": missed, "sure": [], **_nothing()}
     answer = _held_against(diagnosis, effects, truth, several=several)
     sure = [
-        [_name(entry), any(in_kind(e, entry, several=several) for e in effects)]
+        [_name(entry), entry["mechanism"] in FLAWS or any(in_kind(e, entry, several=several) for e in effects)]
         for entry in diagnosis["found"]
         if entry["mechanism"] not in VAGUE and entry["probability"] > SURE and entry.get("state", "named") == "named"
     ]
