@@ -75,15 +75,17 @@ class Selection:
     def probabilities(self) -> dict[frozenset[str], float]:
         """Return the posterior probability of each set among those visited, but for sets that were not believed.
 
-        Sets of which the expansion is known are weighed beside the discrepancy, all others by their evidence alone.
+        Sets of which the expansion is known are weighed beside the discrepancy, all others by their evidence alone: by
+        that they come behind those, and weigh no more than the least of them.
         """
         doubted = self.declined - self.chosen.problem.active
         believed = {k: v for k, v in self.visits.items() if not k & doubted}
         chosen = self.visits[self.chosen.problem.active]
         heights = {k: v.weight - chosen.weight for k, v in believed.items()}
-        for terms in believed:
-            if terms in self.rivals and terms != chosen.terms:
-                heights[terms] = -self.lead(chosen, self.visits[terms])
+        known = [terms for terms in believed if terms in self.rivals and terms != chosen.terms]
+        heights |= {terms: -self.lead(chosen, self.visits[terms]) for terms in known}
+        least = min([0.0, *(heights[terms] for terms in known)])
+        heights |= {k: min(h, least) for k, h in heights.items() if k not in self.rivals}
         top = max(heights.values())
         raw = {k: math.exp(height - top) for k, height in heights.items()}
         total = sum(raw.values())

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -50,14 +49,15 @@ class Shape:
     start: Array
 
 
-def transplanted(fit: Fit, keep: Iterable[str]) -> Fit:
-    """Return a fit in a system that has the terms `keep` and every curve, with the ranges that the motion visited."""
-    problem, chosen = fit.problem, set(keep)
-    old = problem.system
-    kept = [term for key, term in zip(old.keys, old.terms, strict=True) if key in chosen]
+def transplanted(fit: Fit) -> Fit:
+    """Return a fit in a system that has every curve beside its terms, with the ranges that the motion visited.
+
+    All terms stay, so that one kernel serves whatever is active.
+    """
+    problem, old = fit.problem, fit.problem.system
     driven = all(observation.tone.omega > 0.0 for observation in problem.observations)
     curves = curves_for(old.model, driven=driven)
-    system = System(old.model, (*kept, *curves))
+    system = System(old.model, (*old.terms, *curves))
     known = system.vector(
         {slot.key: problem.known[old.index[slot.key]] for slot in system.slots if slot.key in old.index}
     )

@@ -92,7 +92,7 @@ def _ready(fit: Fit) -> Fit:
     """Return a fit in a system with every curve, with the steps of a search, on as many samples as are asked."""
     problem = fit.problem
     if not any(isinstance(term, Learned) for term in problem.system.terms):
-        fit = transplanted(fit, problem.active)
+        fit = transplanted(fit)
     short = stepped(_shortened(fit.problem), fit.theta)
     return replace(fit, problem=short)
 

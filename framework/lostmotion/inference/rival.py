@@ -146,7 +146,7 @@ def evidence_of(h: Array, g: Array, widths: Array) -> float:
 
 def expanded(fit: Fit) -> Expansion:
     """Return the expansion of a fit with its discrepancy."""
-    slopes, problem, own = slopes_of(fit), transplanted(fit, fit.problem.system.keys).problem, len(fit.theta)
+    slopes, problem, own = slopes_of(fit), transplanted(fit).problem, len(fit.theta)
     known = _known(problem)
     curves = [(key_of(t), t) for t in problem.system.terms if isinstance(t, SMOOTH)]
     frees, steps = list(known), [STEP] * len(known)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from lostmotion.inference.candidates import slopes_of, term_of
 from lostmotion.inference.curves import CHOICES, ROUNDS, fit_curve, shape_of, transplanted
@@ -114,8 +114,9 @@ class Curves:
         for fit, before, search in self.kept:
             if fit is nominal:
                 return before, search
-        before = _shortened(transplanted(nominal, ()))
-        search = Search(self.many + len(before.problem.system.terms), self.say)
+        before = _shortened(transplanted(nominal))
+        learned = sum(isinstance(term, Learned) for term in before.problem.system.terms)
+        search = Search(self.many + learned, self.say)
         search.visit(before)
         self.kept.append((nominal, before, search))
         return before, search
@@ -134,7 +135,7 @@ class Curves:
         these are dropped, and else the names are kept.
         """
         before, search = self._begun(nominal)
-        after = _shortened(transplanted(chosen, chosen.problem.active)) if chosen.problem.active else before
+        after = _shortened(transplanted(chosen)) if chosen.problem.active else before
         bar = max(search.visits[before.problem.active][1], search.visit(after))
         search.learn(after)
         if chosen.problem.active:
@@ -157,6 +158,15 @@ class Curves:
             whole = best.problem.on(chosen.problem.observations)
             best = maximise(whole, best.theta, rounds=ROUNDS, tolerance=0.3)
         return Unknown(best, _curves(best.problem), gain, alone)
+
+
+def fewer(unknown: Unknown, key: str) -> Unknown | None:
+    """Return the learned curves without one of them, fitted anew; None where it was the only one."""
+    keys = tuple(k for k in unknown.keys if k != key)
+    if not keys:
+        return None
+    fit = maximise(unknown.fit.problem.reduced(key, unknown.fit.values), rounds=ROUNDS, tolerance=0.3)
+    return replace(unknown, fit=fit, keys=keys, gain=unknown.gain + fit.log_evidence - unknown.fit.log_evidence)
 
 
 def _shortened(fit: Fit) -> Fit:

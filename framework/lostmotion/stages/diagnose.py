@@ -13,7 +13,7 @@ from lostmotion.errors import DataError
 from lostmotion.inference.candidates import term_of
 from lostmotion.inference.course import Selection, Visit
 from lostmotion.inference.fit import Fit, maximise
-from lostmotion.inference.learned import Learned
+from lostmotion.inference.learned import Learned, OverTime
 from lostmotion.inference.locate import Curve, covariates, curve, edges_of, further, summary
 from lostmotion.inference.odds import Ratio, likely, log_odds
 from lostmotion.inference.scout import scoutable, scouted
@@ -21,7 +21,7 @@ from lostmotion.inference.selection import price_of, significant_random_force
 from lostmotion.inference.setup import HELD_OUT, polish, problem_of, search, split, stepped
 from lostmotion.inference.shares import Covariate, Share, shares_of, significant
 from lostmotion.inference.stretches import sought
-from lostmotion.inference.unexplained import Curves, Unknown
+from lostmotion.inference.unexplained import Curves, Unknown, fewer
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.latent import Missing, missing_force
 from lostmotion.likelihood.motion import derivatives
@@ -210,27 +210,40 @@ def diagnose(
 
 
 def simpler(d: Diagnosis, rng: np.random.Generator) -> Diagnosis | None:
-    """Return the diagnosis without its learned curves, else without its least probable term; None where none is left.
+    """Return the diagnosis without one of its learned curves, else without its least probable term; None without any.
 
-    All that was fitted is fitted anew, and the missing force located again.
+    A curve over time goes first: nobody knows how it goes on. All that was fitted is fitted anew, and the missing force
+    located again.
     """
     if not d.found:
         return None
-    chosen, gone, visits = d.selection.chosen, "unknown", d.selection.visits
-    if not d.learned:
+    learned, selection = d.learned, d.selection
+    if learned:
+        last = {key: -i for i, key in enumerate(learned.keys)}
+        gone = min(learned.keys, key=lambda key: (not key.startswith(OverTime.name), last[key]))
+        learned = fewer(learned, gone)
+    else:
         gone = d.found[-1]
-        terms = chosen.problem.active - {gone}
-        if terms not in visits:
-            less = maximise(chosen.problem.reduced(gone, chosen.values))
-            price = price_of(term_of(chosen.problem, gone)[0], len(fitted_keys(chosen.problem.system)))
-            dearer = chosen.log_evidence - visits[chosen.problem.active].weight
-            visits = {**visits, terms: Visit(terms, less, less.log_evidence - dearer + price)}
-        chosen = visits[terms].fit
-    after = polish(chosen) if chosen.problem.active else d.before
-    selection = replace(d.selection, chosen=chosen, visits=visits)
-    bare = replace(d, after=after, selection=selection, learned=None, left=None, law=_NO, laws={}, law_curves={})
+        selection = _shrunk(selection, gone)
+    fit = learned.fit if learned else selection.chosen
+    after = polish(fit) if fit.problem.active else d.before
+    if learned:
+        learned = replace(learned, fit=after)
+    bare = replace(d, after=after, selection=selection, learned=learned, left=None, law=_NO, laws={}, law_curves={})
     told = replace(bare, random_gain=significant_random_force(after), withdrawn=(*d.withdrawn, gone))
     return _located(told, rng)
+
+
+def _shrunk(selection: Selection, gone: str) -> Selection:
+    """Return the selection with a term less in the set that was chosen."""
+    chosen, visits = selection.chosen, selection.visits
+    terms = chosen.problem.active - {gone}
+    if terms not in visits:
+        less = maximise(chosen.problem.reduced(gone, chosen.values))
+        price = price_of(term_of(chosen.problem, gone)[0], len(fitted_keys(chosen.problem.system)))
+        dearer = chosen.log_evidence - visits[chosen.problem.active].weight
+        visits = {**visits, terms: Visit(terms, less, less.log_evidence - dearer + price)}
+    return replace(selection, chosen=visits[terms].fit, visits=visits)
 
 
 def _check_moving(held: Sequence[Observation]) -> None:

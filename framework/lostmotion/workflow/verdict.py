@@ -98,7 +98,7 @@ def _sensors(d: Diagnosis) -> list[dict[str, Any]]:
         unit, kind = unit_of(sensor.channel, motion), sensor.noise.kind
         if d.after.problem.slow(d.after.theta, 0, i)[0]:
             kind = "ar1"
-        elif any(term_of(d.after.problem, key)[0].at == sensor.place for key in d.marks):
+        elif any(term_of(d.before.problem, key)[0].at == sensor.place for key in d.marks):
             kind = "quantised"
         rows.append({"name": name, "channel": sensor.channel, "unit": unit, "noise_sd": noise, "kind": kind})
     return rows
