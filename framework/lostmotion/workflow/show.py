@@ -23,7 +23,7 @@ from lostmotion.stages.quantify import quantify
 from lostmotion.workflow.attractors import Apart, distances_between
 from lostmotion.workflow.decays import stretches_of
 from lostmotion.workflow.findings import Outcome
-from lostmotion.workflow.motion import returned
+from lostmotion.workflow.beat import returned
 from lostmotion.workflow.show_words import TRANSIENT, said
 
 EMBEDDER, DIMENSION = "ami_cao", "correlation_dimension"
