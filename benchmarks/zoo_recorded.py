@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.io import loadmat
 from scipy.signal import decimate
+
 from zoo import Animal
 
 Array = NDArray[np.float64]

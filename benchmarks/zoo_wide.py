@@ -8,11 +8,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 from scipy.signal import lfilter
+
 from zoo import Animal, autoregressive, lines, noisy
 
 Array = NDArray[np.float64]
@@ -88,26 +90,33 @@ FLOWS: dict[str, tuple[str, Flow, int, float, float | None]] = {
 }
 
 
+def settled(rate: Flow, start: tuple[float, ...], dt: float, n: int, skip: int = 8000) -> Draw:
+    """Return a maker of the first state (n,) of a flow, begun beside `start` and left alone for `skip` samples."""
+
+    def draw(rng: np.random.Generator) -> Array:
+        begin = np.array(start) + 0.1 * rng.normal(size=len(start))
+        t = dt * np.arange(skip + n)
+        return np.asarray(solve_ivp(rate, (0.0, t[-1]), begin, "DOP853", t[skip:], **TOLERANCE).y[0])
+
+    return draw
+
+
 def moved(name: str, n: int) -> Draw:
     """Return a maker of the first state (n,) of a flow, begun beside the usual start and settled."""
     _, rate, size, dt, period = FLOWS[name]
     skip = 10 * TRANSIENT if period is None else round(150 * period / dt)
-
-    def draw(rng: np.random.Generator) -> Array:
-        start = START.get(name, np.zeros(size)) + 0.1 * rng.normal(size=size)
-        t = dt * np.arange(skip + n)
-        return np.asarray(solve_ivp(rate, (0.0, t[-1]), start, "DOP853", t[skip:], **TOLERANCE).y[0])
-
-    return draw
+    return settled(rate, tuple(START.get(name, np.zeros(size))), dt, n, skip)
 
 
 def mackey_glass(delay: float, n: int, dt: float) -> Draw:
     """Return a maker of x' = 0.2 x(t - delay) / (1 + x(t - delay)^10) - 0.1 x, one delay after the other by DOP853."""
 
     def draw(rng: np.random.Generator) -> Array:
-        late: Callable[[float], Array] = lambda _t, first=1.2 + 0.1 * rng.normal(): np.array([first])  # noqa: E731
+        first = 1.2 + 0.1 * rng.normal()
+        late: Callable[[float], Array] = lambda _t: np.array([first])  # noqa: E731
         end, pieces, begin = np.array([1.2]), [], 0.0
         while begin < (n + TRANSIENT) * dt:
+
             def rate(t: float, y: Array, late: Callable[[float], Array] = late) -> Array:
                 past = late(t - delay)[0]
                 return np.asarray(0.2 * past / (1.0 + past**10) - 0.1 * y)
@@ -159,7 +168,7 @@ def logistic(r: float, n: int) -> Draw:
 
 
 def telegraph(rate: float, n: int, soft: float = 0.0) -> Draw:
-    """Return a maker of a random telegraph signal that switches with this chance a sample, smoothed by a first order."""
+    """Return a maker of a random telegraph signal that switches with this chance a sample, behind a first order."""
 
     def draw(rng: np.random.Generator) -> Array:
         x = 1.0 - 2.0 * (np.cumsum(rng.random(n) < rate) % 2)
@@ -276,6 +285,10 @@ def swept(n: int) -> Draw:
     return draw
 
 
+def _louder(animal: Animal, share: float) -> Animal:
+    return replace(animal, name=f"{animal.name} {share:.0%}", draw=noisy(animal.draw, share))
+
+
 def wide_zoo(n: int = 10_000) -> list[Animal]:
     """Return series that the rules were not made on, with what each of them is.
 
@@ -283,11 +296,9 @@ def wide_zoo(n: int = 10_000) -> list[Animal]:
     """
     flows = [Animal(name, f[0], moved(name, n), f[3], f[4]) for name, f in FLOWS.items()]
     by_name = {a.name: a for a in flows}
-    loud = [
-        Animal(f"{name} {share:.0%}", by_name[name].nature, noisy(by_name[name].draw, share), FLOWS[name][3], FLOWS[name][4])
-        for name, share in (("duffing chaos", 0.03), ("ueda", 0.10), ("lorenz", 0.05), ("duffing period 5", 0.03),
-                            ("van der pol", 0.05), ("van der pol driven", 0.03), ("duffing, two drives", 0.05))
-    ]  # fmt: skip
+    shares = (("duffing chaos", 0.03), ("ueda", 0.10), ("lorenz", 0.05), ("duffing period 5", 0.03),
+              ("van der pol", 0.05), ("van der pol driven", 0.03), ("duffing, two drives", 0.05))  # fmt: skip
+    loud = [_louder(by_name[name], share) for name, share in shares]
     ar4 = autoregressive((0.985 * np.exp(0.25j), 0.97 * np.exp(0.8j)), n)
     ar2 = autoregressive((0.98 * np.exp(0.35j),), n)
     three = lines(((1.0, 1.0), (0.7, GOLDEN), (0.5, math.sqrt(2.0) - 1.0)), n, 0.03)
@@ -335,7 +346,10 @@ def largest_exponent(name: str, periods: float = 4000.0) -> float:
     other = y + away / math.sqrt(size)
     settle = round(0.1 * periods)
     for k in range(-settle, round(periods)):
-        both = [solve_ivp(rate, (k * step, (k + 1) * step), z, "DOP853", rtol=1e-10, atol=1e-12).y[:, -1] for z in (y, other)]
+        both = [
+            solve_ivp(rate, (k * step, (k + 1) * step), z, "DOP853", rtol=1e-10, atol=1e-12).y[:, -1]
+            for z in (y, other)
+        ]
         y, gap = both[0], both[1] - both[0]
         size_now = float(np.linalg.norm(gap))
         grown += math.log(size_now / away) if k >= 0 else 0.0

@@ -8,6 +8,7 @@ from typing import Literal
 
 import numpy as np
 
+from lostmotion.contracts import Series
 from lostmotion.results import Estimate
 from lostmotion.workflow.beat import MOST_PERIODS, Evidence, returned, returns
 from lostmotion.workflow.signs import CYCLES, FEWEST_SAMPLES, Sign, State, grows, signs_of, tones_of, turn_of
@@ -25,7 +26,7 @@ TOLD_APART = 0.25
 """Frequencies closer than this share of one line of the spectrum are not told apart."""
 MEASURED, ENOUGH_MEASURED = ("exponent", "dimension", "entropy"), 2
 """What is measured of a motion, and how many of these must speak for chaos: any one alone is found in some series that
-are not chaotic, as the tables of `benchmarks/verdicts.py --wide --signs` show."""
+are not chaotic, as the tables of `benchmarks/verdicts.py --set wide` show."""
 LINEAR = "surrogates_"
 TESTED_CYCLES = LINEAR + CYCLES
 
@@ -82,15 +83,21 @@ def judged(evidence: Evidence) -> Verdict:
 
 
 def _unsteady(it: Weighed) -> Verdict | None:
-    """Return that nothing can be told of a motion that dies away or grows, if it is more than slow linear noise."""
-    first, second = (float(np.std(half)) for half in np.array_split(it.evidence.raw.x, 2))
-    if max(first, second) <= UNEVEN * min(first, second) or not any(s.state == "for" for s in it.linear):
+    """Return that nothing can be told of a motion whose size or pace changes, if it is more than slow linear noise."""
+    if not any(s.state == "for" for s in it.linear):
         return None
-    says = (
-        f"The size of the motion changes along the recording, from {first:.3g} in its first half to {second:.3g} in "
-        "its second one (standard deviations): all signs suppose a steady motion, so look at a stretch where it is one."
-    )
-    return it.verdict("undecided", says, "open")
+    dt, halves = it.evidence.raw.dt, np.array_split(it.evidence.denoised.series.x, 2)
+    size = [float(np.std(half)) for half in halves]
+    pace = [float(np.std(np.diff(half))) / (dt * max(s, 1e-300)) for half, s in zip(halves, size, strict=True)]
+    for what, unit, (first, second) in (("size", "", size), ("pace", " rad/s", pace)):
+        if max(first, second) > UNEVEN * min(first, second):
+            says = (
+                f"The {what} of the motion changes along the recording, from {first:.3g}{unit} in its first half to "
+                f"{second:.3g}{unit} in its second one (root mean square): all signs suppose a steady motion, so look "
+                "at a stretch where it is one."
+            )
+            return it.verdict("undecided", says, "open")
+    return None
 
 
 def _periodic(it: Weighed) -> Verdict | None:
@@ -114,7 +121,8 @@ def _quasiperiodic(it: Weighed) -> Verdict | None:
         return None
     pair = f"{1.0 / period:.4g} Hz and {tones.second:.4g} Hz"
     duration = evidence.raw.n * evidence.raw.dt
-    if locked := _locked(tones.second * period, duration / period):
+    locked = _locked(tones.second * period, duration / period)
+    if locked and not _drifts(evidence.raw, locked * period):
         says = (
             f"The motion is regular: {pair} make it up. In a recording of {duration / period:.0f} periods it is not "
             f"told whether they have a common period of {locked} of these (periodic) or none (quasiperiodic)."
@@ -137,6 +145,13 @@ def _locked(ratio: float, periods: float) -> int:
         if abs(ratio - round(ratio * q) / q) < TOLD_APART / periods:
             return q
     return 0
+
+
+def _drifts(raw: Series, period: float) -> bool:
+    """Return whether a motion misses itself by ever more after 1, 2, ... of these periods, as two frequencies do."""
+    most = max(2, int(0.5 * raw.n * raw.dt / period))
+    spread = returns(raw, period, most)
+    return bool(np.nanmax(spread) > 1.0 / TOLD_APART * spread[0])
 
 
 def _coarse(it: Weighed) -> Verdict | None:
@@ -203,7 +218,8 @@ def _chaotic(it: Weighed) -> Verdict | None:
              "entropy": "the entropy is {}"}  # fmt: skip
     found = it.evidence.exponent, it.evidence.dimension, it.evidence.entropy
     told = [parts[k].format(_spanned(f)) for k, f in zip(MEASURED, found, strict=True) if it.state(k) == "for"]
-    says = f"{opening} {(', and '.join(told[:2])).capitalize()}."
+    measured_words = ", and ".join(told[:2])
+    says = f"{opening} {measured_words[0].upper()}{measured_words[1:]}."
     return it.verdict("chaotic", says, "likely" if silent else "firm")
 
 

@@ -34,7 +34,7 @@ TILT = 0.2
 dimension is seldom wider than that, so a larger change would be seen as another dimension."""
 SCATTER = 0.15
 """Local slopes that scatter by more than this share within the plateau make none. On flows, maps and tori of known
-dimension they scatter by 0.02 to 0.14: `python benchmarks/verdicts.py --wide --figures`."""
+dimension they scatter by 0.02 to 0.14: `python benchmarks/verdicts.py --set wide --figures`."""
 WIDER = 0.2
 """Radii go up to this share of the range where noise or want of pairs leaves too little below the usual share."""
 RISING_FAR = 0.25
