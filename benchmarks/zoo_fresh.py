@@ -107,7 +107,7 @@ def _henon(y: Array) -> Array:
 
 def fresh_zoo(n: int = 10_000) -> list[Animal]:
     """Return series that were made after the rules were settled, with what each of them is."""
-    hard = settled(duffing(12.0, 1.0, 0.1, 0.0), (0.1, 0.1), TURN / 50, n)
+    hard = settled(duffing(12.0, 1.0, 0.1, 0.0), (2.0, 3.0), TURN / 50, n)
     beats = lines(((1.0, 1.0), (0.3, 1.0 + 0.1 * GOLDEN), (0.3, 1.0 - 0.1 * GOLDEN)), n, 0.031)
     ar2 = autoregressive((0.985 * np.exp(0.3j),), n)
     return [

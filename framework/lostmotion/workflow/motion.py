@@ -11,7 +11,7 @@ import numpy as np
 from lostmotion.contracts import Series
 from lostmotion.results import Estimate
 from lostmotion.workflow.beat import MOST_PERIODS, Evidence, returned, returns
-from lostmotion.workflow.signs import CYCLES, FEWEST_SAMPLES, Sign, State, grows, signs_of, tones_of, turn_of
+from lostmotion.workflow.signs import CYCLES, FEWEST_SAMPLES, Sign, State, grows, signs_of, turn_of
 
 Motion = Literal["periodic", "quasiperiodic", "chaotic", "stochastic", "undecided"]
 Strength = Literal["firm", "likely", "open"]
@@ -116,12 +116,12 @@ def _periodic(it: Weighed) -> Verdict | None:
 def _quasiperiodic(it: Weighed) -> Verdict | None:
     """Return the verdict if two frequencies and their combinations explain the motion, to within its noise."""
     evidence, period = it.evidence, it.evidence.beat.period
-    tones = tones_of(evidence)
-    if tones is None or period is None or (evidence.exponent.ok and evidence.exponent.low > 0.0):
+    found = next(s.figures for s in it.signs if s.key == "return")
+    if period is None or "second" not in found or (evidence.exponent.ok and evidence.exponent.low > 0.0):
         return None
-    pair = f"{1.0 / period:.4g} Hz and {tones.second:.4g} Hz"
+    pair = f"{1.0 / period:.4g} Hz and {found['second']:.4g} Hz"
     duration = evidence.raw.n * evidence.raw.dt
-    locked = _locked(tones.second * period, duration / period)
+    locked = _locked(found["second"] * period, duration / period)
     if locked and not _drifts(evidence.raw, locked * period):
         says = (
             f"The motion is regular: {pair} make it up. In a recording of {duration / period:.0f} periods it is not "
@@ -130,9 +130,9 @@ def _quasiperiodic(it: Weighed) -> Verdict | None:
         return it.verdict("undecided", says, "open")
     says = (
         f"Two frequencies, {pair}, and their combinations make up the motion; "
-        f"{100 * tones.left:.2g} % of it is left, no more than noise."
+        f"{100 * found['left']:.2g} % of it is left, no more than noise."
     )
-    rests = f"left by two tones: {100 * tones.left:.2g} %, noise at most {100 * evidence.noise:.2g} %"
+    rests = f"left by two tones: {100 * found['left']:.2g} %, noise at most {100 * evidence.noise:.2g} %"
     return it.verdict("quasiperiodic", says + _all_the_same(it), _unless_growth(it), (rests,))
 
 
@@ -287,10 +287,11 @@ def _spanned(found: Estimate) -> str:
 
 
 def _undecided_words(it: Weighed) -> str:
-    """Return how many signs are in which state, and which."""
-    ways: tuple[tuple[State, str], ...] = (("for", "for chaos"), ("against", "against it"), ("silent", "silent"))
-    parts = [f"{len(those)} {words} ({_named(those)})" for state, words in ways if (those := it.those(state))]
+    """Return how many signs are in which state, and which of them do not speak for chaos."""
+    pro, con, silent = it.those("for"), it.those("against"), it.those("silent")
+    against = f"{len(con)} against it ({_named(con)})" if con else "none against it"
+    rest = f"{len(silent)} silent ({_named(silent)})" if silent else "none silent"
     return (
-        f"The {len(it.signs)} signs of chaos do not make a verdict: {'; '.join(parts)}. "
-        "A longer or cleaner recording would tell."
+        f"Of {len(it.signs)} signs {len(pro)} speak{'s' if len(pro) == 1 else ''} for chaos, {against}, and {rest}: "
+        "that is not enough for a verdict. A longer or cleaner recording may tell."
     )

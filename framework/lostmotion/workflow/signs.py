@@ -26,6 +26,8 @@ TURNS = 1.0
 """Growth over less time than one turn of the motion is no sign: within a turn distances rise and fall by themselves."""
 FEWEST_SAMPLES = 1000
 """With fewer samples the rank among surrogates and the slopes depend on single stretches of the orbit."""
+FEWEST_TURNS = 10
+"""Within fewer turns any motion is a line or two of the spectrum, and surrogates with these lines are like it."""
 FEWEST_PERIODS = 20
 """With fewer periods it is not told whether a motion comes back, nor how many frequencies it has."""
 TONES_FLOOR = 0.02
@@ -96,7 +98,7 @@ def _return(evidence: Evidence) -> Sign:
         return sign("against", f"The motion comes back {cycle}, but for {100 * left:.2g} % of its size.", **figures)
     if tones := tones_of(evidence):
         says = f"Two frequencies make up the motion, but for {100 * tones.left:.2g} % of its size."
-        return sign("against", says, second=tones.second, **figures)
+        return sign("against", says, second=tones.second, left=tones.left, **figures)
     if many < FEWEST_PERIODS:
         return sign("silent", f"The recording holds {many:.0f} periods, and {FEWEST_PERIODS} are wanted.", **figures)
     says = (
@@ -118,6 +120,10 @@ def _test(test: SurrogateTest, evidence: Evidence) -> Sign:
         return sign("silent", test.says)
     if evidence.raw.n < FEWEST_SAMPLES:
         return sign("silent", f"{evidence.raw.n} samples are too few for this test: {FEWEST_SAMPLES} are wanted.")
+    turns = evidence.raw.n * evidence.raw.dt / turn_of(evidence)
+    if not test.rejects(SIGNIFICANT) and turns < FEWEST_TURNS:
+        says = f"The surrogates are as easy to predict, but {turns:.0f} turns of the motion are too few to say more."
+        return sign("silent", says)
     if test.rejects(SIGNIFICANT):
         return sign("for", f"The recording is easier to predict than its surrogates (p = {test.p:.2g}).")
     return sign("against", f"The surrogates are as easy to predict as the recording (p = {test.p:.2g}).")

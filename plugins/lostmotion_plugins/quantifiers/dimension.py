@@ -88,6 +88,7 @@ class CorrelationDimension(Quantifier[Series]):
         details = {"pairs": float(sums.pairs.sum()), "ties": sums.ties(1), "noise": noise, **it.details}
         if found is not None:
             details["tilt"], details["scatter"] = flatness(curve, found)
+            details["r_low"], details["r_high"] = found.ends
         if found is None or _status(found) or _uneven(details):
             return _declined(found, sums, noise * float(np.std(it.x)), curve, details)
         return self._told(found, sums, it, curve, details)
@@ -103,7 +104,7 @@ class CorrelationDimension(Quantifier[Series]):
         total = sums.total[found.dims]
         takens = float(np.mean([takens_theiler(t, sums.radii, low, high) for t in total]))
         value = takens if self.takens and math.isfinite(takens) else found.mean
-        details |= {"r_low": low, "r_high": high, "takens": takens, "dim": float(found.first), "rise": found.rise}
+        details |= {"takens": takens, "dim": float(found.first), "rise": found.rise}
         says = it.says
         return Estimate(value, value - 1.96 * error, value + 1.96 * error, "ok", "1", curve, says, details)
 
