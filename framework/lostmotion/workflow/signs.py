@@ -26,10 +26,9 @@ TURNS = 1.0
 """Growth over less time than one turn of the motion is no sign: within a turn distances rise and fall by themselves."""
 FEWEST_SAMPLES = 1000
 """With fewer samples the rank among surrogates and the slopes depend on single stretches of the orbit."""
-FEWEST_TURNS = 10
-"""Within fewer turns any motion is a line or two of the spectrum, and surrogates with these lines are like it."""
 FEWEST_PERIODS = 20
-"""With fewer periods it is not told whether a motion comes back, nor how many frequencies it has."""
+"""With fewer periods it is not told whether a motion comes back, nor how many frequencies it has. Within fewer turns
+surrogates are like any motion that is a line or two of the spectrum, so that a test they pass is silent."""
 TONES_FLOOR = 0.02
 FLAT = 1.5
 """A dimension whose interval ends below this is that of a closed curve: a chaotic flow has more than 2."""
@@ -121,7 +120,7 @@ def _test(test: SurrogateTest, evidence: Evidence) -> Sign:
     if evidence.raw.n < FEWEST_SAMPLES:
         return sign("silent", f"{evidence.raw.n} samples are too few for this test: {FEWEST_SAMPLES} are wanted.")
     turns = evidence.raw.n * evidence.raw.dt / turn_of(evidence)
-    if not test.rejects(SIGNIFICANT) and turns < FEWEST_TURNS:
+    if not test.rejects(SIGNIFICANT) and turns < FEWEST_PERIODS:
         says = f"The surrogates are as easy to predict, but {turns:.0f} turns of the motion are too few to say more."
         return sign("silent", says)
     if test.rejects(SIGNIFICANT):
