@@ -19,7 +19,7 @@ from lostmotion.likelihood.system import System
 from lostmotion.registry import Registry
 from lostmotion.results import Embedding
 from lostmotion.workflow import analyse, diagnose
-from lostmotion.workflow.motion import Beat
+from lostmotion.workflow.beat import Beat
 from lostmotion.workflow.prepare import Prepared
 from lostmotion.workflow.vetting import Guests, raising, usable_terms
 

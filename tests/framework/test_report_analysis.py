@@ -17,7 +17,7 @@ from lostmotion.report.analysis import SECTIONS, render, write_analysis
 from lostmotion.report.analysis_facts import read_analysis
 from lostmotion.report.analysis_measures import natural
 from lostmotion.report.analysis_summary import figure_summary
-from lostmotion.report.analysis_tables import estimate, opening
+from lostmotion.report.analysis_tables import estimate, opening, signs, verdict
 from lostmotion.report.words import power_of_ten, shortened
 
 ALL = [section.name for section in SECTIONS]
@@ -232,3 +232,20 @@ def test_summary_is_one_small_picture(folders, kind):
 def test_facts_are_those_of_the_contract():
     keys = {"schema", "verdict", "says", "delay", "dimension", "noise", "lyapunov", "d2", "surrogates"}
     assert keys <= set(json.loads(json.dumps(made.facts("", 0.1, 1))))
+
+
+def signed(state, name="growth"):
+    return {"sign": name, "name": name, "state": state, "says": f"it is {state} & <b>", "excludes": "noise"}
+
+
+def test_each_sign_stands_with_its_state_and_why(whole):
+    page = _words(render(_said(whole, signs=[signed("silent", "a"), signed("against", "b"), signed("for", "c")])))
+    assert "1 for chaos, 1 against it, 1 silent" in page
+    assert page.index("It is for & <b>.") < page.index("It is against & <b>.") < page.index("It is silent & <b>.")
+    assert "<b>" not in render(_said(whole, signs=[signed("for")]))
+    assert signs(_said(whole, signs=[signed("odd"), "text"])) == []
+
+
+@pytest.mark.parametrize(("strength", "word"), [("firm", "Chaotic"), ("likely", "Probably chaotic"), (None, "Chaotic")])
+def test_the_badge_is_as_firm_as_the_signs(whole, strength, word):
+    assert verdict(_said(whole, strength=strength)) == ("chaotic", word)

@@ -48,7 +48,7 @@ def done(folder, tmp_path_factory):
 def test_the_verdict_is_said_and_the_files_are_there(done):
     result, out = done
     assert result.exit_code == 0, result.output
-    assert result.output.startswith("chaotic: ")
+    assert result.output.startswith("probably chaotic: ")
     assert {p.name for p in out.iterdir()} == {"analysis.json", "analysis.nc", "report.html"}
 
 

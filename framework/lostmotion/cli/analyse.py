@@ -63,7 +63,8 @@ def command(ctx: click.Context, /, recording: Path, out: Path, quiet: bool, **as
 
     with progress("analyse", quiet=quiet) as say:
         content = run_analysis(recording, out, registry_of(ctx), Request(**asked), say)  # type: ignore[arg-type]
-    click.echo(f"{content['verdict']}: {content['says']}")
+    likely = "probably " if content["strength"] == "likely" else ""
+    click.echo(f"{likely}{content['verdict']}: {content['says']}")
     for line in (*_numbers(content), *content["notes"]):
         click.echo(line)
     click.echo(str(out / "report.html"))

@@ -28,6 +28,7 @@ VERDICTS = {
     "chaotic": ("chaotic", "Chaotic"),
     "stochastic": ("random", "Stochastic"),
 }
+STATES = {"for": ("for chaos", "pro"), "against": ("against chaos", "con"), "silent": ("silent", "mute")}
 SIGNIFICANT = 0.05
 EXPONENT = "lyapunov_"
 NO_RANK = "No p-value: the statistic could not be had."
@@ -49,6 +50,16 @@ class Row(NamedTuple):
     kind: str = "ok"
 
 
+class SignRow(NamedTuple):
+    """A sign of chaos: its name, its state with the style of that, why, and what other explanation it rules out."""
+
+    name: str
+    state: str
+    kind: str
+    says: str
+    excludes: str
+
+
 class Test(NamedTuple):
     """A surrogate test: what was supposed, how it was tried, the p-value, and what follows."""
 
@@ -60,8 +71,30 @@ class Test(NamedTuple):
 
 
 def verdict(evidence: Evidence) -> tuple[str, str]:
-    """Return kind (a style of the page) and word of the verdict."""
-    return VERDICTS.get(str(evidence.fact("verdict")), ("unknown", "Undecided"))
+    """Return kind (a style of the page) and word of the verdict, which says where some signs are silent."""
+    kind, word = VERDICTS.get(str(evidence.fact("verdict")), ("unknown", "Undecided"))
+    likely = evidence.fact("strength") == "likely" and kind != "unknown"
+    return kind, f"Probably {word[0].lower()}{word[1:]}" if likely else word
+
+
+def signs(evidence: Evidence) -> list[SignRow]:
+    """Return the rows of the table of signs: those for chaos first, then those against it, then the silent ones."""
+    rows = rows_of(evidence, "signs")
+    order = list(STATES)
+    known = [row for row in rows if row.get("state") in STATES]
+    return [
+        SignRow(sentence(_brief(str(row.get("name") or row.get("sign") or DASH))), *STATES[str(row["state"])],
+                whole(str(row.get("says") or "")), str(row.get("excludes") or ""))
+        for row in sorted(known, key=lambda row: order.index(str(row["state"])))
+    ]  # fmt: skip
+
+
+def tally(evidence: Evidence) -> str:
+    """Return how many signs are in which state, in words, or nothing without signs."""
+    states = [str(row.get("state")) for row in rows_of(evidence, "signs")]
+    if not states:
+        return ""
+    return f"{states.count('for')} for chaos, {states.count('against')} against it, {states.count('silent')} silent"
 
 
 def opening(evidence: Evidence) -> list[str]:

@@ -25,7 +25,9 @@ from lostmotion.stages.surrogates import SurrogateTest, surrogate_test
 from lostmotion.storage import folder_for, save_arrays, save_json
 from lostmotion.workflow.analysis_arrays import arrays_of
 from lostmotion.workflow.analysis_words import statement
-from lostmotion.workflow.motion import CYCLES, Beat, Evidence, Verdict, beat_of, judged, returns
+from lostmotion.workflow.beat import Beat, Evidence, beat_of, returns
+from lostmotion.workflow.motion import Verdict, judged
+from lostmotion.workflow.signs import CYCLES
 from lostmotion.workflow.source import Source, Wanted, source_of
 from lostmotion.workflow.vetting import Guests
 
@@ -141,7 +143,7 @@ def analyse(source: Source, registry: Registry, request: Request, say: Say = lam
         others=others,
         tests=tests,
         surrogate_dims=_surrogate_dims(raw, registry, request, say),
-        verdict=judged(Evidence(beat, raw, denoised, exponent, dimension, tests)),
+        verdict=judged(Evidence(beat, raw, denoised, exponent, dimension, entropy, tests)),
         exponent_method=EXPONENT.removeprefix("lyapunov_"),
         denoiser=denoiser,
         aside=tuple(dict.fromkeys(guests.said)),

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from lostmotion.results import Estimate
 from lostmotion.stages.surrogates import SurrogateTest
+from lostmotion.workflow.signs import Sign
 
 if TYPE_CHECKING:
     from lostmotion.workflow.analyse import Analysis
@@ -22,7 +23,9 @@ def statement(analysis: Analysis) -> dict[str, Any]:
         "schema": "lostmotion.analysis/1",
         "title": analysis.source.title,
         "verdict": analysis.verdict.motion,
+        "strength": analysis.verdict.strength,
         "says": analysis.verdict.says,
+        "signs": [signed(sign) for sign in analysis.verdict.signs],
         "because": list(analysis.verdict.because),
         "delay": {"samples": embedding.lag, "seconds": embedding.lag * clean.dt, "method": how[0]},
         "dimension": {"value": embedding.dim, "method": how[1], "theiler": embedding.theiler},
@@ -54,6 +57,18 @@ def entry(found: Estimate, method: str) -> dict[str, Any]:
         "status": found.status,
         "says": found.says,
         "details": dict(found.details),
+    }
+
+
+def signed(sign: Sign) -> dict[str, Any]:
+    """Return one sign of chaos: its state (for, against, silent), the sentence why, and its numbers."""
+    return {
+        "sign": sign.key,
+        "name": sign.name,
+        "state": sign.state,
+        "says": sign.says,
+        "excludes": sign.excludes,
+        "figures": dict(sign.figures),
     }
 
 

@@ -1,286 +1,297 @@
-"""What kind of motion it is: periodic, quasiperiodic, chaotic or stochastic, weighed from all that was measured."""
+"""What kind of motion it is: periodic, quasiperiodic, chaotic or stochastic, and how firmly its signs bear that."""
 
 from __future__ import annotations
 
-import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
 
-from lostmotion.contracts import Array, Series
+from lostmotion.contracts import Series
 from lostmotion.results import Estimate
-from lostmotion.signals import base_line, refined_period, return_spread, two_tones
-from lostmotion.stages.denoise import Denoised
-from lostmotion.stages.surrogates import SurrogateTest
-from lostmotion.workflow.source import Source
+from lostmotion.workflow.beat import MOST_PERIODS, Evidence, returned, returns
+from lostmotion.workflow.signs import CYCLES, FEWEST_SAMPLES, Sign, State, grows, signs_of, turn_of
 
 Motion = Literal["periodic", "quasiperiodic", "chaotic", "stochastic", "undecided"]
-SLACK, FLOOR, LOUDEST = 1.4, 0.01, 0.2
-"""What repeats to within so many times its noise, and a hundredth of its size, is taken to repeat."""
-TONES_FLOOR = 0.02
-MOST_PERIODS, DRIFT, DRIFT_FLOOR = 16, 1.15, 0.002
-SIGNIFICANT, CYCLES = 0.05, "pseudo_periodic"
+Strength = Literal["firm", "likely", "open"]
+"""How far the signs bear a verdict: all that can, some while others are silent, or not at all."""
 MOST_LEFT = 0.5
 """Share of the variance that may not repeat in a motion that is called periodic but for fluctuations."""
-FEWEST_PERIODS, ENOUGH_PERIODS = 20, 100
-FEWEST_VALUES, FEWEST_SAMPLES = 16, 1000
+ENOUGH_PERIODS = 100
+FEWEST_VALUES = 16
 UNEVEN = 2.0
 """Ratio of the standard deviations of two halves from which on a recording is not taken to be steady."""
-
-
-@dataclass(frozen=True)
-class Beat:
-    """The period (s) of a motion and where it comes from; a line that keeps its phase is taken for that of a drive."""
-
-    period: float | None
-    source: Literal["excitation", "given", "spectrum", "none"]
-    notes: tuple[str, ...] = ()
-
-
-@dataclass(frozen=True, eq=False)
-class Evidence:
-    """What the verdict is made of."""
-
-    beat: Beat
-    raw: Series
-    denoised: Denoised
-    exponent: Estimate
-    dimension: Estimate
-    tests: tuple[SurrogateTest, ...]
-
-    @property
-    def noise(self) -> float:
-        """The upper end of the noise level, as a share of the standard deviation, no more than can pass for noise."""
-        high = self.denoised.before.high
-        return min(high, LOUDEST) if math.isfinite(high) else 0.0
+TOLD_APART = 0.25
+"""Frequencies closer than this share of one line of the spectrum are not told apart."""
+MEASURED, ENOUGH_MEASURED = ("exponent", "dimension", "entropy"), 2
+"""What is measured of a motion, and how many of these must speak for chaos: any one alone is found in some series that
+are not chaotic, as the tables of `benchmarks/verdicts.py --set wide` show."""
+LINEAR = "surrogates_"
+TESTED_CYCLES = LINEAR + CYCLES
 
 
 @dataclass(frozen=True)
 class Verdict:
-    """The kind of motion, one or two sentences, and the observations it rests on."""
+    """The kind of motion, how firmly, one or two sentences, what it rests on, and the state of every sign of chaos."""
 
     motion: Motion
     says: str
     because: tuple[str, ...]
+    strength: Strength = "open"
+    signs: tuple[Sign, ...] = ()
 
 
-def beat_of(x: Array, source: Source, given: float | None) -> Beat:
-    """Return the period of the drive: as given, as measured going in, or as the strongest line of the response."""
-    if given is not None:
-        return Beat(given, "given")
-    if source.excitation is not None:
-        period = refined_period(source.excitation, source.dt)
-        if period is not None and _fits(period, x, source.dt):
-            return Beat(period, "excitation")
-        return Beat(None, "none", ("The excitation is not periodic: nothing is said about periods.",))
-    line = base_line(x, source.dt)
-    if line is None or not _fits(line.period, x, source.dt):
-        return Beat(None, "none")
-    note = f"The period of {line.period:.6g} s was read from the spectrum: give --period if the drive has another one."
-    return Beat(line.period, "spectrum", (note,))
+@dataclass(frozen=True, eq=False)
+class Weighed:
+    """The evidence with its signs."""
 
+    evidence: Evidence
+    signs: tuple[Sign, ...]
 
-def _fits(period: float, x: Array, dt: float) -> bool:
-    return 2.0 * dt < period < 0.2 * len(x) * dt
+    def state(self, key: str) -> State:
+        """Return the state of one sign, silent where it is absent."""
+        return next((s.state for s in self.signs if s.key == key), "silent")
+
+    def those(self, state: State) -> tuple[Sign, ...]:
+        """Return the signs in this state."""
+        return tuple(s for s in self.signs if s.state == state)
+
+    @property
+    def tests(self) -> tuple[Sign, ...]:
+        """The surrogate tests."""
+        return tuple(s for s in self.signs if s.key.startswith(LINEAR))
+
+    @property
+    def linear(self) -> tuple[Sign, ...]:
+        """The surrogate tests of linear noise."""
+        return tuple(s for s in self.tests if s.key != TESTED_CYCLES)
+
+    def verdict(self, motion: Motion, says: str, strength: Strength, first: tuple[str, ...] = ()) -> Verdict:
+        """Return a verdict with all signs, and what it rests on: `first`, and what the signs that spoke said."""
+        spoken = (f"{s.name}: {s.says}" for s in self.signs if s.state != "silent")
+        return Verdict(motion, says, (*first, *spoken), strength, self.signs)
 
 
 def judged(evidence: Evidence) -> Verdict:
-    """Return the verdict on a motion; the first that holds of periodic, quasiperiodic, chaotic and stochastic."""
-    for rule in (_periodic, _quasiperiodic, _coarse, _regular, _jittering):
-        if found := rule(evidence):
+    """Return the verdict on a motion: that of the first rule that holds, else undecided."""
+    it = Weighed(evidence, signs_of(evidence))
+    for rule in (_unsteady, _periodic, _quasiperiodic, _coarse, _regular, _jittering, _chaotic, _short, _stochastic):
+        if found := rule(it):
             return found
-    return _ruled_or_random(evidence)
+    return it.verdict("undecided", _undecided_words(it), "open")
 
 
-def returns(series: Series, period: float, most: int = MOST_PERIODS) -> Array:
-    """Return by how much x(t + k period) misses x(t), k = 1 ... `most`, as a share of the standard deviation."""
-    return np.asarray(return_spread(series.x, series.dt, period, most=most) / math.sqrt(2.0))
-
-
-def returned(raw: Series, period: float, noise: float) -> tuple[int, float]:
-    """Return after how many periods a motion comes back, to within its noise, and by how much it misses; 0 for never.
-
-    `noise` and the miss are shares of the standard deviation.
-    """
-    spread = returns(raw, period, 2 * MOST_PERIODS)
-    limit = SLACK * noise + FLOOR
-    once, twice = spread[:MOST_PERIODS], spread[1::2]
-    # Two frequencies nearly return after some periods, and miss by twice as much after twice as many.
-    back = np.flatnonzero((once <= limit) & ~(twice > DRIFT * once + DRIFT_FLOOR))
-    return (int(back[0]) + 1, float(spread[back[0]])) if len(back) else (0, float(np.nanmin(once)))
-
-
-def _periodic(evidence: Evidence) -> Verdict | None:
-    """Return the verdict if the motion comes back to itself after some periods, to within its noise."""
-    period = evidence.beat.period
-    if period is None:
+def _unsteady(it: Weighed) -> Verdict | None:
+    """Return that nothing can be told of a motion whose size or pace changes, if it is more than slow linear noise."""
+    if not any(s.state == "for" for s in it.linear):
         return None
-    times, left = returned(evidence.raw, period, evidence.noise)
-    if not times:
+    dt, halves = it.evidence.raw.dt, np.array_split(it.evidence.denoised.series.x, 2)
+    size = [float(np.std(half)) for half in halves]
+    pace = [float(np.std(np.diff(half))) / (dt * max(s, 1e-300)) for half, s in zip(halves, size, strict=True)]
+    for what, unit, (first, second) in (("size", "", size), ("pace", " rad/s", pace)):
+        if max(first, second) > UNEVEN * min(first, second):
+            says = (
+                f"The {what} of the motion changes along the recording, from {first:.3g}{unit} in its first half to "
+                f"{second:.3g}{unit} in its second one (root mean square): all signs suppose a steady motion, so look "
+                "at a stretch where it is one."
+            )
+            return it.verdict("undecided", says, "open")
+    return None
+
+
+def _periodic(it: Weighed) -> Verdict | None:
+    """Return the verdict if the motion comes back to itself after some periods, to within its noise."""
+    period = it.evidence.beat.period
+    times, left = (0, 0.0) if period is None else returned(it.evidence.raw, period, it.evidence.noise)
+    if not times or period is None:
         return None
     cycle = "each period" if times == 1 else f"every {times} periods"
     noise = f"{100 * left:.2g} %"
-    return Verdict(
-        "periodic",
-        f"The motion repeats itself {cycle} of {period:.4g} s; {noise} of it does not repeat, no more than noise.",
-        (f"return after {times} periods: {noise}, noise at most {100 * evidence.noise:.2g} %",),
-    )
+    says = f"The motion repeats itself {cycle} of {period:.4g} s; {noise} of it does not repeat, no more than noise."
+    rests = f"return after {times} periods: {noise}, noise at most {100 * it.evidence.noise:.2g} %"
+    return it.verdict("periodic", says + _all_the_same(it), _unless_growth(it), (rests,))
 
 
-def _quasiperiodic(evidence: Evidence) -> Verdict | None:
+def _quasiperiodic(it: Weighed) -> Verdict | None:
     """Return the verdict if two frequencies and their combinations explain the motion, to within its noise."""
-    period, raw = evidence.beat.period, evidence.raw
-    if period is None:
+    evidence, period = it.evidence, it.evidence.beat.period
+    found = next(s.figures for s in it.signs if s.key == "return")
+    if period is None or "second" not in found or (evidence.exponent.ok and evidence.exponent.low > 0.0):
         return None
-    tones = two_tones(raw.x, raw.dt, 1.0 / period)
-    duration = raw.n * raw.dt
-    if tones.left > SLACK * evidence.noise + TONES_FLOOR or tones.second * duration < FEWEST_PERIODS:
-        return None
-    if evidence.exponent.ok and evidence.exponent.low > 0.0:
-        return None
-    return Verdict(
-        "quasiperiodic",
-        f"Two frequencies, {1.0 / period:.4g} Hz and {tones.second:.4g} Hz, and their combinations make up the motion; "
-        f"{100 * tones.left:.2g} % of it is left, no more than noise.",
-        (f"left by two tones: {100 * tones.left:.2g} %, noise at most {100 * evidence.noise:.2g} %",),
+    pair = f"{1.0 / period:.4g} Hz and {found['second']:.4g} Hz"
+    duration = evidence.raw.n * evidence.raw.dt
+    locked = _locked(found["second"] * period, duration / period)
+    if locked and not _drifts(evidence.raw, locked * period):
+        says = (
+            f"The motion is regular: {pair} make it up. In a recording of {duration / period:.0f} periods it is not "
+            f"told whether they have a common period of {locked} of these (periodic) or none (quasiperiodic)."
+        )
+        return it.verdict("undecided", says, "open")
+    says = (
+        f"Two frequencies, {pair}, and their combinations make up the motion; "
+        f"{100 * found['left']:.2g} % of it is left, no more than noise."
     )
+    rests = f"left by two tones: {100 * found['left']:.2g} %, noise at most {100 * evidence.noise:.2g} %"
+    return it.verdict("quasiperiodic", says + _all_the_same(it), _unless_growth(it), (rests,))
 
 
-def _coarse(evidence: Evidence) -> Verdict | None:
+def _locked(ratio: float, periods: float) -> int:
+    """Return after how many periods two frequencies of this ratio may come back together; 0 for never.
+
+    They do after q if the ratio lies within what the length of a recording resolves of a multiple of 1/q.
+    """
+    for q in range(1, MOST_PERIODS // 2 + 1):
+        if abs(ratio - round(ratio * q) / q) < TOLD_APART / periods:
+            return q
+    return 0
+
+
+def _drifts(raw: Series, period: float) -> bool:
+    """Return whether a motion misses itself by ever more after 1, 2, ... of these periods, as two frequencies do."""
+    most = max(2, int(0.5 * raw.n * raw.dt / period))
+    spread = returns(raw, period, most)
+    return bool(np.nanmax(spread) > 1.0 / TOLD_APART * spread[0])
+
+
+def _coarse(it: Weighed) -> Verdict | None:
     """Return that nothing can be told if the sensor shows too few values for near states to be told apart."""
-    values = len(np.unique(evidence.raw.x))
+    values = len(np.unique(it.evidence.raw.x))
     if values >= FEWEST_VALUES:
         return None
     says = (
         f"The recording holds {values} different values only, and near states cannot be told apart: "
         f"{FEWEST_VALUES} are wanted, so use a finer sensor or a larger motion."
     )
-    return Verdict("undecided", says, ())
+    return it.verdict("undecided", says, "open")
 
 
-def _regular(evidence: Evidence) -> Verdict | None:
+def _regular(it: Weighed) -> Verdict | None:
     """Return the verdict if near states do not part, the motion is no noise, and it does not come back either."""
-    exponent = evidence.exponent
-    tested = bool(evidence.tests) and all(t.rejects(SIGNIFICANT) for t in evidence.tests)
-    if exponent.status != "regular" or not math.isfinite(exponent.value) or not tested:
+    exponent = it.evidence.exponent
+    tested = bool(it.tests) and all(s.state == "for" for s in it.tests)
+    if exponent.status != "regular" or not np.isfinite(exponent.value) or not tested:
         return None
     says = (
         "Near states do not part, and yet no number of periods brings the motion back: "
         f"the exponent is {exponent.value:.2g} {exponent.unit} [{exponent.low:.2g}, {exponent.high:.2g}]."
     )
-    return Verdict("quasiperiodic", says, tuple(t.says for t in evidence.tests))
+    return it.verdict("quasiperiodic", says, "likely")
 
 
-def _jittering(evidence: Evidence) -> Verdict | None:
+def _jittering(it: Weighed) -> Verdict | None:
     """Return the verdict if most of the motion repeats itself, and what does not shows no sign of being ruled."""
-    period = evidence.beat.period
+    evidence, period = it.evidence, it.evidence.beat.period
     if period is None:
         return None
     left = float(np.nanmin(returns(evidence.raw, period)))
-    cycles = [t for t in evidence.tests if t.method == CYCLES]
-    shuffled = bool(cycles) and not any(t.rejects(SIGNIFICANT) for t in cycles)
-    if left**2 > MOST_LEFT or not (shuffled or not (_grows(evidence.exponent) or _levels(evidence.dimension))):
+    shuffled = it.state(TESTED_CYCLES) == "against"
+    signs = "for" in (it.state("exponent"), it.state("dimension")) or grows(evidence.exponent)
+    if left**2 > MOST_LEFT or (signs and not shuffled):
         return None
+    p = next((t.p for t in evidence.tests if t.method == CYCLES), np.nan)
     why = (
-        f"cycles in any other order look just like it (p = {cycles[0].p:.2g})"
+        f"cycles in any other order look just like it (p = {p:.2g})"
         if shuffled
         else "neither a growth of small differences nor a dimension can be found in them"
     )
-    return Verdict(
-        "periodic",
+    says = (
         f"The motion repeats itself with a period of {period:.4g} s but for random fluctuations of {100 * left:.2g} %: "
-        f"{why}.",
-        tuple(t.says for t in evidence.tests),
+        f"{why}."
     )
+    return it.verdict("periodic", says + _all_the_same(it), "likely")
 
 
-def _grows(exponent: Estimate) -> bool:
-    return exponent.status in ("ok", "uncertain") and exponent.low > 0.0
+def _chaotic(it: Weighed) -> Verdict | None:
+    """Return chaotic if all tests and two of growth, dimension and entropy speak for it, and no sign against it.
+
+    It is firm where every sign speaks for it, and likely where some are silent.
+    """
+    tested = bool(it.tests) and all(s.state == "for" for s in it.tests)
+    measured = sum(it.state(key) == "for" for key in MEASURED)
+    if it.those("against") or not tested or measured < ENOUGH_MEASURED:
+        return None
+    silent, spoken = it.those("silent"), it.those("for")
+    opening = f"{len(spoken)} of {len(it.signs)} signs speak for chaos and none against it; silent: {_named(silent)}."
+    opening = opening if silent else f"All {len(it.signs)} signs speak for chaos."
+    parts = {"exponent": "near states part at {}", "dimension": "the correlation dimension levels off at {}",
+             "entropy": "the entropy is {}"}  # fmt: skip
+    found = it.evidence.exponent, it.evidence.dimension, it.evidence.entropy
+    told = [parts[k].format(_spanned(f)) for k, f in zip(MEASURED, found, strict=True) if it.state(k) == "for"]
+    measured_words = ", and ".join(told[:2])
+    says = f"{opening} {measured_words[0].upper()}{measured_words[1:]}."
+    return it.verdict("chaotic", says, "likely" if silent else "firm")
 
 
-def _levels(dimension: Estimate) -> bool:
-    return dimension.status in ("ok", "uncertain")
-
-
-def _ruled_or_random(evidence: Evidence) -> Verdict:
-    """Return chaotic, stochastic or undecided, by the tests, the exponent and the dimension together."""
-    exponent, dimension = evidence.exponent, evidence.dimension
-    rejected = [t.rejects(SIGNIFICANT) for t in evidence.tests]
-    ruled = bool(rejected) and all(rejected)
-    grows, levels = _grows(exponent), _levels(dimension)
-    because = (*(t.says for t in evidence.tests), _said("Largest exponent", exponent), _said("Dimension", dimension))
-    if ruled and grows and (levels or dimension.status == "below_noise"):
-        return Verdict("chaotic", _chaotic_words(evidence), because)
-    if lack := _lack(evidence, any(rejected)):
-        return Verdict("undecided", lack, because)
-    if not levels and not (grows and any(rejected)):
-        return Verdict("stochastic", _stochastic_words(evidence), because)
-    return Verdict("undecided", _undecided_words(ruled, grows, levels), because)
-
-
-def _lack(evidence: Evidence, rejected: bool) -> str:
-    """Return what the recording lacks for refusals to speak against chaos, and not only of the recording."""
+def _short(it: Weighed) -> Verdict | None:
+    """Return what the recording lacks for silence to say something of the motion, and not only of the recording."""
+    evidence = it.evidence
     if evidence.raw.n < FEWEST_SAMPLES:
-        return f"A recording of {evidence.raw.n} samples is too short to tell: {FEWEST_SAMPLES} are wanted at least."
-    if not rejected or _grows(evidence.exponent) or _levels(evidence.dimension):
-        return ""
-    if not _long_enough(evidence):
-        return (
-            "It is not linear noise, but the recording is too short for an exponent or a dimension: "
-            f"{ENOUGH_PERIODS} periods are wanted at least."
-        )
-    first, second = np.array_split(evidence.raw.x, 2)
-    if max(np.std(first), np.std(second)) > UNEVEN * min(np.std(first), np.std(second)):
-        return "It is not linear noise, but its size changes along the recording: look at a stretch where it is steady."
-    return ""
+        says = f"A recording of {evidence.raw.n} samples is too short to tell: {FEWEST_SAMPLES} are wanted at least."
+        return it.verdict("undecided", says, "open")
+    known = "for" in (it.state("exponent"), it.state("dimension"))
+    if known or not any(s.state == "for" for s in it.linear) or _long_enough(evidence):
+        return None
+    says = (
+        "It is not linear noise, but the recording is too short for an exponent or a dimension: "
+        f"{ENOUGH_PERIODS} periods are wanted at least."
+    )
+    return it.verdict("undecided", says, "open")
 
 
 def _long_enough(evidence: Evidence) -> bool:
-    """Return whether there were enough points and periods for an exponent and a dimension."""
+    """Return whether there were enough points and turns for an exponent and a dimension."""
     statuses = {evidence.exponent.status, evidence.dimension.status}
     short = statuses & {"too_short", "too_few_neighbours", "failed"}
-    period = evidence.beat.period
-    periods = math.inf if period is None else evidence.raw.n * evidence.raw.dt / period
-    return not short and periods >= ENOUGH_PERIODS
+    return not short and evidence.raw.n * evidence.raw.dt / turn_of(evidence) >= ENOUGH_PERIODS
 
 
-def _said(what: str, found: Estimate) -> str:
-    if not math.isfinite(found.value):
-        return f"{what}: {found.says}"
+def _stochastic(it: Weighed) -> Verdict | None:
+    """Return stochastic if something speaks for noise: a test that noise passes, a dimension or entropy of noise.
+
+    Silence alone is none: what cannot be read from a recording may be there all the same.
+    """
+    if "for" in (it.state("exponent"), it.state("dimension")):
+        return None
+    linear = [s for s in it.linear if s.state == "against"]
+    endless = [k for k in ("dimension", "entropy") if it.state(k) == "against"]
+    if not linear and not endless:
+        return None
+    if linear:
+        p = min(s.figures["p"] for s in linear)
+        says = f"Noise with the same spectrum and values looks just like it (p = {p:.2g}): nothing speaks for chaos."
+        return it.verdict("stochastic", says, "firm" if endless else "likely")
+    what = " and the ".join(endless)
+    says = (
+        f"It is not linear noise, yet the {what} rise{'s' if len(endless) == 1 else ''} without end, as that of noise "
+        "does, and no separation of near states can be found."
+    )
+    return it.verdict("stochastic", says, "likely")
+
+
+def _all_the_same(it: Weighed) -> str:
+    return " Near states seem to part all the same, which contradicts it." if it.state("exponent") == "for" else ""
+
+
+def _unless_growth(it: Weighed) -> Strength:
+    return "likely" if it.state("exponent") == "for" else "firm"
+
+
+def _named(signs: Iterable[Sign]) -> str:
+    return ", ".join(s.name[0].lower() + s.name[1:] for s in signs)
+
+
+def _spanned(found: Estimate) -> str:
     unit = "" if found.unit == "1" else f" {found.unit}"
-    return f"{what}: {found.value:.3g}{unit} [{found.low:.3g}, {found.high:.3g}]"
+    return f"{found.value:.3g}{unit} [{found.low:.3g}, {found.high:.3g}]"
 
 
-def _chaotic_words(evidence: Evidence) -> str:
-    exponent, dimension = evidence.exponent, evidence.dimension
-    p = max(t.p for t in evidence.tests)
-    level = f", the correlation dimension levels off at {dimension.value:.2f}" if math.isfinite(dimension.value) else ""
+def _undecided_words(it: Weighed) -> str:
+    """Return how many signs are in which state, and which of them do not speak for chaos."""
+    pro, con, silent = it.those("for"), it.those("against"), it.those("silent")
+    against = f"{len(con)} against it ({_named(con)})" if con else "none against it"
+    rest = f"{len(silent)} silent ({_named(silent)})" if silent else "none silent"
     return (
-        f"All signs agree: neighbouring states part at {exponent.value:.3g} {exponent.unit} [{exponent.low:.3g}, "
-        f"{exponent.high:.3g}]{level}, and noise with the same spectrum and values does not look like it "
-        f"(p = {p:.2g})."
-    )
-
-
-def _stochastic_words(evidence: Evidence) -> str:
-    p = min((t.p for t in evidence.tests), default=1.0)
-    if p > SIGNIFICANT:
-        return f"Noise with the same spectrum and values looks just like it (p = {p:.2g}): nothing speaks for chaos."
-    return (
-        "It is not linear noise, but no separation of near states and no dimension can be found either: "
-        f"{evidence.dimension.says or evidence.exponent.says}"
-    )
-
-
-def _undecided_words(ruled: bool, grows: bool, levels: bool) -> str:
-    signs = {
-        "the surrogate tests": ruled,
-        "the exponent": grows,
-        "the dimension": levels,
-    }
-    pro = " and ".join(name for name, yes in signs.items() if yes)
-    con = " and ".join(name for name, yes in signs.items() if not yes)
-    return (
-        f"The signs disagree: {pro or 'nothing'} for chaos, {con} against it. A longer or cleaner recording would tell."
+        f"Of {len(it.signs)} signs {len(pro)} speak{'s' if len(pro) == 1 else ''} for chaos, {against}, and {rest}: "
+        "that is not enough for a verdict. A longer or cleaner recording may tell."
     )

@@ -21,7 +21,7 @@ from lostmotion.results import Estimate
 from lostmotion.signals import checked, refined_period
 from lostmotion.stages.embed import embed
 from lostmotion.stages.quantify import quantify
-from lostmotion.workflow.motion import LOUDEST, returned
+from lostmotion.workflow.beat import LOUDEST, returned
 
 EMBEDDER, EXPONENT, DIMENSION, METER = "ami_cao", "lyapunov_kantz", "correlation_dimension", "noise_level"
 PAIRS = 8_000_000

@@ -21,9 +21,9 @@ from lostmotion.stages.compare import Prediction, exponent_blocks
 from lostmotion.stages.embed import embed
 from lostmotion.stages.quantify import quantify
 from lostmotion.workflow.attractors import Apart, distances_between
+from lostmotion.workflow.beat import returned
 from lostmotion.workflow.decays import stretches_of
 from lostmotion.workflow.findings import Outcome
-from lostmotion.workflow.motion import returned
 from lostmotion.workflow.show_words import TRANSIENT, said
 
 EMBEDDER, DIMENSION = "ami_cao", "correlation_dimension"

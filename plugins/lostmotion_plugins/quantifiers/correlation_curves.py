@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 
 import numpy as np
 
@@ -75,6 +76,24 @@ def curve_of(sums: Sums, found: Plateau | None) -> dict[str, Array]:
         error = 1.96 * np.sqrt(jackknife(found.left) ** 2 + found.scatter**2)
         by_dim[:, :count] = found.value, found.value - error, found.value + error
     return curve | dict(zip(("dimension_by_dim", "low_by_dim", "high_by_dim"), by_dim, strict=True))
+
+
+def flatness(curve: Mapping[str, Array], found: Plateau) -> tuple[float, float]:
+    """Return by how much the local slope changes across a plateau, and how far it scatters there, as shares of it.
+
+    Counted over all radii between its ends and over all dimensions from the first of the plateau on, which a motion of
+    that dimension fills alike. The first number is the mean change from one end to the other, with its sign off.
+    """
+    low, high = found.ends
+    inside = (curve["radius"] >= low) & (curve["radius"] <= high)
+    rows = curve["slope"][found.first - 1 :, inside]
+    rows = rows[np.isfinite(rows).all(axis=1)]
+    octaves = np.log2(curve["radius"][inside])
+    if rows.size == 0 or len(octaves) < 3:
+        return math.inf, math.inf
+    lean = float(np.polyfit(octaves, rows.mean(axis=0), 1)[0])
+    tilt = abs(lean) * float(octaves[-1] - octaves[0]) / found.mean
+    return tilt, float(np.sqrt(np.mean((rows - found.mean) ** 2))) / found.mean
 
 
 def quick_slope(data: Series) -> Estimate:

@@ -14,6 +14,7 @@ from lostmotion_plugins.quantifiers.correlation import Effort, Sums, correlation
 from lostmotion_plugins.quantifiers.correlation_curves import (
     curve_of,
     enough_dims,
+    flatness,
     quick_slope,
     refusal,
     takens_theiler,
@@ -28,6 +29,12 @@ OTHER_DELAYS = (0.7, 1.4)
 """Delays that are tried beside the given one, as shares of it: what they disagree about is an error too."""
 BENT = 0.25
 """A bend of this share of the slope is no straight piece."""
+TILT = 0.2
+"""A slope that changes by more than this share from one end of the plateau to the other is none: an interval of a
+dimension is seldom wider than that, so a larger change would be seen as another dimension."""
+SCATTER = 0.15
+"""Local slopes that scatter by more than this share within the plateau make none. On flows, maps and tori of known
+dimension they scatter by 0.02 to 0.14: `python benchmarks/verdicts.py --set wide --figures`."""
 WIDER = 0.2
 """Radii go up to this share of the range where noise or want of pairs leaves too little below the usual share."""
 RISING_FAR = 0.25
@@ -79,7 +86,10 @@ class CorrelationDimension(Quantifier[Series]):
             found = found if rest is None and noise == 0.0 else rest
         curve = curve_of(sums, found)
         details = {"pairs": float(sums.pairs.sum()), "ties": sums.ties(1), "noise": noise, **it.details}
-        if found is None or _status(found):
+        if found is not None:
+            details["tilt"], details["scatter"] = flatness(curve, found)
+            details["r_low"], details["r_high"] = found.ends
+        if found is None or _status(found) or _uneven(details):
             return _declined(found, sums, noise * float(np.std(it.x)), curve, details)
         return self._told(found, sums, it, curve, details)
 
@@ -94,7 +104,7 @@ class CorrelationDimension(Quantifier[Series]):
         total = sums.total[found.dims]
         takens = float(np.mean([takens_theiler(t, sums.radii, low, high) for t in total]))
         value = takens if self.takens and math.isfinite(takens) else found.mean
-        details |= {"r_low": low, "r_high": high, "takens": takens, "dim": float(found.first), "rise": found.rise}
+        details |= {"takens": takens, "dim": float(found.first), "rise": found.rise}
         says = it.says
         return Estimate(value, value - 1.96 * error, value + 1.96 * error, "ok", "1", curve, says, details)
 
@@ -119,6 +129,11 @@ def _status(found: Plateau) -> str:
     return "no_scaling_region" if bent or 1.96 * found.error > BENT * found.mean else ""
 
 
+def _uneven(details: dict[str, float]) -> bool:
+    """Return whether the local slopes within a plateau change or scatter too much for one."""
+    return details["tilt"] > TILT or details["scatter"] > SCATTER
+
+
 def _declined(
     found: Plateau | None, sums: Sums, noise: float, curve: dict[str, Array], details: dict[str, float]
 ) -> Estimate:
@@ -141,5 +156,13 @@ def _declined(
     if found is None:
         says = "Too few pairs of points come close in three successive dimensions: record longer."
         return Estimate.refused("too_few_neighbours", says, curve=curve, details=details)
+    if _uneven(details) and not _status(found):
+        low, high = found.ends
+        says = (
+            f"Between the radii {low:.3g} and {high:.3g} the local slope changes by {100 * details['tilt']:.0f} % and "
+            f"scatters by {100 * details['scatter']:.0f} %, and a plateau changes by {100 * TILT:.0f} % and scatters "
+            f"by {100 * SCATTER:.0f} % at most: there is no dimension to read."
+        )
+        return Estimate.refused("no_scaling_region", says, curve=curve, details=details)
     says = "The slope changes with the radius everywhere: there is no straight piece to read a dimension from."
     return Estimate.refused("no_scaling_region", says, curve=curve, details=details)
