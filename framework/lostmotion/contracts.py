@@ -99,7 +99,7 @@ class Term(ABC):
     `physics` is a sentence with the parameters in braces; `formula` the law in plain text. `resembles` names terms that
     tell a similar story, `equals` those that no recording of a machine that does not age can tell from it. One that
     does the same `anywhere` is tried at the ground alone. `force` and `rate` are static, or methods that read numbers
-    among the fields of the term.
+    among the fields of the term. `unlikely` is the log odds by which an engineer looks for other causes first.
     """
 
     at: str
@@ -116,6 +116,7 @@ class Term(ABC):
     resembles: ClassVar[tuple[str, ...]] = ()
     equals: ClassVar[tuple[str, ...]] = ()
     anywhere: ClassVar[bool] = False
+    unlikely: ClassVar[float] = 0.0
 
     @staticmethod
     @abstractmethod

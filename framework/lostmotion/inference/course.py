@@ -7,11 +7,13 @@ from dataclasses import dataclass, field
 
 from lostmotion.inference.candidates import Hint
 from lostmotion.inference.fit import Fit
-from lostmotion.inference.rival import Expansion, expanded
+from lostmotion.inference.rival import Expansion, expanded, fitted
 
 CLOSE = 12.0
 """Sets that are so close to the best in log weight are fitted again, and kept for comparison."""
 BEAM = 3
+RICH = 20.0
+"""A discrepancy that promises to add so much to the log evidence is fitted before a name is given."""
 
 
 @dataclass(frozen=True)
@@ -28,7 +30,8 @@ class Selection:
     """The course of a selection: the nominal fit, every set visited, the hints of the first round, the set chosen.
 
     `declined` names terms with evidence that was not believed, since what is left over has a memory. `rivals` holds the
-    expansions of fits with the discrepancy that every name has to beat.
+    expansions of fits with the discrepancy that every name has to beat, `unbeaten` the terms that did not. `stopped` says
+    that the search ended at its bound.
     """
 
     nominal: Fit
@@ -38,6 +41,8 @@ class Selection:
     declined: set[str] = field(default_factory=set)
     rivals: dict[frozenset[str], tuple[Fit, Expansion]] = field(default_factory=dict)
     unbeaten: set[str] = field(default_factory=set)
+    stopped: bool = False
+    smooth: dict[frozenset[str], tuple[Fit, tuple[float, float, Expansion] | None]] = field(default_factory=dict)
     leads: dict[tuple[frozenset[str], ...], tuple[Visit, Visit, float]] = field(default_factory=dict)
 
     def expansion(self, visit: Visit) -> Expansion:
@@ -61,16 +66,48 @@ class Selection:
             known = self.leads[visit.terms, over.terms] = (visit, over, self._led(visit, over))
         return known[2]
 
+    def confirmed(self, visit: Visit, over: Visit) -> float:
+        """Return the log odds of a set over another one, either with the smooth forces of its discrepancy fitted.
+
+        What is promised by slopes about a fit is too little where a large random force stands for what is missing.
+        """
+        lead = self.lead(visit, over)
+        worse, prices = self.expansion(visit).worse, self._prices(visit, over)
+        worth = [self._fitted(v, worse) for v in (visit, over)]
+        fits = (visit.fit.log_evidence - over.fit.log_evidence) / worse + worth[0] - worth[1] - prices
+        self.leads[visit.terms, over.terms] = (visit, over, min(lead, fits))
+        return self.leads[visit.terms, over.terms][2]
+
+    def _fitted(self, visit: Visit, worse: float) -> float:
+        """Return the log evidence that a discrepancy adds to a set, promised or fitted, whichever is more."""
+        expansion = self.expansion(visit)
+        promised = expansion.gain(worse=worse)
+        if promised < RICH:
+            return promised
+        if visit.terms not in self.smooth or self.smooth[visit.terms][0] is not visit.fit:
+            found = fitted(expansion)
+            told = (found[0].log_evidence - visit.fit.log_evidence, found[1], expanded(found[0])) if found else None
+            self.smooth[visit.terms] = (visit.fit, told)
+        known = self.smooth[visit.terms][1]
+        if known is None:
+            return promised
+        more, price, beside = known
+        return max(promised, more / worse - price + beside.gain(worse=worse))
+
+    @staticmethod
+    def _prices(visit: Visit, over: Visit) -> float:
+        """Return by how much the terms of a set cost more than those of another one."""
+        return (visit.fit.log_evidence - visit.weight) - (over.fit.log_evidence - over.weight)
+
     def _led(self, visit: Visit, over: Visit) -> float:
         here, there = self.expansion(visit), self.expansion(over)
-        prices = (visit.fit.log_evidence - visit.weight) - (over.fit.log_evidence - over.weight)
         own, worse = here.gain(worse=here.worse), here.worse
         other = (over.fit.log_evidence - visit.fit.log_evidence) / worse + there.gain(worse=worse)
         if over.terms < visit.terms:
             gone, keys = visit.terms - over.terms, visit.fit.problem.keys
             dropped = [i for i, key in enumerate(keys) if key.rpartition(".")[0] in gone]
             other = max(other, here.gain(dropped, worse=worse))
-        return own - other - prices
+        return own - other - self._prices(visit, over)
 
     def probabilities(self) -> dict[frozenset[str], float]:
         """Return the posterior probability of each set among those visited, but for sets that were not believed.

@@ -14,7 +14,7 @@ from lostmotion.likelihood.observation import Observation
 CALIBRATED = 0.01
 """The standard deviation of the scale of a sensor and of a drive, relative."""
 BENT = 0.005
-"""The standard deviation of the square and of the cube that bend a sensor, in its amplitude: 0.5 % are usual."""
+"""The standard deviation of the square and of the cube that bend a sensor, in its range: 0.5 % are usual."""
 APART = 0.5
 """The standard deviation of the time between channels, in samples: acquisition systems filter and multiplex."""
 SMALL = 1e-4
@@ -54,7 +54,8 @@ def _flaws(observations: tuple[Observation, ...]) -> Iterator[tuple[_Change, flo
     first = observations[0]
     for sensor in range(len(first.sensors)):
         shown = np.concatenate([o.readings[:, sensor] for o in observations])
-        middle, amplitude = float(np.nanmean(shown)), np.sqrt(2.0) * float(np.nanstd(shown))
+        middle = float(np.nanmean(shown))
+        amplitude = float(np.nanmax(np.abs(shown - middle)))
         if not amplitude > 0.0:
             continue
         z = (shown[np.isfinite(shown)] - middle) / amplitude

@@ -13,22 +13,22 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.linalg.lapack import dpotrf, dtrtrs
 
 from lostmotion.contracts import Array
-from lostmotion.inference.candidates import slopes_of
-from lostmotion.inference.curves import size_of, transplanted
-from lostmotion.inference.fit import BLOCKS, Fit, Sensitivity, solved
+from lostmotion.inference.candidates import slopes_of, term_of
+from lostmotion.inference.curves import ROUNDS, size_of, transplanted, with_curve
+from lostmotion.inference.fit import BLOCKS, Fit, Sensitivity, maximise, restarted, solved
 from lostmotion.inference.gauges import gauges_of
-from lostmotion.inference.learned import OverPhase, OverPosition, OverTime, OverVelocity, spread
+from lostmotion.inference.learned import Learned, OverPhase, OverPosition, OverTime, OverVelocity, spread
 from lostmotion.likelihood.problem import Free, Problem
 from lostmotion.likelihood.system import key_of
 
 SMOOTH = (OverPosition, OverVelocity, OverTime, OverPhase)
-SIZES = (0.005, 0.015, 0.05)
+SIZES = (0.005, 0.015, 0.05, 0.15)
 """Standard deviations of a smooth force that are tried, in units of the drive: what real rigs have."""
 LENGTHS = (0.15, 0.3, 0.6, 1.2)
 """Correlation lengths that are tried, in half widths of the range."""
@@ -38,6 +38,8 @@ KNOWN = 0.01
 """The standard deviation of a known value, relative: drawings and data sheets are not more exact than this."""
 NUDGE, STEP = 3e-4, 1e-3
 """Finite-difference steps of a coefficient in units of the drive, and of the logarithm of a known value."""
+SHARES = (1.0, 0.5, 0.2)
+"""Fits with smooth forces begin with these shares of what was promised."""
 SWEEPS = 3
 PRICE = math.log(len(SIZES) * len(LENGTHS))
 """The log price of the size and the length of a smooth force that were chosen."""
@@ -54,10 +56,15 @@ class Group:
 
 @dataclass(frozen=True)
 class Discrepancy:
-    """What a discrepancy is worth: the log evidence it adds, and the option that was chosen for each group, or -1."""
+    """What a discrepancy is worth: the log evidence it adds, and the option that was chosen for each group, or -1.
+
+    `widths` (n,) are the prior widths of its coefficients, zero where one is left out, and `mean` (n,) their values.
+    """
 
     gain: float
     chosen: tuple[tuple[str, int], ...]
+    widths: Array
+    mean: Array
 
 
 @dataclass(frozen=True)
@@ -97,7 +104,7 @@ class Expansion:
         moved = 0.5 * float(gradient[kept] @ pulled[:, -1]) if len(dropped) else 0.0
         h, g = 0.5 * (information + information.T) / worse, force / worse
         found = self._smoothest(h, g)
-        return Discrepancy(found.gain + (moved - lost) / worse, found.chosen)
+        return replace(found, gain=found.gain + (moved - lost) / worse)
 
     def _without(self, dropped: Sequence[int]) -> tuple[Array, float]:
         """Return the gradient where some own coordinates are zero, and what the log posterior loses on the way."""
@@ -123,7 +130,9 @@ class Expansion:
                         best, chosen[k], widths = value, option, trial
             if best <= before:
                 break
-        return Discrepancy(best, tuple((g.name, option) for g, option in zip(self.groups, chosen, strict=True)))
+        told = tuple((group.name, option) for group, option in zip(self.groups, chosen, strict=True))
+        mean = widths * np.linalg.solve(np.eye(len(g)) + h * np.outer(widths, widths), widths * g)
+        return Discrepancy(best, told, widths, mean)
 
 
 def evidence_of(h: Array, g: Array, widths: Array) -> float:
@@ -146,9 +155,10 @@ def evidence_of(h: Array, g: Array, widths: Array) -> float:
 
 def expanded(fit: Fit) -> Expansion:
     """Return the expansion of a fit with its discrepancy."""
-    slopes, problem, own = slopes_of(fit), transplanted(fit).problem, len(fit.theta)
+    slopes, problem, own = slopes_of(fit), _with_curves(fit).problem, len(fit.theta)
     known = _known(problem)
     curves = [(key_of(t), t) for t in problem.system.terms if isinstance(t, SMOOTH)]
+    curves = [(key, term) for key, term in curves if key not in problem.active]
     frees, steps = list(known), [STEP] * len(known)
     groups = []
     for key, term in curves:
@@ -173,6 +183,33 @@ def expanded(fit: Fit) -> Expansion:
     information[np.arange(own), np.arange(own)] += pull
     widths = np.array([KNOWN] * len(known) + [0.0] * (len(frees) - len(known)) + [g.width for g in gauges])
     return Expansion(fit, gradient, information, own, tuple(groups), widths, _memory(joint, own, information))
+
+
+def _with_curves(fit: Fit) -> Fit:
+    """Return a fit in a system with every curve."""
+    there = any(isinstance(term, Learned) for term in fit.problem.system.terms)
+    return fit if there else transplanted(fit)
+
+
+def fitted(expansion: Expansion) -> tuple[Fit, float] | None:
+    """Return the fit with the smooth forces of the best discrepancy, and their log price; None where there are none.
+
+    A fit that has to stand for what is missing by a large random force promises too little of them.
+    """
+    best = expansion.best((), expansion.worse)
+    chosen = [group for group, (_, option) in zip(expansion.groups, best.chosen, strict=True) if option >= 0]
+    if not chosen:
+        return None
+    problem = restarted(_with_curves(expansion.fit))
+    trials = [problem for _ in SHARES]
+    for group in chosen:
+        wide, at = best.widths[group.columns], best.mean[group.columns]
+        count = term_of(problem, group.name)[0].count  # type: ignore[attr-defined]
+        rows = np.zeros((2, count))
+        rows[:, : len(wide)] = wide, at
+        trials = [with_curve(p, group.name, rows[0], f * rows[1]) for p, f in zip(trials, SHARES, strict=True)]
+    heights = [trial.log_posterior(trial.clip(trial.start)) for trial in trials]
+    return maximise(trials[int(np.argmax(heights))], rounds=ROUNDS, tolerance=0.3), PRICE * len(chosen)
 
 
 def _rows(wider: Problem, slopes: Sensitivity, steps: Array) -> tuple[Array, Array]:

@@ -36,6 +36,8 @@ EXTRA = 1.5
 """The log price of each parameter of a term beyond its first."""
 CONTESTED = 4
 """So many of the heaviest sets are held against the discrepancy in each round: each costs a hundred filter runs."""
+MOST_VISITS = 80
+"""A search ends after so many sets of terms, whatever is left: what many fits do not explain more of them will not."""
 NEARLY = 2.5
 DECISIVE = math.log(20.0)
 """A term is taken when it makes the posterior odds of the model twenty times better."""
@@ -70,6 +72,7 @@ class Selector:
         self.say, self.shapes, self.jobs, self.promise = say, shapes or {}, nominal.problem.jobs, promise
         self.course = Selection(nominal, nominal)
         self._settled: set[frozenset[str]] = set()
+        self._been: set[frozenset[str]] = set()
         self._sure: dict[frozenset[str], tuple[float, float]] = {}
         self._visit(nominal)
 
@@ -131,6 +134,9 @@ class Selector:
 
     def _forward(self) -> bool:
         """Take the best of what additions and swaps lead to, if it is decisive."""
+        if len(self.course.visits) > MOST_VISITS:
+            self.course.stopped = True
+            return False
         here = self.course.visits[self.course.chosen.problem.active]
         for visit in [here] if here.terms and quiet(here.fit) else self._beam(here):
             self._additions(visit.fit)
@@ -145,12 +151,16 @@ class Selector:
 
         It has to be better alone, and beside the smooth force that nobody has named.
         """
-        good = [v for v in self.course.visits.values() if v.terms != here.terms and self._decided(v, here)]
-        good = sorted(good, key=lambda v: -v.weight)[:CONTESTED]
+        self._been.add(here.terms)
+        others = [v for v in self.course.visits.values() if v.terms not in self._been]
+        good = sorted((v for v in others if self._decided(v, here)), key=lambda v: -v.weight)[:CONTESTED]
+        known = [v for v in others if v.terms in self.course.rivals and len(v.terms) == len(here.terms)]
+        good += [v for v in known if v not in good]
         leads = {v.terms: self.course.lead(v, here) for v in good}
         self.course.unbeaten = set()
         for visit in sorted(good, key=lambda v: -leads[v.terms]):
-            if not leads[visit.terms] > (DECISIVE if visit.terms > here.terms else 0.0):
+            needed = DECISIVE if visit.terms > here.terms else 0.0
+            if not (leads[visit.terms] > needed and self.course.confirmed(visit, here) > needed):
                 self.course.unbeaten |= visit.terms - here.terms
                 continue
             if self._certain(visit, here):
@@ -338,10 +348,13 @@ def related(one: Term, other: Term) -> bool:
 
 
 def price_of(term: Term, many: int) -> float:
-    """Return the log price of a term by the prior: one of `many`, a factor e, its further parameters and choices."""
+    """Return the log price of a term by the prior: one of `many`, a factor e, its further parameters and choices.
+
+    What an engineer looks for last costs more (`Term.unlikely`).
+    """
     choices = [len(q.choices) for q in term.params if q.choices]
     further = len(term.params) - len(choices) - 1
-    return math.log(max(many, 1)) + 1.0 + EXTRA * further + sum(math.log(count) for count in choices)
+    return math.log(max(many, 1)) + 1.0 + term.unlikely + EXTRA * further + sum(math.log(count) for count in choices)
 
 
 def quiet(fit: Fit) -> bool:

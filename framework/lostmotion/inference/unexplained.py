@@ -161,12 +161,13 @@ class Curves:
 
 
 def fewer(unknown: Unknown, key: str) -> Unknown | None:
-    """Return the learned curves without one of them, fitted anew; None where it was the only one."""
+    """Return the learned curves without one of them, fitted anew; None where the rest explains nothing decisive."""
     keys = tuple(k for k in unknown.keys if k != key)
     if not keys:
         return None
     fit = maximise(unknown.fit.problem.reduced(key, unknown.fit.values), rounds=ROUNDS, tolerance=0.3)
-    return replace(unknown, fit=fit, keys=keys, gain=unknown.gain + fit.log_evidence - unknown.fit.log_evidence)
+    gain = unknown.gain + fit.log_evidence - unknown.fit.log_evidence
+    return replace(unknown, fit=fit, keys=keys, gain=gain) if gain > DECISIVE else None
 
 
 def _shortened(fit: Fit) -> Fit:

@@ -48,7 +48,7 @@ class World:
     """The flaws of one rig.
 
     `friction` is the random curve of the level of friction over the speed, `stated` what the case says of each known
-    value over the truth, `bend` the share of the amplitude by which the sensor is bent (even, odd). Of the noise `slow`
+    value over the truth, `bend` the share of its largest reading by which the sensor is bent there (even, odd). Of the noise `slow`
     is the share with a `memory` per sample, `hum` the amplitude at `hum_pace` (rad/s), `step` the quantisation, all in
     deviations of the noise.
     """
@@ -133,8 +133,8 @@ def draw_world(kind: str, pilot: Pilot, rng: np.random.Generator) -> World:
     pace = math.sqrt(stiff / body.m)
     foot = stiff * drawn_log(rng, 50.0, 500.0)
     flaws = {
-        "position": float(np.std(pilot.q)),
-        "velocity": float(np.std(pilot.v)),
+        "position": _scale(pilot.q),
+        "velocity": _scale(pilot.v),
         "foot": foot,
         "foot_drag": foot * float(rng.uniform(0.03, 0.1)) / pace,
         "far_pace": float(rng.uniform(6.0, 15.0)) * pace,
@@ -157,6 +157,11 @@ def draw_world(kind: str, pilot: Pilot, rng: np.random.Generator) -> World:
         step=drawn_log(rng, 0.1, 2.0),
     )
     return replace(made, curves=_tables(made, pilot, rng))
+
+
+def _scale(moved: Array) -> float:
+    """Return the scale of a motion: its deviation, or where it has peaks, as behind a hit, 0.4 of the largest."""
+    return max(float(np.std(moved)), 0.4 * float(np.max(np.abs(moved))))
 
 
 def _waves(rng: np.random.Generator) -> Curve:
@@ -246,8 +251,9 @@ def recorded_roughly(rig: Rig, truth: Array, world: World, rng: np.random.Genera
 
     clean = rig.signal.value(rig.time)
     own = truth - clean if rig.based else truth
-    noise, size = rig.noise * float(np.std(own)), math.sqrt(2.0) * float(np.std(truth))
-    z = (truth - float(np.mean(truth))) / size
+    middle = float(np.mean(truth))
+    noise, size = rig.noise * float(np.std(own)), float(np.max(np.abs(truth - middle)))
+    z = (truth - middle) / size
     bent = truth + size * (world.bend[0] * z**2 + world.bend[1] * z**3)
     white, slow = rng.standard_normal((2, len(truth)))
     slow = lfilter([math.sqrt(1.0 - world.memory**2)], [1.0, -world.memory], slow)

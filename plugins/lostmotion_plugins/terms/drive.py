@@ -25,6 +25,7 @@ class ExcitationHarmonic(DriveTerm):
 
     at: str = "drive"
     name: ClassVar[str] = "excitation_harmonic"
+    unlikely: ClassVar[float] = 3.0
     physics: ClassVar[str] = (
         "The drive has a component of {ratio} times its frequency that was not recorded: {cosine} of its amplitude as a"
         " cosine and {sine} as a sine"
@@ -72,6 +73,7 @@ class ExcitationDelay(DriveTerm):
 
     at: str = "drive"
     name: ClassVar[str] = "excitation_delay"
+    unlikely: ClassVar[float] = 3.0
     physics: ClassVar[str] = "The drive acts {delay} after it was recorded"
     formula: ClassVar[str] = "u(t - delay)"
     paper: ClassVar[str] = "Ljung, System Identification: Theory for the User (1999), section 4.2"

@@ -64,6 +64,7 @@ class SensorDelay(SensorTerm):
 
     at: str = "sensor"
     name: ClassVar[str] = "sensor_delay"
+    unlikely: ClassVar[float] = 3.0
     physics: ClassVar[str] = "The sensor of the response is late by {delay}"
     formula: ClassVar[str] = "x(t - delay)"
     paper: ClassVar[str] = "Ljung, System Identification: Theory for the User (1999), section 4.2"
