@@ -143,7 +143,7 @@ def test_an_unknown_mismatch_says_what_it_depends_on(tmp_path):
     page = _page(tmp_path, made.unknown())
     assert _heading(page).startswith("Something is missing that no mechanism of the library explains")
     assert "depends on position and velocity" in _heading(page)
-    assert "Mismatch, unknown" in page
+    assert "Mismatch, open" in page
 
 
 def test_what_was_learned_is_drawn_with_its_band_and_its_proposal(tmp_path):

@@ -30,8 +30,8 @@ class Selection:
     """The course of a selection: the nominal fit, every set visited, the hints of the first round, the set chosen.
 
     `declined` names terms with evidence that was not believed, since what is left over has a memory. `rivals` holds the
-    expansions of fits with the discrepancy that every name has to beat, `unbeaten` the terms that did not. `stopped` says
-    that the search ended at its bound.
+    expansions of fits with the discrepancy that every name has to beat, `unbeaten` the terms that did not. `stopped`
+    says that the search ended at its bound.
     """
 
     nominal: Fit

@@ -21,13 +21,20 @@ class Badge(NamedTuple):
 
 
 def badge(evidence: Evidence) -> Badge:
-    """Return the verdict: adequate, mismatch explained, or mismatch unknown."""
+    """Return the verdict: adequate, or a mismatch whose cause is named, likely or open."""
     if evidence.fact("verdict") == "adequate":
         return Badge("adequate", "Adequate")
     if evidence.fact("verdict") != "mismatch":
         return Badge("unknown", "No verdict")
-    named = any(entry.get("mechanism") not in UNNAMED for entry in found(evidence))
-    return Badge("mismatch", "Mismatch, explained") if named else Badge("unknown", "Mismatch, unknown")
+    states = {entry.get("state") or _state(entry) for entry in found(evidence)}
+    if "named" in states:
+        return Badge("mismatch", "Mismatch, named")
+    return Badge("unknown", "Mismatch, likely" if "likely" in states else "Mismatch, open")
+
+
+def _state(entry: Mapping[str, Any]) -> str:
+    """Return the state of an entry that says none: what has a name is named."""
+    return "open" if entry.get("mechanism") in UNNAMED else "named"
 
 
 def found(evidence: Evidence) -> list[Mapping[str, Any]]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -17,6 +18,7 @@ from lostmotion.quantities import unit_of
 from lostmotion.results import Interval
 from lostmotion.stages.compare import Prediction
 from lostmotion.stages.diagnose import Diagnosis, base_keys
+from lostmotion.workflow.states import LIKELY, NAMED, OPEN, doubts_of, holds
 from lostmotion.workflow.unknowns import learned_entry, unnamed_entry
 
 DRAWS = 2000
@@ -57,10 +59,39 @@ def found_in(outcome: Outcome) -> list[dict[str, Any]]:
     after = intervals(d.after, outcome.draws_after)
     entries = [_entry(outcome, key, after) for key in d.named] + [_mark(d, key) for key in d.marks]
     if d.learned:
-        entries.append(learned_entry(d))
+        entries.append({**learned_entry(d), "state": OPEN})
     elif d.unexplained and (not d.found or _shapeless(d)):
-        entries.append(unnamed_entry(d))
-    return entries
+        entries.append({**unnamed_entry(d), "state": OPEN})
+    why = why_withheld(outcome)
+    if why and not d.found and not d.unexplained:
+        entries.append({**unnamed_entry(d), "probability": 1.0, "state": OPEN, "says": why})
+    return [{**entry, "parameters": shown(entry["parameters"], why)} for entry in entries]
+
+
+def noise_floor(outcome: Outcome) -> float:
+    """Return the share of the held-out readings that is noise, as the mean over the sensors."""
+    fit, scales = outcome.diagnosis.after, outcome.after.scales
+    noises = [math.sqrt(fit.problem.measurement(fit.theta, 0, i)) for i in range(len(scales))]
+    return float(np.mean([noise / scale for noise, scale in zip(noises, scales, strict=True)]))
+
+
+def why_withheld(outcome: Outcome) -> str:
+    """Return why intervals are withheld: the model does not predict held-out data; empty where it does."""
+    floor = noise_floor(outcome)
+    if holds(outcome.after, floor):
+        return ""
+    model = "model" if outcome.diagnosis.found else "nominal model"
+    return (
+        f"The {model} does not hold: its free runs over held-out data err by {outcome.after.nrmse:.0%} of the response,"
+        f" where the noise is {floor:.1%}. What is missing is open, and intervals are withheld."
+    )
+
+
+def shown(parameters: Mapping[str, Mapping[str, Any]], why: str) -> dict[str, dict[str, Any]]:
+    """Return parameters as they are told: without their intervals where there is a reason to withhold them."""
+    if not why:
+        return {name: dict(one) for name, one in parameters.items()}
+    return {name: {**one, "low": None, "high": None, "withheld": why} for name, one in parameters.items()}
 
 
 def _shapeless(d: Diagnosis) -> bool:
@@ -79,10 +110,13 @@ def _entry(outcome: Outcome, key: str, after: Mapping[str, Interval]) -> dict[st
         sentence += f" at the place {term.at!r}"
     share = float(np.max(np.abs(d.laws[key]))) / d.after.problem.scales.force
     percent, is_sensor = f"{100.0 * share:.2g}" if share < 1.0 else f"{100.0 * share:.0f}", isinstance(term, SensorTerm)
+    doubts = doubts_of(d, key) + ([why] if (why := why_withheld(outcome)) else [])
     return {
         "mechanism": term.name,
         "at": term.at,
         "probability": d.selection.inclusion(key),
+        "state": LIKELY if doubts else NAMED,
+        "doubts": doubts,
         "parameters": {name: i.as_dict() for name, i in (own | _derived(outcome, term, held)).items()},
         "share_of_drive": share,
         "says": f"{sentence}." if is_sensor else f"{sentence}, up to {percent} % of {d.yardstick}.",
@@ -107,6 +141,7 @@ def _mark(d: Diagnosis, key: str) -> dict[str, Any]:
         "mechanism": term.name,
         "at": term.at,
         "probability": 1.0,
+        "state": NAMED,
         "parameters": {name: i.as_dict() for name, i in own.items()},
         "says": f"{sentence}: the stored values themselves tell.",
     }

@@ -48,9 +48,9 @@ class World:
     """The flaws of one rig.
 
     `friction` is the random curve of the level of friction over the speed, `stated` what the case says of each known
-    value over the truth, `bend` the share of its largest reading by which the sensor is bent there (even, odd). Of the noise `slow`
-    is the share with a `memory` per sample, `hum` the amplitude at `hum_pace` (rad/s), `step` the quantisation, all in
-    deviations of the noise.
+    value over the truth, `bend` the share of its largest reading by which the sensor is bent there (even, odd). Of the
+    noise `slow` is the share with a `memory` per sample, `hum` the amplitude at `hum_pace` (rad/s), `step` the
+    quantisation, all in deviations of the noise.
     """
 
     kind: str

@@ -167,7 +167,7 @@ def _of_effect(effect: Row, found: Sequence[Row], *, several: bool) -> Iterator[
             continue
         own = _turned(effect["parameters"], entry["parameters"])
         for name, interval in entry["parameters"].items():
-            if name in own and interval["low"] < interval["high"] and name not in REPEATED:
+            if name in own and _wide(interval) and name not in REPEATED:
                 yield _parameter(f"{effect['mechanism']}.{name}", own[name], interval, turn=name in TURNING)
         return
 
@@ -186,8 +186,13 @@ def _of_machine(diagnosis: Row, truth: Row) -> Iterator[dict[str, Any]]:
     """Yield the parameters of the machine itself, which are to be right where everything was named."""
     values = truth["machine"]["values"]
     for name, interval in diagnosis["parameters"]["after"].items():
-        if name in values:
+        if name in values and _wide(interval):
             yield _parameter(name, values[name], interval)
+
+
+def _wide(interval: Row) -> bool:
+    """Return whether there is an interval: where a model does not hold it is withheld."""
+    return interval["low"] is not None and bool(interval["low"] < interval["high"])
 
 
 def _parameter(name: str, truth: float, interval: Row, *, turn: bool = False) -> dict[str, Any]:

@@ -15,6 +15,7 @@ from lostmotion.likelihood.space import LEVELS
 from lostmotion.stages.diagnose import Diagnosis
 from lostmotion.workflow.decays import note_anew
 from lostmotion.workflow.findings import Outcome
+from lostmotion.workflow.states import unsteady
 
 FAR = 5.0
 """Held-out errors of an adequate model that are this many times the noise deserve a warning."""
@@ -29,6 +30,12 @@ def notes_of(outcome: Outcome, said: Sequence[str]) -> list[str]:
     """Return the notes of a diagnosis: what the recordings `said` of themselves, and what a reader should doubt."""
     d = outcome.diagnosis
     doubts = [*fleeting(d.after), *_declined(d), *_on_the_edge(d), *_far_off(outcome), *_slow(d)]
+    doubts += [text for key in d.named for text in unsteady(d, key)]
+    if d.selection.stopped:
+        doubts.append(
+            f"The search ended after {len(d.selection.visits)} sets of terms, which is its bound: what is left is told"
+            " as left."
+        )
     return [*said, *_unrecorded(d), *doubts, *vague(d.after, d.shown)]
 
 

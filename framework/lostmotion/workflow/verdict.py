@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
+from lostmotion.contracts import Array
 from lostmotion.inference.candidates import term_of
 from lostmotion.inference.fit import Fit
 from lostmotion.likelihood.system import key_of
@@ -14,31 +16,43 @@ from lostmotion.quantities import quantity_of, unit_of
 from lostmotion.report.words import chance, span, spoken
 from lostmotion.stages.compare import Prediction
 from lostmotion.stages.diagnose import Diagnosis
-from lostmotion.workflow.findings import Outcome, elsewhere, found_in, intervals
+from lostmotion.workflow.findings import (
+    Outcome,
+    elsewhere,
+    found_in,
+    intervals,
+    noise_floor,
+    shown,
+    why_withheld,
+)
 from lostmotion.workflow.notes import drowned
+from lostmotion.workflow.states import LIKELY, open_of
 from lostmotion.workflow.unknowns import unknown_odds, where
 
 WORTH_NAMING = 0.01
+MOST_OPEN = 2
+"""So many of the terms that stay open are told in the opening; the others stand in the report."""
 
 
 def verdict(outcome: Outcome) -> dict[str, Any]:
     """Return the content of `diagnosis.json`, provenance and title left out."""
     d = outcome.diagnosis
-    found = found_in(outcome)
+    found, why, rest = found_in(outcome), why_withheld(outcome), open_of(d)
     return {
         "schema": "lostmotion.diagnosis/1",
         "verdict": "mismatch" if found else "adequate",
-        "says": says(outcome, found),
+        "says": says(outcome, found, rest),
         "found": found,
-        "ranking": _ranking(d),
+        "open": rest,
+        "ranking": _ranking(d, failed=bool(why)),
         "confused_with": _confused(d),
         "unexplained": _unexplained(d, after=True),
         "unexplained_before": _unexplained(d, after=False),
         "where": {**where(d.located, d.learned), "bodies": _bodies(d)},
         "where_after": where(d.left or d.located),
         "parameters": {
-            "before": {k: v.as_dict() for k, v in intervals(d.before, outcome.draws_before).items()},
-            "after": {k: v.as_dict() for k, v in intervals(d.after, outcome.draws_after).items()},
+            "before": shown(told(d.before, outcome.draws_before), "" if d.found else why),
+            "after": shown(told(d.after, outcome.draws_after), why),
         },
         "fit": _fit(outcome),
         "model": {"before": label(d.before), "after": label(d.after)},
@@ -126,19 +140,27 @@ def _fit(outcome: Outcome) -> dict[str, Any]:
             "horizon": outcome.horizon.number,
         }
 
-    floor = float(np.mean([noise / scale for noise, scale in zip(noises_of(d), outcome.after.scales, strict=True)]))
+    floor = noise_floor(outcome)
     unit = {"horizon_unit": outcome.horizon.unit, "horizon_unit_time": outcome.horizon.unit_time}
     return {"before": entry(outcome.before), "after": entry(outcome.after), "noise_floor_nrmse": floor, **unit}
 
 
-def _ranking(d: Diagnosis) -> list[dict[str, Any]]:
+def told(fit: Fit, draws: Array) -> dict[str, dict[str, Any]]:
+    """Return median and interval of each physical parameter, ready for JSON."""
+    return {key: interval.as_dict() for key, interval in intervals(fit, draws).items()}
+
+
+def _ranking(d: Diagnosis, *, failed: bool) -> list[dict[str, Any]]:
     """Return every candidate with its evidence and probability, and beside them "nothing missing" and "unknown".
+
+    Where the model has `failed` on held-out data, something is missing, whatever the evidence says.
 
     "Unknown" is what the library does not explain: curves that were learned, or, when nothing was found, a force beyond
     the usual.
     """
     selection = d.selection
     unknown, gain = unknown_odds(d)
+    unknown = 1.0 if failed and not d.found else unknown
     rows = []
     for term in selection.nominal.problem.system.terms:
         key = key_of(term)
@@ -214,8 +236,15 @@ def _unexplained(d: Diagnosis, *, after: bool) -> dict[str, Any]:
     }
 
 
-def says(outcome: Outcome, found: list[dict[str, Any]]) -> list[str]:
-    """Return the opening sentences of the report."""
+def _said(entry: dict[str, Any]) -> str:
+    """Return the sentence on an entry that was found; what is no more than likely is told so, with the reason."""
+    if entry.get("state") != LIKELY:
+        return str(entry["says"])
+    return f"Likely, not certain: {entry['says'][:-1]}. {' '.join(entry['doubts'])}"
+
+
+def says(outcome: Outcome, found: list[dict[str, Any]], rest: Sequence[dict[str, Any]] = ()) -> list[str]:
+    """Return the opening sentences of the report, from what was found and the `rest` that stays open."""
     d = outcome.diagnosis
     fit, horizon = _fit(outcome), outcome.horizon
     time = span(horizon.number, horizon.unit)
@@ -227,9 +256,10 @@ def says(outcome: Outcome, found: list[dict[str, Any]]) -> list[str]:
             f" {fit['noise_floor_nrmse']:.1%}.",
             *drowned(outcome),
         ]
+    left = [f"Open: {row['says']}" for row in rest[:MOST_OPEN]]
     if not d.found:
-        return [entry["says"] for entry in found]
-    opening = [entry["says"] for entry in found]
+        return [entry["says"] for entry in found] + left
+    opening = [_said(entry) for entry in found]
     if len(found) == 1:
         opening[0] = f"{opening[0][:-1]}, and the model leaves it out."
     else:
@@ -248,4 +278,4 @@ def says(outcome: Outcome, found: list[dict[str, Any]]) -> list[str]:
     opening += drowned(outcome)
     if d.unexplained:
         opening.append(f"A force of {new['rms']:.2g} {new['unit']} rms remains that no term of the library explains.")
-    return opening
+    return opening + left

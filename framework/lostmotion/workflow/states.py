@@ -1,0 +1,128 @@
+"""How sure a diagnosis is of what it found, in three words: named, likely, open."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import Any
+
+from lostmotion.inference.candidates import term_of
+from lostmotion.quantities import TIME
+from lostmotion.report.words import spoken
+from lostmotion.stages.compare import Prediction
+from lostmotion.stages.diagnose import Diagnosis
+
+NAMED, LIKELY, OPEN = "named", "likely", "open"
+SURE = 0.95
+"""What is named has a probability above this; `prove --world imperfect` counts how many of such names are there."""
+RIVAL = 0.05
+"""A set of terms with a larger share of the posterior is told as a rival."""
+MOVED, PART = 5.0, 0.2
+"""A level that moves by so many standard deviations, and by this share of it, when a further term comes in, was not
+known before, or the further term is wrong."""
+LATE = 0.05
+"""A delay of more than this share of a natural period is unusual: acquisition systems are faster."""
+DOUBTFUL, FAR = 0.3, 5.0
+"""A model does not hold whose free runs over held-out data err by more than this share of the response, and by so many
+times the noise."""
+
+
+def holds(after: Prediction, floor: float) -> bool:
+    """Return whether a model predicts held-out data, where `floor` is the share of the response that is noise."""
+    return math.isfinite(after.nrmse) and not after.nrmse > max(DOUBTFUL, FAR * floor)
+
+
+def probability_of(d: Diagnosis, key: str) -> float:
+    """Return the probability that a term is at work, or one that no recording of this kind can tell from it."""
+    term, _ = term_of(d.after.problem, key)
+    kin = [
+        k for k, t in zip(d.before.problem.system.keys, d.before.problem.system.terms, strict=True) if _same(term, t)
+    ]
+    return min(sum(d.selection.inclusion(k) for k in {key, *kin}), 1.0)
+
+
+def _same(term: Any, other: Any) -> bool:
+    return other.name in term.equals or term.name in other.equals
+
+
+def doubts_of(d: Diagnosis, key: str) -> list[str]:
+    """Return why a term that was found is no more than likely, in sentences; none where it is named."""
+    term, _ = term_of(d.after.problem, key)
+    imitates = term.unlikely > 0.0 or term.acts != "motion"
+    return [*_less_sure(d, key), *(unsteady(d, key) if imitates else ()), *_unusual(d, key)]
+
+
+def _less_sure(d: Diagnosis, key: str) -> Iterator[str]:
+    p = probability_of(d, key)
+    if p > SURE:
+        return
+    others = _others(d, key)
+    rivals = f"; its rivals are {', '.join(others)}" if others else "; its rival is a smooth force without a name"
+    yield f"Its probability is {p:.2g}{rivals}."
+
+
+def _others(d: Diagnosis, key: str) -> list[str]:
+    """Return the terms of other sets without this one that have a share of the posterior, in words."""
+    found = d.selection.chosen.problem.active
+    sets = [terms for terms, p in d.selection.probabilities().items() if key not in terms and p > RIVAL]
+    names = dict.fromkeys(k for terms in sets for k in sorted(terms - found))
+    return [spoken(term_of(d.before.problem, k)[0].name) for k in names]
+
+
+def unsteady(d: Diagnosis, key: str) -> Iterator[str]:
+    """Yield a sentence for each level of another found term that moves far when this one comes in."""
+    chosen = d.selection.chosen
+    without = d.selection.visits.get(chosen.problem.active - {key})
+    if without is None:
+        return
+    sds = without.fit.sd
+    for f in without.fit.problem.free:
+        owner, _, name = f.key.rpartition(".")
+        if not owner or f.log or f.key not in chosen.values:
+            continue
+        old, new = without.fit.values[f.key], chosen.values[f.key]
+        if abs(new - old) > max(MOVED * sds[f.key], PART * abs(old)):
+            yield (
+                f"{_called(d, owner)} has a {name} of {old:.3g} {f.unit} without {spoken(key.partition('@')[0])} and of"
+                f" {new:.3g} {f.unit} with it: a level that moves so far was not known, or the further term is wrong."
+            )
+
+
+def _called(d: Diagnosis, key: str) -> str:
+    name = spoken(term_of(d.before.problem, key)[0].name)
+    return name[:1].upper() + name[1:]
+
+
+def _unusual(d: Diagnosis, key: str) -> Iterator[str]:
+    """Yield a sentence on a delay that is longer than acquisition systems have, or that one frequency cannot show."""
+    term, slots = term_of(d.after.problem, key)
+    late = [s for s in slots if s.param.dimension == TIME and s.key in d.after.values]
+    if term.acts == "motion" or not late:
+        return
+    period = 2.0 * math.pi * d.after.problem.scales.time
+    share = abs(d.after.values[late[0].key]) / period
+    if share > LATE:
+        yield f"A delay of {share:.0%} of a natural period is unusual: measure the time between the channels by itself."
+
+
+def open_of(d: Diagnosis) -> list[dict[str, Any]]:
+    """Return the terms that stay open: they would raise the likelihood, and something speaks against a name."""
+    reasons = [
+        (d.selection.unbeaten, "a small smooth force that nobody has named explains as much"),
+        (d.selection.declined, "what is left over has a memory, so that this gain is not believed"),
+        (set(d.withdrawn), "held-out data are predicted worse with it"),
+    ]
+    rows: dict[str, dict[str, Any]] = {}
+    for keys, why in reasons:
+        for key in sorted(keys - set(d.found) - set(rows)):
+            if key not in d.before.problem.system.keys:
+                continue
+            term, _ = term_of(d.before.problem, key)
+            says = f"{_called(d, key)} would raise the likelihood, but {why}."
+            rows[key] = {
+                "mechanism": term.name,
+                "at": term.at,
+                "probability": d.selection.inclusion(key) if key not in d.withdrawn else 0.0,
+                "says": says,
+            }
+    return list(rows.values())
