@@ -71,8 +71,8 @@ def test_noise_that_may_be_motion_is_doubted():
     assert only.startswith("What passes for noise of rear has a memory and is 90%")
 
 
-@pytest.mark.parametrize(("mechanism", "words"), [("random_force", "unknown"), ("unknown", "unknown"),
-                                                  ("coulomb_friction", "explained")])  # fmt: skip
+@pytest.mark.parametrize(("mechanism", "words"), [("random_force", "open"), ("unknown", "open"),
+                                                  ("coulomb_friction", "named")])  # fmt: skip
 def test_a_force_without_a_name_is_not_called_explained(mechanism, words):
     facts = {"verdict": "mismatch", "found": [{"mechanism": mechanism}]}
     assert badge(Evidence(facts, {}, {}, {})).words == f"Mismatch, {words}"
