@@ -98,7 +98,7 @@ def _draw_histogram(axes: Axes, values: Array, colour: str) -> None:
 
 
 def _draw_interval(axes: Axes, entry: Mapping[str, Any] | None, scale: Scale, look: tuple[str, float]) -> None:
-    if not entry:
+    if not entry or entry.get("withheld"):
         return
     colour, height = look
     low, median, high = (scale.factor * float(entry[key]) for key in ("low", "median", "high"))

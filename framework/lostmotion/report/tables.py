@@ -41,12 +41,17 @@ def _trimmed(head: Row, rows: list[Row]) -> Table:
 
 
 def mechanisms(evidence: Evidence) -> Table:
-    """Return mechanism, probability, and what is said of it."""
+    """Return mechanism, state, probability, and what is said of it; then what stays open."""
     rows = [
-        [_named(entry), probability(entry.get("probability")), typeset(str(entry.get("says") or ""))]
-        for entry in found(evidence)
+        [_named(entry), str(entry.get("state") or DASH), probability(entry.get("probability")), _in_words(entry)]
+        for entry in [*found(evidence), *({**row, "state": "open"} for row in evidence.fact("open") or [])]
     ]
-    return _trimmed(["Mechanism found", "Probability", "In words"], rows)
+    return _trimmed(["Mechanism", "State", "Probability", "In words"], rows)
+
+
+def _in_words(entry: Any) -> str:
+    """Return what is said of a mechanism, with the doubts that make it no more than likely."""
+    return typeset(" ".join([str(entry.get("says") or ""), *entry.get("doubts", ())]))
 
 
 def key_numbers(evidence: Evidence) -> Table:
@@ -85,6 +90,8 @@ def _parameter(evidence: Evidence, name: str) -> Row:
     if not np.isfinite(truth):
         return [posteriors.words_of(name), before, after, DASH, DASH]
     known = f"{figures(scale.factor * truth, 4)} {pretty(scale.unit)}".rstrip()
+    if entry.get("withheld"):
+        return [posteriors.words_of(name), before, after, known, DASH]
     held = entry.get("low", truth) <= truth <= entry.get("high", truth)
     return [posteriors.words_of(name), before, after, known, "inside" if held else "outside"]
 

@@ -149,10 +149,15 @@ def chance(p: Any) -> str:
 
 
 def interval(entry: Mapping[str, Any] | None, shown: Scale | None = None) -> str:
-    """Return `median [low, high] unit`, with as many decimals as the width of the interval deserves."""
+    """Return `median [low, high] unit`, with as many decimals as the width of the interval deserves.
+
+    Where the interval is withheld the median stands alone, and says so.
+    """
     if not entry or not isinstance(entry.get("median"), int | float):
         return DASH
     factor, unit = shown or readable(entry["median"], str(entry.get("unit", "")))
+    if entry.get("withheld"):
+        return f"{figures(factor * entry['median'], 3)} {pretty(unit)}".rstrip() + ", interval withheld"
     ends = [factor * float(entry.get(key, entry["median"])) for key in ("median", "low", "high")]
     decimals = _decimals(ends[2] - ends[1], ends[0])
     median, low, high = (_signed(f"{end:.{decimals}f}") for end in ends)
