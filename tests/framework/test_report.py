@@ -136,7 +136,7 @@ def test_an_adequate_model_has_nothing_missing_and_no_after(data, tmp_path):
     assert _heading(page) == "Nothing is missing that this recording can show."
     assert _sections(page) == list(SECTIONS)
     assert "<th>After</th>" not in page
-    assert "Mechanism found" not in page
+    assert "<th>State" not in page
 
 
 def test_an_unknown_mismatch_says_what_it_depends_on(tmp_path):

@@ -113,7 +113,8 @@ class Selection:
         """Return the posterior probability of each set among those visited, but for sets that were not believed.
 
         Sets of which the expansion is known are weighed beside the discrepancy, all others by their evidence alone: by
-        that they come behind those, and weigh no more than the least of them.
+        that they come behind those, and weigh no more than the least of them. No set is ahead of a part of it by more
+        than was confirmed.
         """
         doubted = self.declined - self.chosen.problem.active
         believed = {k: v for k, v in self.visits.items() if not k & doubted}
@@ -121,6 +122,9 @@ class Selection:
         heights = {k: v.weight - chosen.weight for k, v in believed.items()}
         known = [terms for terms in believed if terms in self.rivals and terms != chosen.terms]
         heights |= {terms: -self.lead(chosen, self.visits[terms]) for terms in known}
+        for (more, fewer), (_, _, lead) in self.leads.items():
+            if fewer < more and more in heights and fewer in heights and more != chosen.terms:
+                heights[more] = min(heights[more], heights[fewer] + lead)
         least = min([0.0, *(heights[terms] for terms in known)])
         heights |= {k: min(h, least) for k, h in heights.items() if k not in self.rivals}
         top = max(heights.values())
