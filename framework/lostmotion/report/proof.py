@@ -162,19 +162,17 @@ def _sure(facts: Facts) -> Listed:
         _plain(
             DRIVES.get(row["kind"], row["kind"]),
             str(row["machines"]),
-            *_rate(row),
-            *_rate(row["named"]),
-            *_rate(row["worse"]),
+            *(", ".join(_rate(part)) for part in (row, row["named"], row["worse"])),
         )
         for row in facts.get("sure", ())
     ]
-    head = ["Drive", "Machines", "Names that are there", "Share", "Hidden effect named", "Share"]
+    head = ["Drive", "Machines", "Names that are there", "Hidden effect named", "Held-out error rose"]
     note = (
         "Shares with exact 95 % bands. Any law of dry friction names friction, for its true curve over the speed is a"
         " random one; quantisation of the sensor is on every machine. Hidden effects that no term of the library"
         " describes are not counted among those that could be named."
     )
-    return Listed("Names stated with more than 0.95", [*head, "Held-out error rose", "Share"], rows, note)
+    return Listed("Names stated with more than 0.95", head, rows, note)
 
 
 def _mechanisms(facts: Facts, outcomes: list[str], note: str) -> Listed:
@@ -182,7 +180,7 @@ def _mechanisms(facts: Facts, outcomes: list[str], note: str) -> Listed:
     head, counts = ["Named", "Share, 95 % band"], [(row, [*_rate(row), *_outcomes(row)]) for row in facts["mechanisms"]]
     if _rough(facts):
         rows = [_plain(spoken(row["mechanism"]), *cells) for row, cells in counts]
-        return Listed("By mechanism", ["Mechanism", *head, *outcomes], rows, note.partition(" Without a term")[0])
+        return Listed("By mechanism", ["Mechanism", *head, *outcomes], rows, note.partition("; in brackets")[0] + ".")
     rows = [
         _plain(spoken(row["mechanism"]), figures(row["median_gain"]), *cells, row["oracle"]) for row, cells in counts
     ]
