@@ -35,8 +35,8 @@ from lostmotion.cli._options import on_a_trial
     default="perfect",
     show_default=True,
     type=click.Choice(["perfect", "imperfect"]),
-    help="In an imperfect world machines have flaws that no term describes, kinds of drives take turns, and names stated"
-    " with more than 0.95 are counted.",
+    help="In an imperfect world machines have flaws that no term describes, kinds of drives take turns, and names"
+    " stated with more than 0.95 are counted.",
 )
 @click.option(
     "--samples", default=20_000, show_default=True, type=click.IntRange(500), help="Samples of the longest recording."
