@@ -26,8 +26,6 @@ MULTIPLES = 8
 """A motion may repeat after up to so many periods of the drive."""
 MOST_CYCLES, POINTS = 300, 100
 """Cycles that are compared with one another, evenly spread over the recording, and points of each."""
-HARMONICS = 5
-"""Harmonics that settle the period of a motion without a drive."""
 TRIED = 8
 """Offsets of the best match to a whole sample that are tried between the samples."""
 ERRORS = 2.0
@@ -151,21 +149,20 @@ def _agrees(x: Array, spline: CubicSpline, lag: float, noise: float) -> bool:
 def _sharpened(x: Array, spline: CubicSpline, period: float) -> float:
     """Return a period to a small share of a sample.
 
-    First over twice as many cycles at a time, up to half the series; then where its harmonics have the most power, the
-    likeliest period in white noise, for interpolation between samples smooths the noise and draws lags away.
+    First over twice as many cycles at a time, up to half the series; then where all cycles scatter least about their
+    mean (Stellingwerf 1978, Astrophys. J. 224, 953-960), for a lag between samples smooths the noise of a pair.
     """
     count, last = 2, float(spline.x[-1])
     while count * period < 0.5 * last:
         period = _nearest(spline, count * period, 0.5) / count
         count *= 2
-    orders = np.arange(1, max(min(HARMONICS, int(0.5 * period)), 1) + 1)
-    angles, centred = 2.0j * math.pi * np.outer(orders, np.arange(len(x))), x - np.mean(x)
-
-    def power(at: float) -> float:
-        return -float(np.sum(np.abs(np.exp(-angles / at) @ centred) ** 2))
-
-    reach = 0.4 * period**2 / (len(x) * orders[-1])
-    return float(minimize_scalar(power, bounds=(period - reach, period + reach), method="bounded").x)
+    reach = 2.0 * period / last
+    spread = minimize_scalar(
+        lambda at: float(np.mean(np.var(cycles_of(x, at), axis=0))),
+        bounds=(period - reach, period + reach),
+        method="bounded",
+    )
+    return float(spread.x)
 
 
 def repeated_share(known: Array, new: Array, noise: float) -> float | None:
