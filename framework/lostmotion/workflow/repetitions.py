@@ -65,9 +65,9 @@ def _one_cycle(observations: Sequence[Observation]) -> list[str]:
         looks = looks_of(observation)
         if looks is not None and looks.cycles >= ENOUGH and looks.distinct < FEW:
             notes.append(
-                f"The {looks.cycles} cycles of {observation.name} count as {looks.distinct:.1f} distinct (the mean cycle is"
-                f" {100.0 * looks.share:.4g} % of the motion). More cycles like these lessen the noise; another level,"
-                " frequency or waveform shows another motion."
+                f"The {looks.cycles} cycles of {observation.name} count as {looks.distinct:.1f} distinct (the mean cycle"
+                f" is {100.0 * looks.share:.4g} % of the motion). More cycles like these lessen the noise; another"
+                " level, frequency or waveform shows another motion."
             )
     return notes
 
