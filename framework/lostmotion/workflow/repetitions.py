@@ -64,10 +64,11 @@ def _one_cycle(observations: Sequence[Observation]) -> list[str]:
     for observation in observations:
         looks = looks_of(observation)
         if looks is not None and looks.cycles >= ENOUGH and looks.distinct < FEW:
+            these = f"The {looks.cycles} cycles of {observation.name}"
             notes.append(
-                f"The {looks.cycles} cycles of {observation.name} count as {looks.distinct:.1f} distinct (the mean cycle"
-                f" is {100.0 * looks.share:.4g} % of the motion). More cycles like these lessen the noise; another"
-                " level, frequency or waveform shows another motion."
+                f"{these} count as {looks.distinct:.1f} distinct (the mean cycle is {100.0 * looks.share:.4g} % of the"
+                " motion). More cycles like these lessen the noise; another level, frequency or waveform shows another"
+                " motion."
             )
     return notes
 
