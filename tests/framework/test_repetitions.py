@@ -69,3 +69,14 @@ def test_nothing_is_compared_with_another_channel_or_another_rate():
     other = Observation.of("other", held.response, held.inputs, DT, "velocity")
     assert share_repeated((train,), faster) is None
     assert share_repeated((train,), other) is None
+
+
+def test_two_equal_blows_are_one_motion_and_no_cycle():
+    time = DT * np.arange(SAMPLES)
+    x = sum(np.exp(-0.8 * (time - at)) * np.sin(9.0 * (time - at)) * (time >= at) for at in (0.5, 10.5))
+    x = x + 1e-3 * np.random.default_rng(0).standard_normal(SAMPLES)
+    blows = np.isin(np.arange(SAMPLES), (50, 1050)).astype(float)
+    whole = Observation.of("blows", x, blows[:, None], DT, "position")
+    notes = repetition_notes((whole,), (whole.part(0, 1000),), (whole.part(1000, SAMPLES),))
+    assert len(notes) == 1
+    assert notes[0].endswith("convinces nobody of more than that motion.")

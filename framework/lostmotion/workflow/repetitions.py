@@ -51,7 +51,8 @@ def _same_again(train: Sequence[Observation], held: Sequence[Observation]) -> li
         return []
     least = math.floor(1000.0 * min(share for _, share in again)) / 10.0
     what = "The held-out part repeats" if len(held) == 1 else f"What is held out of {_listed(again)} repeats"
-    cyclic = all(looks_of(o) is not None for o, _ in again)
+    looks = [looks_of(o) for o, _ in again]
+    cyclic = all(one is not None and one.distinct < FEW for one in looks)
     return [
         f"{what} the motion of the part that was fitted ({least:.4g} % of it): that predictions hold there convinces"
         f" nobody of more than that {'cycle' if cyclic else 'motion'}."
