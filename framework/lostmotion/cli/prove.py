@@ -18,7 +18,7 @@ from lostmotion.cli._options import on_a_trial
         "lostmotion prove --cases 200 --out proof",
         "lostmotion prove --cases 40 --only coulomb_friction --only lugre_friction --out friction",
         "lostmotion prove --cases 300 --clean --out clean     false alarms, some with coloured noise and outliers",
-        "lostmotion prove --world imperfect --cases 200 --samples 3000 --out rough",
+        "lostmotion prove --world imperfect --cases 200 --samples 3000 --out rough     no model is right",
     )
 )
 @click.option("--cases", default=200, show_default=True, type=click.IntRange(1), help="How many cases to conceal.")
@@ -35,7 +35,8 @@ from lostmotion.cli._options import on_a_trial
     default="perfect",
     show_default=True,
     type=click.Choice(["perfect", "imperfect"]),
-    help="In an imperfect world machines have flaws that no term describes; kinds of drives take turns.",
+    help="In an imperfect world machines have flaws that no term describes, kinds of drives take turns, and names"
+    " stated with more than 0.95 are counted.",
 )
 @click.option(
     "--samples", default=20_000, show_default=True, type=click.IntRange(500), help="Samples of the longest recording."

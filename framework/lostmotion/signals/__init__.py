@@ -1,7 +1,8 @@
-"""What any method does with a sampled series: checks, delay vectors, sampling, spectra, sections, decays, hits."""
+"""What any method does with a series: checks, delay vectors, sampling, spectra, sections, decays, hits, cycles."""
 
 from lostmotion.signals.decay import Decay, decay_of, decays_of
 from lostmotion.signals.impacts import Hit, hits_of, note_hits, note_overload, onsets_of, overloaded
+from lostmotion.signals.repetition import Repetition, period_found, repeated_share, repetition_of
 from lostmotion.signals.sampling import Locked, commensurate, resampled, unlocked
 from lostmotion.signals.sections import poincare, return_spread, stroboscopic
 from lostmotion.signals.series import checked, delay_vectors
@@ -13,6 +14,7 @@ __all__ = [
     "Decay",
     "Hit",
     "Locked",
+    "Repetition",
     "Trend",
     "base_line",
     "checked",
@@ -26,8 +28,11 @@ __all__ = [
     "note_overload",
     "onsets_of",
     "overloaded",
+    "period_found",
     "poincare",
     "refined_period",
+    "repeated_share",
+    "repetition_of",
     "resampled",
     "return_spread",
     "spectrum",

@@ -67,22 +67,21 @@ def judged(out: Path, registry: Registry, number: int) -> dict[str, Any]:
 def _judged_roughly(told: dict[str, Any], diagnosis: Row | None, truth: Row) -> dict[str, Any]:
     """Return what became of a case in an imperfect world, where no model is true: nothing is held against an oracle.
 
-    Names that were stated with more than `SURE` are listed with whether what they name is there.
+    Names that were stated with more than `SURE` are listed with whether what they name is there; an effect is `sure`
+    where one of them names it.
     """
     several = told["model"] == "robot_joint"
     effects = [{**effect, "gain": None, "status": "no true model"} for effect in truth["effects"]]
     if diagnosis is None:
-        missed = [{**e, "outcome": MISSED} for e in effects]
+        missed = [{**e, "outcome": MISSED, "sure": False} for e in effects]
         return {**told, "verdict": "failed", "effects": missed, "sure": [], **_nothing()}
     answer = _held_against(diagnosis, effects, truth, several=several)
-    sure = [
-        [_name(entry), entry["mechanism"] in FLAWS or any(in_kind(e, entry, several=several) for e in effects)]
-        for entry in diagnosis["found"]
-        if entry["mechanism"] not in VAGUE and entry["probability"] > SURE and entry.get("state", "named") == "named"
-    ]
-    there = {name for name, right in sure if right}
-    answer["effects"] = [{**e, "outcome": HIT if there else e["outcome"]} for e in answer["effects"]]
+    named = [entry for entry in diagnosis["found"] if entry["mechanism"] not in VAGUE]
+    stated = [entry for entry in named if entry["probability"] > SURE and entry.get("state", "named") == "named"]
+    sure = [[_name(entry), there_is(effects, entry, several=several)] for entry in stated]
+    answer["effects"] = [_sured(e, named, stated, several=several) for e in answer["effects"]]
     answer["false"] = [name for name, right in sure if not right]
+    answer["stated"] = list(_stated(diagnosis, effects, several=several, rough=True))
     errors = [diagnosis["fit"][when]["heldout_nrmse"] for when in ("before", "after")]
     fallen = None if None in errors else errors[1] - errors[0]
     return {
@@ -102,6 +101,18 @@ def in_kind(effect: Row, entry: Row, *, several: bool) -> bool:
         return True
     as_named = {**effect, "mechanism": entry["mechanism"]}
     return {effect["mechanism"], entry["mechanism"]} <= set(RUB) and same(as_named, entry, several=several)
+
+
+def there_is(effects: Sequence[Row], entry: Row, *, several: bool) -> bool:
+    """Return whether what an entry names is in a machine of an imperfect world: hidden, or a flaw that each has."""
+    return entry["mechanism"] in FLAWS or any(in_kind(e, entry, several=several) for e in effects)
+
+
+def _sured(effect: Row, named: Sequence[Row], stated: Sequence[Row], *, several: bool) -> dict[str, Any]:
+    """Return an effect with its outcome, and whether a sure name names it; any law of friction names friction."""
+    hit = any(in_kind(effect, entry, several=several) for entry in named)
+    sure = any(in_kind(effect, entry, several=several) for entry in stated)
+    return {**effect, "outcome": HIT if hit else effect["outcome"], "sure": sure}
 
 
 def _nothing() -> dict[str, Any]:
@@ -205,20 +216,26 @@ def _parameter(name: str, truth: float, interval: Row, *, turn: bool = False) ->
     return {"name": name, "truth": truth, **sizes, "inside": inside, "relative_error": relative}
 
 
-def _stated(diagnosis: Row, effects: Sequence[Row], *, several: bool) -> Iterator[list[float]]:
+def _stated(diagnosis: Row, effects: Sequence[Row], *, several: bool, rough: bool = False) -> Iterator[list[float]]:
     """Yield each probability that was stated of a mechanism, and 1 if that was at work, else 0.
 
-    Of mechanisms that no recording tells apart it is the probability that it is one of them.
+    Of mechanisms that no recording tells apart it is the probability that it is one of them. In a `rough` world all
+    laws of dry friction are one.
     """
     shares: dict[tuple[str, str], list[Row]] = {}
     for row in diagnosis["ranking"]:
-        if row["mechanism"] not in (*VAGUE, "nothing_missing"):
-            kin = next((min(names) for names in ALIKE if row["mechanism"] in names), row["mechanism"])
+        name = row["mechanism"]
+        if name not in (*VAGUE, "nothing_missing"):
+            kin = next((min(names) for names in ALIKE if name in names), name)
             place = row["at"] if row["at"] in ("ground", "base") else ""
-            shares.setdefault((kin, place), []).append(row)
+            shares.setdefault(("rub" if rough and name in RUB else kin, place), []).append(row)
+    there = there_is if rough else _at_work
     for rows in shares.values():
-        at_work = any(same(effect, rows[0], several=several) for effect in effects)
-        yield [min(sum(row["probability"] for row in rows), 1.0), float(at_work)]
+        yield [min(sum(row["probability"] for row in rows), 1.0), float(there(effects, rows[0], several=several))]
+
+
+def _at_work(effects: Sequence[Row], entry: Row, *, several: bool) -> bool:
+    return any(same(effect, entry, several=several) for effect in effects)
 
 
 def _heldout(diagnosis: Row, best: Yardstick) -> dict[str, Any]:

@@ -15,6 +15,7 @@ from lostmotion.likelihood.space import LEVELS
 from lostmotion.stages.diagnose import Diagnosis
 from lostmotion.workflow.decays import note_anew
 from lostmotion.workflow.findings import Outcome
+from lostmotion.workflow.repetitions import repetition_notes
 from lostmotion.workflow.states import unsteady
 
 FAR = 5.0
@@ -36,13 +37,18 @@ def notes_of(outcome: Outcome, said: Sequence[str]) -> list[str]:
             f"The search ended after {len(d.selection.visits)} sets of terms, which is its bound: what is left is told"
             " as left."
         )
-    return [*said, *_unrecorded(d), *doubts, *vague(d.after, d.shown)]
+    again = repetition_notes(_recordings(d), d.train, d.held)
+    return [*said, *_unrecorded(d), *doubts, *again, *vague(d.after, d.shown)]
+
+
+def _recordings(d: Diagnosis) -> tuple[Observation, ...]:
+    """Return the recordings as a whole."""
+    return (*d.train, *d.held) if d.shown is d.held[0] else (d.shown,)
 
 
 def _unrecorded(d: Diagnosis) -> list[str]:
     """Return a note for each recording without an input that something drove all the same."""
-    recordings = (*d.train, *d.held) if d.shown is d.held[0] else (d.shown,)
-    return [note for observation in recordings for note in note_anew(observation)]
+    return [note for observation in _recordings(d) for note in note_anew(observation)]
 
 
 def fleeting(fit: Fit) -> list[str]:

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from scipy.stats import beta, chi2, ncx2
 
-from lostmotion.workflow.judging import HIT, MISNAMED, OUTCOMES, VAGUE
+from lostmotion.workflow.judging import FLAWS, HIT, MISNAMED, OUTCOMES, VAGUE
 from lostmotion.workflow.oracle import alike
 from lostmotion.workflow.proof_words import says_of
 from lostmotion.workflow.sealing import PLAIN
@@ -121,7 +121,8 @@ def _confusion(rows: Sequence[Row]) -> list[dict[str, Any]]:
         for truth in [e["mechanism"] for e in row["effects"]] or ["nothing"]:
             named, false = ({name.partition("@")[0] for name in row[key]} for key in ("named", "false"))
             like = {name for name in named if alike(name, truth)}
-            pairs.update((truth, answer) for answer in (named & {truth} or like or false or {"nothing"}))
+            other = named - set(FLAWS) if "sure" in row else false
+            pairs.update((truth, answer) for answer in (named & {truth} or like or other or {"nothing"}))
     return [{"truth": t, "answer": a, "cases": n} for (t, a), n in sorted(pairs.items())]
 
 
@@ -165,17 +166,22 @@ def _heldout(found: Sequence[Row]) -> dict[str, Any]:
 
 
 def _alarms(clean: Sequence[Row]) -> list[dict[str, Any]]:
-    """Return false alarms on clean cases: all together, then by the kind of measurement noise."""
-    kinds = sorted({row["variant"] for row in clean})
+    """Return false alarms on clean cases: all together, then by the kind of measurement noise.
+
+    In an imperfect world each machine lacks something and has noise of its own kind: an alarm is a false sure name.
+    """
+    rough = any("sure" in row for row in clean)
+    kinds = [] if rough else sorted({row["variant"] for row in clean})
     groups = [("all", clean), *((kind, [row for row in clean if row["variant"] == kind]) for kind in kinds)]
-    return [{"noise": name, **rate(sum(bool(row["named"]) for row in rows), len(rows))} for name, rows in groups]
+    wrong = "false" if rough else "named"
+    return [{"noise": name, **rate(sum(bool(row[wrong]) for row in rows), len(rows))} for name, rows in groups]
 
 
 def _sure(rows: Sequence[Row]) -> list[dict[str, Any]]:
     """Return for each kind of drive in an imperfect world how many of the sure names are there, and what was named.
 
     `rate` counts names that were stated with more than 0.95, `named` machines whose hidden effect is among them,
-    `worse` machines whose held-out error rose by what was found.
+    `worse` machines whose held-out error rose by what was found. Without machines of such a world there are no rows.
     """
     kinds = sorted({row["kind"] for row in rows})
     groups = [("all", rows), *((kind, [row for row in rows if row["kind"] == kind]) for kind in kinds)] if rows else []
@@ -183,8 +189,9 @@ def _sure(rows: Sequence[Row]) -> list[dict[str, Any]]:
     for kind, own in groups:
         names = [right for row in own for _, right in row["sure"]]
         hiding = [row for row in own if row["effects"] and row["effects"][0]["mechanism"] not in VAGUE]
-        named = rate(sum(row["effects"][0]["outcome"] == HIT for row in hiding), len(hiding))
-        worse = rate(sum((row["worse"] or 0.0) > 0.0 for row in own if "worse" in row), len(own))
+        named = rate(sum(row["effects"][0]["sure"] for row in hiding), len(hiding))
+        tried = [row["worse"] for row in own if row.get("worse") is not None]
+        worse = rate(sum(rise > 0.0 for rise in tried), len(tried))
         told.append(
             {"kind": kind, "machines": len(own), **rate(sum(names), len(names)), "named": named, "worse": worse}
         )
@@ -202,7 +209,13 @@ def _alarm(row: Row) -> dict[str, Any]:
 
 
 def _targets(told: Row, effects: Sequence[Row]) -> list[dict[str, Any]]:
-    """Return what a diagnosis should reach, what it reached, and whether that is as it should be."""
+    """Return what a diagnosis should reach, what it reached, and whether that is as it should be.
+
+    In an imperfect world no model is true and no effect has a gain: what counts are the names that were sure.
+    """
+    if told["sure"]:
+        rows = [(f"sure names that are there, {row['kind']}", row, LEVEL, 1.0) for row in told["sure"]]
+        return [_target(what, found, low, high) for what, found, low, high in rows]
     plain = next((row for row in told["alarms"] if row["noise"] == PLAIN), rate(0, 0))
     rows = [
         ("effects named, gain above 50", _named(effects, 50.0, math.inf), 0.95, 1.0),
@@ -211,7 +224,6 @@ def _targets(told: Row, effects: Sequence[Row]) -> list[dict[str, Any]]:
         ("false alarms on clean cases, white noise", plain, 0.0, ALARMS),
         ("cases with a held-out error within 5 % of the true model's", told["heldout"]["within"], WITHIN, 1.0),
     ]
-    rows += [(f"sure names that are there, {row['kind']}", row, LEVEL, 1.0) for row in told["sure"]]
     return [_target(what, found, low, high) for what, found, low, high in rows]
 
 

@@ -13,7 +13,32 @@ Row = Mapping[str, Any]
 
 def says_of(told: Row) -> list[str]:
     """Return the sentences that a report opens with."""
-    return [part for part in (_opening(told), _alarms(told), *_rest(told)) if part]
+    first = _of_sure(told) if told["sure"] else (_opening(told), _alarms(told))
+    return [part for part in (*first, *_rest(told)) if part]
+
+
+def _of_sure(told: Row) -> Iterator[str]:
+    """Yield what is said of an imperfect world, where no model is true."""
+    every, clean = told["sure"][0], told["alarms"][0]
+    yield (
+        _share("name that was", "names that were", every) if every["of"] else "No name was stated with more than 0.95."
+    )
+    named, worse = every["named"], every["worse"]
+    if named["of"]:
+        yield f"The hidden effect was named so on {named['hits']} of {named['of']} machines that hide one."
+    if clean["of"]:
+        yield f"On {clean['hits']} of {clean['of']} machines that hide nothing a name was stated so that is not there."
+    if worse["of"]:
+        yield f"The held-out error rose by what was found on {worse['hits']} of {worse['of']} machines."
+
+
+def _share(one: str, many: str, row: Row) -> str:
+    whose, verb = one if row["of"] == 1 else many, "is" if row["hits"] == 1 else "are"
+    share, low, high = (f"{100.0 * row[key]:.0f}" for key in ("share", "low", "high"))
+    return (
+        f"Of {row['of']} {whose} stated with more than 0.95, {row['hits']} {verb} there"
+        f" ({share} %, 95 % band {low} to {high} %)."
+    )
 
 
 def _opening(told: Row) -> str:

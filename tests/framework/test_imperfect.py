@@ -1,0 +1,370 @@
+"""The blind trial in an imperfect world: what is concealed there, how sure names are judged, what the page says."""
+
+import json
+import tomllib
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from lostmotion.cli import main
+from lostmotion.contracts import Array
+from lostmotion.errors import DataError
+from lostmotion.kernels.independent_rough import CELLS, REACH
+from lostmotion.kernels.independent_zoo import Hidden
+from lostmotion.report.proof import render
+from lostmotion.workflow import judging, proof
+from lostmotion.workflow.imperfect import (
+    CYCLE,
+    IMPACTS,
+    KINDS,
+    SIZE,
+    SMOOTH,
+    STEPS,
+    SWEEP,
+    _timed,
+    draw_effect,
+    draw_machine,
+    draw_world,
+    recorded_roughly,
+)
+from lostmotion.workflow.mechanisms import NAMES, Pilot
+from lostmotion.workflow.sealing import Blind, concealed, label
+from lostmotion.workflow.zoo import Meddling, moved
+
+SHORT = 600
+ROUGH = Blind(most=SHORT, world="imperfect")
+
+
+def sealed(out, number=0):
+    return json.loads((out / "sealed" / f"{label(number)}.json").read_text(encoding="utf-8"))
+
+
+def told(out, number=0):
+    return tomllib.loads((out / "cases" / label(number) / "case.toml").read_text(encoding="utf-8"))
+
+
+def machine(kind, seed, samples=SHORT):
+    """Return a pilot and the flaws of its world, the first of this seed whose motion keeps within bounds."""
+    rng = np.random.default_rng([seed, KINDS.index(kind)])
+    while True:
+        rig = draw_machine(kind, rng, samples)
+        pilot = Pilot(rig, moved(rig, Hidden(), Meddling(), rng))
+        if pilot.rig.model != "lin_backlash" or pilot.touching.any():
+            return pilot, draw_world(kind, pilot, rng), rng
+
+
+@pytest.fixture(scope="module")
+def ten(tmp_path_factory):
+    """Return the folder of ten cases: two of each kind of drive."""
+    out = tmp_path_factory.mktemp("rough")
+    for number in range(10):
+        concealed(ROUGH, out, number)
+    return out
+
+
+def test_kinds_of_drives_take_turns(ten):
+    kinds = [sealed(ten, number)["world"]["kind"] for number in range(10)]
+    assert kinds == [*KINDS, *KINDS]
+
+
+def test_every_kind_makes_a_case_that_can_be_diagnosed(ten):
+    for number in range(10):
+        case, truth = told(ten, number), sealed(ten, number)
+        table = np.loadtxt(ten / "cases" / label(number) / "recording.csv", delimiter=",", skiprows=1)
+        assert np.isfinite(table).all()
+        assert table.shape == (truth["machine"]["samples"], 3)
+        assert np.std(table[:, 1]) > 0.0
+        assert np.std(table[:, 2]) > 0.0
+        assert set(case["model"]["known"]) | set(case["model"]["estimate"]) == set(truth["machine"]["values"])
+        assert "world" not in case
+
+
+def test_seed_reproduces_and_another_does_not(ten, tmp_path):
+    first = {number: concealed(ROUGH, tmp_path / "again", number)["digests"] for number in (3, 7)}
+    other = {number: concealed(replace(ROUGH, seed=1), tmp_path / "other", number)["digests"] for number in (3, 7)}
+    for number in (3, 7):
+        for name in ("case.toml", "recording.csv"):
+            same = (tmp_path / "again" / "cases" / label(number) / name).read_bytes()
+            assert same == (ten / "cases" / label(number) / name).read_bytes()
+        assert first[number] != other[number]
+
+
+def test_known_values_are_off_by_a_tenth_of_a_per_cent_to_one(ten):
+    seen = []
+    for number in range(10):
+        truth = sealed(ten, number)["machine"]
+        for name, value in told(ten, number)["model"]["known"].items():
+            if truth["values"][name]:
+                seen.append(value / truth["values"][name] - 1.0)
+            else:
+                assert value == 0.0
+    assert 0.00099 < np.abs(seen).min() < np.abs(seen).max() < 0.0101
+    assert min(seen) < 0.0 < max(seen)
+
+
+def test_readings_lie_on_a_lattice(ten):
+    for number in range(10):
+        truth = sealed(ten, number)
+        step = truth["world"]["step"] * truth["machine"]["measurement_noise"]
+        shown = np.loadtxt(ten / "cases" / label(number) / "recording.csv", delimiter=",", skiprows=1)[:, 2]
+        assert np.abs(shown / step - np.round(shown / step)).max() < 1e-3
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_smooth_forces_over_the_motion_have_their_size_and_no_straight_line(kind):
+    """To within 5 %: a curve is constant beyond three deviations of the motion."""
+    found = 0
+    for seed in range(8):
+        pilot, world, _ = machine(kind, seed)
+        for over, moves in (("position", pilot.q), ("velocity", pilot.v)):
+            for blemish in (b for b in world.smooth if b.over == over):
+                z: Array = moves / world.flaws[over]
+                force = np.interp(z, np.linspace(-REACH, REACH, CELLS + 1), world.curves[over])
+                line = np.polyfit(z, force, 1)
+                assert np.std(force) == pytest.approx(blemish.rms, rel=0.05)
+                assert np.abs(line).max() < 0.05 * blemish.rms
+                found += 1
+    assert found >= 5
+
+
+def test_smooth_forces_over_phase_have_their_size():
+    found = 0
+    for seed in range(8):
+        pilot, world, _ = machine(CYCLE, seed)
+        for blemish in (b for b in world.smooth if b.over == "phase"):
+            force = _timed(replace(world, smooth=(blemish,)), pilot.rig, pilot.rig.time)
+            assert np.sqrt(np.mean(force**2)) == pytest.approx(blemish.rms, rel=0.15)
+            found += 1
+    assert found >= 2
+
+
+def test_smooth_forces_over_time_have_their_size_on_average():
+    """Half a wave of the slowest over a recording: a single one is up to half smaller or larger."""
+    shares = []
+    for seed in range(20):
+        pilot, world, _ = machine(SWEEP, seed, 500)
+        for blemish in (b for b in world.smooth if b.over == "time"):
+            force = _timed(replace(world, smooth=(blemish,)), pilot.rig, pilot.rig.time)
+            shares.append(np.mean(force**2) / blemish.rms**2)
+    assert len(shares) >= 5
+    assert 0.2 < min(shares) < max(shares) < 2.5
+    assert np.mean(shares) == pytest.approx(1.0, abs=0.35)
+
+
+def test_all_smooth_forces_together_are_a_small_share_of_the_drive():
+    for kind in KINDS:
+        for seed in range(4):
+            pilot, world, _ = machine(kind, seed)
+            drive = np.inf if pilot.rig.based else pilot.rig.signal.amplitude
+            share = np.linalg.norm([b.rms for b in world.smooth]) / min(drive, np.sqrt(2.0) * pilot.inertial)
+            assert SMOOTH[0] <= share * 1.0000001
+            assert share <= SMOOTH[1] * 1.0000001
+            assert kind == CYCLE or "phase" not in {b.over for b in world.smooth}
+
+
+def test_noise_has_its_deviation_and_the_sensor_is_bent_by_half_a_per_cent_at_most():
+    for kind in (CYCLE, IMPACTS):
+        pilot, world, rng = machine(kind, 2, 3000)
+        still = replace(world, hum=0.0, step=1e-6, bend=(0.0, 0.0))
+        shown, noise = recorded_roughly(pilot.rig, pilot.q, still, rng)
+        assert np.std(shown - pilot.q) == pytest.approx(noise, rel=0.1)
+        silent = replace(pilot.rig, noise=1e-9)
+        shown, _ = recorded_roughly(silent, pilot.q, replace(world, step=1e-6, bend=(0.005, -0.005)), rng)
+        z = (pilot.q - pilot.q.mean()) / (np.sqrt(2.0) * np.std(pilot.q))
+        assert np.abs(shown - pilot.q).max() <= 0.0051 * np.sqrt(2.0) * np.std(pilot.q) * np.max(z**2 + np.abs(z) ** 3)
+        assert np.abs(shown - pilot.q).max() > 0.001 * np.std(pilot.q)
+
+
+def test_hidden_force_is_a_share_of_that_of_inertia():
+    for kind in (CYCLE, STEPS):
+        pilot, _, rng = machine(kind, 1)
+        shares = [dict(draw_effect("offset_force", pilot, rng).parameters)["force"] / pilot.inertial for _ in range(50)]
+        assert SIZE[0] <= np.abs(shares).min()
+        assert np.abs(shares).max() <= SIZE[1]
+        assert min(shares) < 0.0 < max(shares)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_every_mechanism_can_be_hidden_under_one_cycle(name, tmp_path):
+    concealed(replace(ROUGH, only=(name,), most=500), tmp_path, 0)
+    assert [one["mechanism"] for one in sealed(tmp_path)["effects"]] == [name]
+
+
+def test_what_cannot_be_hidden_under_a_drive_is_refused(tmp_path):
+    only = replace(ROUGH, only=("parametric_stiffness",))
+    concealed(only, tmp_path, 0)
+    with pytest.raises(DataError, match="parametric_stiffness cannot be hidden in a machine under impacts: name more"):
+        concealed(only, tmp_path, KINDS.index(IMPACTS))
+
+
+def test_world_that_does_not_exist_is_refused():
+    with pytest.raises(DataError, match="no world is called 'flat': there are perfect, imperfect"):
+        Blind(world="flat").check()
+
+
+def entry(mechanism, at="ground", probability=0.99, **more):
+    return {"mechanism": mechanism, "at": at, "probability": probability, "parameters": {}, **more}
+
+
+def effect(mechanism, at="ground"):
+    return {"mechanism": mechanism, "at": at, "parameters": {}, "what": ""}
+
+
+def judge(found, *effects, model="lin_backlash", errors=(0.2, 0.1)):
+    truth = {
+        "effects": list(effects),
+        "machine": {"model": model, "values": {}, "signal": {"tones": [[1.0, 1.0, 0.0]]}},
+        "world": {"kind": CYCLE},
+    }
+    fit = {when: {"heldout_nrmse": error} for when, error in zip(("before", "after"), errors, strict=True)}
+    diagnosis = {"found": list(found), "ranking": list(found), "confused_with": [], "verdict": "mismatch", "fit": fit}
+    diagnosis["parameters"] = {"after": {}}
+    start = {"case": "000", "model": model, "variant": "plain", "margin": None, "kind": CYCLE}
+    return judging._judged_roughly(start, diagnosis, truth)
+
+
+@pytest.mark.parametrize("law", judging.RUB)
+@pytest.mark.parametrize("said", ["coulomb_friction", "bouc_wen_hysteresis"])
+def test_any_law_of_friction_names_friction(law, said):
+    answer = judge([entry(said)], effect(law))
+    assert answer["sure"] == [[said, True]]
+    assert answer["effects"][0]["outcome"] == judging.HIT
+    assert answer["effects"][0]["sure"]
+    assert answer["stated"] == [[0.99, 1.0]]
+    assert answer["false"] == []
+
+
+def test_friction_at_another_place_is_not_there():
+    answer = judge([entry("dahl_friction", "ground")], effect("coulomb_friction", "base"), model="robot_joint")
+    assert answer["sure"] == [["dahl_friction", False]]
+    assert not answer["effects"][0]["sure"]
+
+
+def test_friction_where_a_spring_is_hidden_is_not_there():
+    answer = judge([entry("coulomb_friction")], effect("cubic_stiffness"))
+    assert answer["sure"] == [["coulomb_friction", False]]
+    assert answer["false"] == ["coulomb_friction"]
+    assert answer["stated"] == [[0.99, 0.0]]
+
+
+def test_quantisation_is_on_every_machine_and_names_nothing_that_is_hidden():
+    answer = judge([entry("sensor_quantisation", "sensor")], effect("coulomb_friction"))
+    assert answer["sure"] == [["sensor_quantisation", True]]
+    assert answer["effects"][0]["outcome"] != judging.HIT
+    assert not answer["effects"][0]["sure"]
+
+
+@pytest.mark.parametrize("unsure", [{"probability": 0.94}, {"state": "likely"}, {"state": "open"}])
+def test_what_is_not_stated_with_more_than_95_per_cent_is_not_sure(unsure):
+    answer = judge([entry("coulomb_friction", **unsure)], effect("coulomb_friction"))
+    assert answer["sure"] == []
+    assert answer["effects"][0]["outcome"] == judging.HIT
+    assert not answer["effects"][0]["sure"]
+
+
+def test_unknown_is_neither_right_nor_false():
+    answer = judge([entry("unknown"), entry("random_force")], effect("coulomb_friction"))
+    assert (answer["sure"], answer["false"]) == ([], [])
+    assert answer["effects"][0]["outcome"] == judging.NOTICED
+
+
+def test_rise_of_the_held_out_error_is_told():
+    assert judge([], effect("gap_drift"), errors=(0.1, 0.3))["worse"] == pytest.approx(0.2)
+    assert judge([], effect("gap_drift"), errors=(None, 0.3))["worse"] is None
+
+
+def rows():
+    """Return what became of machines, two kinds of drives, in the order of their cases."""
+    friction, spring = effect("coulomb_friction"), effect("cubic_stiffness")
+    answers = [
+        (CYCLE, judge([entry("dahl_friction")], friction)),
+        (CYCLE, judge([entry("gap_drift")], spring, errors=(0.1, 0.3))),
+        (SWEEP, judge([entry("cubic_stiffness"), entry("sensor_quantisation", "sensor")], spring)),
+        (SWEEP, judge([entry("unknown")], friction)),
+        (SWEEP, judge([entry("unknown")])),
+        (SWEEP, judge([entry("offset_force")])),
+    ]
+    return [{**answer, "kind": kind, "case": label(k)} for k, (kind, answer) in enumerate(answers)]
+
+
+def test_summary_rates_sure_names_by_kind():
+    found = proof.summary(rows(), [])
+    every, cycle, sweep = found["sure"]
+    assert [row["kind"] for row in found["sure"]] == ["all", CYCLE, SWEEP]
+    assert (every["machines"], every["hits"], every["of"]) == (6, 3, 5)
+    assert (cycle["machines"], cycle["hits"], cycle["of"]) == (2, 1, 2)
+    assert (sweep["machines"], sweep["hits"], sweep["of"]) == (4, 2, 3)
+    assert (every["named"]["hits"], every["named"]["of"]) == (2, 4)
+    assert (every["worse"]["hits"], every["worse"]["of"]) == (1, 6)
+    assert every["low"] == proof.rate(3, 5)["low"]
+    assert {(row["truth"], row["answer"]) for row in found["confusion"]} == {
+        ("coulomb_friction", "dahl_friction"), ("cubic_stiffness", "gap_drift"), ("nothing", "unknown"),
+        ("cubic_stiffness", "cubic_stiffness"), ("coulomb_friction", "unknown"), ("nothing", "offset_force"),
+    }  # fmt: skip
+
+
+def test_alarm_on_a_machine_that_hides_nothing_is_a_false_sure_name():
+    (alarms,) = proof.summary(rows(), [])["alarms"]
+    assert (alarms["noise"], alarms["hits"], alarms["of"]) == ("all", 1, 2)
+
+
+def test_targets_are_those_of_sure_names():
+    targets = proof.summary(rows(), [])["targets"]
+    assert [row["what"] for row in targets] == [f"sure names that are there, {kind}" for kind in ("all", CYCLE, SWEEP)]
+    assert {row["at_least"] for row in targets} == {0.95}
+    many = proof.summary([row for row in rows() for _ in range(20)], [])["targets"]
+    assert many[0]["state"] == "missed"
+
+
+def test_sentences_count_sure_names():
+    says = proof.summary(rows(), [])["says"]
+    assert says[0] == "Of 5 names that were stated with more than 0.95, 3 are there (60 %, 95 % band 15 to 95 %)."
+    assert says[1] == "The hidden effect was named so on 2 of 4 machines that hide one."
+    assert says[2] == "On 1 of 2 machines that hide nothing a name was stated so that is not there."
+    assert says[3] == "The held-out error rose by what was found on 1 of 6 machines."
+    assert proof.summary(rows()[3:5], [])["says"][0] == "No name was stated with more than 0.95."
+
+
+def page(cases):
+    return render(json.loads(json.dumps({"title": "Rough", **proof.summary(cases, []), "provenance": {}})))
+
+
+def test_page_shows_sure_names_by_drive_and_nothing_that_needs_a_true_model():
+    text = page(rows())
+    assert "Names stated with more than 0.95" in text
+    assert "one cycle, repeated" in text
+    assert "3 of 5" in text
+    assert 'id="section-reliability"' in text
+    for absent in ("section-detection", "section-heldout", "Median gain", "True model", "By size", "no true model"):
+        assert absent not in text
+    assert "cases/001: cubic stiffness at the ground, misnamed; named was gap drift." in text
+    assert "flaws that no term describes" in text
+
+
+def test_page_of_a_perfect_world_says_nothing_of_flaws():
+    row = {**rows()[4], "named": [], "sure": None}
+    text = page([{key: value for key, value in row.items() if key not in ("sure", "kind", "worse")}])
+    assert "flaws that no term describes" not in text
+    assert "Names stated with more than 0.95" not in text
+
+
+@pytest.mark.slow
+def test_trial_runs_from_the_command_line(tmp_path):
+    line = ["prove", "--world", "imperfect", "--cases", "1", "--samples", str(SHORT), "--jobs", "1", "--quiet"]
+    outcome = CliRunner().invoke(main, [*line, "--out", str(tmp_path)], prog_name="lostmotion")
+    assert outcome.exit_code == 0, outcome.output
+    content = json.loads((tmp_path / "proof.json").read_text(encoding="utf-8"))
+    assert [row["kind"] for row in content["sure"]] == ["all", CYCLE]
+    assert content["failed"] == []
+    assert content["says"][0] in outcome.output
+    assert "http" not in (tmp_path / "report.html").read_text(encoding="utf-8")
+
+
+def test_only_of_something_impossible_is_refused_from_the_command_line(tmp_path):
+    line = ["prove", "--world", "imperfect", "--cases", "2", "--samples", "500", "--only", "parametric_stiffness"]
+    outcome = CliRunner().invoke(main, [*line, "--jobs", "1", "--quiet", "--out", str(tmp_path)])
+    assert outcome.exit_code == 2
+    assert "parametric_stiffness cannot be hidden in a machine under multisine" in outcome.output
+    assert "Traceback" not in outcome.output
