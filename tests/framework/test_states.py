@@ -1,0 +1,133 @@
+"""Named, likely, open: how sure a diagnosis is, what held-out data may veto, and what is withheld."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from lostmotion.stages.compare import worsened
+from lostmotion.workflow import diagnose as ways
+from lostmotion.workflow.findings import shown
+from lostmotion.workflow.states import LATE, doubts_of, holds, open_of, unsteady
+from lostmotion_plugins.terms.drive import ExcitationDelay
+from lostmotion_plugins.terms.friction import CoulombFriction
+
+FRICTION, DELAY = "coulomb_friction@ground", "excitation_delay@drive"
+
+
+def fit_of(values, active, sds=None):
+    terms = (CoulombFriction(at="ground"), ExcitationDelay(at="drive"))
+    system = SimpleNamespace(keys=(FRICTION, DELAY), terms=terms)
+    slots = {
+        FRICTION: [SimpleNamespace(key=f"{FRICTION}.force", param=CoulombFriction.params[0])],
+        DELAY: [SimpleNamespace(key=f"{DELAY}.delay", param=ExcitationDelay.params[0])],
+    }
+    system.own = slots
+    free = [SimpleNamespace(key=k, log=False, unit="N" if "force" in k else "s") for k in values]
+    problem = SimpleNamespace(system=system, active=frozenset(active), free=free, scales=SimpleNamespace(time=1.0))
+    return SimpleNamespace(problem=problem, values=values, sd=sds or dict.fromkeys(values, 0.01))
+
+
+def diagnosis(after, probabilities, visits=None, **course):
+    sets = {frozenset(k): p for k, p in probabilities.items()}
+    selection = SimpleNamespace(
+        chosen=after,
+        visits={frozenset(k): SimpleNamespace(fit=f) for k, f in (visits or {}).items()},
+        probabilities=lambda: sets,
+        inclusion=lambda key: sum(p for terms, p in sets.items() if key in terms),
+        unbeaten=course.get("unbeaten", set()),
+        declined=course.get("declined", set()),
+    )
+    found = tuple(after.problem.active)
+    return SimpleNamespace(
+        selection=selection, after=after, before=after, found=found, withdrawn=course.get("withdrawn", ())
+    )
+
+
+@pytest.fixture(autouse=True)
+def _slots(monkeypatch):
+    def term_of(problem, key):
+        system = problem.system
+        return system.terms[system.keys.index(key)], system.own[key]
+
+    monkeypatch.setattr("lostmotion.workflow.states.term_of", term_of)
+
+
+def test_a_sure_term_is_named_and_one_with_rivals_is_not():
+    after = fit_of({f"{FRICTION}.force": 1.0}, [FRICTION])
+    assert doubts_of(diagnosis(after, {(FRICTION,): 0.99, (): 0.01}), FRICTION) == []
+    (doubt,) = doubts_of(diagnosis(after, {(FRICTION,): 0.8, (DELAY,): 0.2}), FRICTION)
+    assert doubt == "Its probability is 0.8; its rivals are excitation delay."
+    (doubt,) = doubts_of(diagnosis(after, {(FRICTION,): 0.8, (): 0.2}), FRICTION)
+    assert doubt.endswith("its rival is a smooth force without a name.")
+
+
+def test_a_long_delay_is_no_more_than_likely():
+    period = 2.0 * np.pi
+    for share, doubts in ((0.5 * LATE, 0), (2.0 * LATE, 1)):
+        after = fit_of({f"{DELAY}.delay": share * period}, [DELAY])
+        assert len(doubts_of(diagnosis(after, {(DELAY,): 1.0}), DELAY)) == doubts
+
+
+def test_a_level_that_moves_when_a_delay_comes_in_is_told_and_the_delay_doubted():
+    after = fit_of({f"{FRICTION}.force": 0.27, f"{DELAY}.delay": 0.01}, [FRICTION, DELAY])
+    before = fit_of({f"{FRICTION}.force": 0.68}, [FRICTION])
+    d = diagnosis(after, {(FRICTION, DELAY): 1.0}, {(FRICTION,): before})
+    (told,) = unsteady(d, DELAY)
+    assert "0.68 N without excitation delay and of 0.27 N with it" in told
+    assert doubts_of(d, DELAY) == [told]
+    assert doubts_of(d, FRICTION) == []
+    still = fit_of({f"{FRICTION}.force": 0.28}, [FRICTION])
+    assert not list(unsteady(diagnosis(after, {(FRICTION, DELAY): 1.0}, {(FRICTION,): still}), DELAY))
+
+
+def test_what_stays_open_is_told_with_the_reason_once():
+    after = fit_of({}, [])
+    d = diagnosis(after, {(): 1.0}, unbeaten={FRICTION}, declined={FRICTION, DELAY}, withdrawn=("unknown",))
+    rows = open_of(d)
+    assert [row["mechanism"] for row in rows] == ["coulomb_friction", "excitation_delay"]
+    assert "smooth force that nobody has named" in rows[0]["says"]
+    assert "has a memory" in rows[1]["says"]
+
+
+@pytest.mark.parametrize(("error", "floor", "good"), [(0.2, 0.01, True), (0.35, 0.1, True), (5.92, 0.01, False),
+                                                     (float("nan"), 0.1, False)])  # fmt: skip
+def test_a_model_holds_that_predicts(error, floor, good):
+    assert holds(SimpleNamespace(nrmse=error), floor) is good
+
+
+def test_intervals_are_withheld_with_the_reason():
+    told = {"c": {"median": 1.0, "low": 0.9, "high": 1.1, "unit": "N s/m"}}
+    assert shown(told, "")["c"]["low"] == 0.9
+    kept = shown(told, "because")["c"]
+    assert (kept["median"], kept["low"], kept["high"], kept["withheld"]) == (1.0, None, None, "because")
+
+
+def prediction(nrmse, scores):
+    return SimpleNamespace(nrmse=nrmse, scores=np.asarray(scores, dtype=float))
+
+
+def test_held_out_data_speak_against_what_predicts_worse():
+    flat, rng = np.zeros(20), np.random.default_rng(0)
+    assert worsened(prediction(0.286, flat), prediction(0.315, flat))
+    assert not worsened(prediction(0.30, flat), prediction(0.302, flat))
+    assert worsened(prediction(0.30, flat), prediction(0.2, flat - 0.11 + 0.01 * rng.standard_normal(20)))
+    assert not worsened(prediction(0.30, flat), prediction(0.2, flat + 0.1))
+    assert worsened(prediction(0.30, flat), prediction(float("nan"), flat))
+
+
+def test_what_makes_predictions_worse_is_taken_back_until_they_are_not(monkeypatch):
+    errors = {("a", "b", "curve"): 0.5, ("a", "b"): 0.4, ("a",): 0.1, (): 0.3}
+
+    def judged(d, prepared, rng):
+        return SimpleNamespace(diagnosis=d, before=prediction(0.3, [0.0]), after=prediction(errors[d.found], [0.0]))
+
+    def simpler(d, rng):
+        return SimpleNamespace(found=d.found[:-1], withdrawn=(*d.withdrawn, d.found[-1]))
+
+    monkeypatch.setattr(ways, "judged", judged)
+    monkeypatch.setattr(ways, "simpler", simpler)
+    start = SimpleNamespace(found=("a", "b", "curve"), withdrawn=())
+    outcome = ways.upheld(start, None, np.random.default_rng(0))
+    assert outcome.diagnosis.found == ("a",)
+    assert outcome.diagnosis.withdrawn == ("curve", "b")

@@ -1,0 +1,141 @@
+"""The rival of every name: its evidence against quadrature, and machines whose flaws must not get a name."""
+
+import numpy as np
+import pytest
+from sensed import case_of, model_of, moved, multisine, noisy
+
+from lostmotion.inference.candidates import fit_with, screen, slopes_of
+from lostmotion.inference.course import Selection, Visit
+from lostmotion.inference.fit import maximise
+from lostmotion.inference.rival import evidence_of, expanded, fitted
+from lostmotion.inference.selection import DECISIVE, Selector
+from lostmotion.inference.setup import problem_of, search, split
+from lostmotion.likelihood.system import System
+from lostmotion.registry import Registry
+from lostmotion.stages.diagnose import fitted_keys
+from lostmotion.workflow.prepare import prepare
+
+VALUES = {"m": 1.2, "c": 0.8, "k": 300.0}
+T = np.arange(0.0, 12.0, 0.02)
+
+
+def oscillator(force, extra):
+    """Return the position (samples,) of an oscillator by DOP853, with a further force of position, velocity, time."""
+
+    def rates(t, y):
+        more = extra(y[0], y[1], t)
+        return [y[1], (float(force(t)) - VALUES["c"] * y[1] - VALUES["k"] * y[0] + more) / VALUES["m"]]
+
+    return moved(rates, T, [0.0, 0.0])[:, 0]
+
+
+def nominal_of(folder, extra, *, seed=0, stated=1.0):
+    """Return the nominal fit of a recording under a multisine of 10 N, and what it was made of."""
+    force = multisine(10.0, 0.5, 5.0, seed)
+    x = oscillator(force, extra)
+    columns = {"t": T, "F": force(T), "x": noisy(x, 0.003, seed)}
+    recording = {
+        "excitation": {"column": "F", "quantity": "force", "unit": "N"},
+        "response": {"column": "x", "quantity": "position", "unit": "m"},
+    }
+    model = model_of("linear_oscillator", {**VALUES, "m": stated * VALUES["m"]}, ("c", "k"))
+    prepared = prepare(case_of(folder, columns, recording, model), Registry.discover())
+    system = System(prepared.model, prepared.terms)
+    train, _ = split(prepared.observations)
+    return search(problem_of(system, prepared.case, train, jobs=1), np.random.default_rng(seed)), system
+
+
+def chosen_of(nominal, system):
+    return Selector(nominal, fitted_keys(system), lambda _: None).run()
+
+
+def bend(size):
+    """Return a smooth force (N) over the position that no term has: a wave of a few turns over the motion."""
+    return lambda x, v, t: size * np.sin(x / 0.012 + 0.7)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_evidence_is_the_integral_over_the_coefficients(seed):
+    rng = np.random.default_rng(seed)
+    root = rng.standard_normal((2, 2))
+    h, g, widths = root @ root.T, 3.0 * rng.standard_normal(2), np.exp(rng.standard_normal(2))
+    z = np.linspace(-9.0, 9.0, 1201)
+    a, b = (w * z for w in widths)
+    prior = np.exp(-0.5 * z**2) / np.sqrt(2.0 * np.pi)
+    grid = np.stack(np.meshgrid(a, b, indexing="ij"), axis=-1)
+    height = np.exp(grid @ g - 0.5 * np.einsum("ijk,kl,ijl->ij", grid, h, grid))
+    brute = np.log(np.sum(height * np.outer(prior, prior)) * (z[1] - z[0]) ** 2)
+    assert evidence_of(h, g, widths) == pytest.approx(brute, abs=1e-4)
+    assert evidence_of(h, g, np.array([widths[0], 0.0])) == pytest.approx(evidence_of(h[:1, :1], g[:1], widths[:1]))
+
+
+def test_a_smooth_force_is_seen_by_the_discrepancy_and_gets_no_name(tmp_path):
+    nominal, system = nominal_of(tmp_path, bend(0.25))
+    best = expanded(nominal).best((), 1.0)
+    assert best.gain > 20.0
+    assert dict(best.chosen)["unknown_over_position"] >= 0
+    assert chosen_of(nominal, system).chosen.problem.active == frozenset()
+
+
+def test_what_is_promised_comes_true_when_it_is_fitted(tmp_path):
+    nominal, _ = nominal_of(tmp_path, bend(0.25))
+    expansion = expanded(nominal)
+    promised = expansion.best((), expansion.worse).gain
+    fit, price = fitted(expansion)
+    won = fit.log_evidence - nominal.log_evidence - price
+    assert won > 0.7 * promised
+
+
+def test_a_clean_machine_has_no_discrepancy(tmp_path):
+    nominal, system = nominal_of(tmp_path, lambda x, v, t: 0.0)
+    assert expanded(nominal).gain() < 3.0
+    assert chosen_of(nominal, system).chosen.problem.active == frozenset()
+
+
+def test_a_known_value_that_is_slightly_wrong_gets_no_name(tmp_path):
+    nominal, system = nominal_of(tmp_path, lambda x, v, t: 0.0, stated=1.01)
+    course = chosen_of(nominal, system)
+    raw = max(v.weight for v in course.visits.values()) - course.visits[frozenset()].weight
+    assert raw > DECISIVE, "by the evidence alone something would be named"
+    assert course.chosen.problem.active == frozenset()
+    assert course.unbeaten
+
+
+def test_friction_is_named_beside_a_smooth_force(tmp_path):
+    rub = lambda x, v, t: bend(0.2)(x, v, t) - 1.0 * np.tanh(v / 1e-3)  # noqa: E731
+    nominal, system = nominal_of(tmp_path, rub)
+    course = chosen_of(nominal, system)
+    assert any(key.startswith(("coulomb_friction", "stribeck_friction")) for key in course.chosen.problem.active)
+    for key in course.chosen.problem.active:
+        assert key.partition("@")[0] in ("coulomb_friction", "stribeck_friction", "dahl_friction", "lugre_friction")
+
+
+def test_leads_are_antisymmetric_and_bounded_by_what_the_larger_set_says(tmp_path):
+    nominal, _ = nominal_of(tmp_path, bend(0.25))
+    key = "cubic_stiffness"
+    more = fit_with(nominal, screen(nominal, slopes_of(nominal), key))
+    course = Selection(nominal, nominal)
+    for fit in (nominal, more):
+        course.visits[fit.problem.active] = Visit(fit.problem.active, fit, fit.log_evidence)
+    bare, with_it = (course.visits[fit.problem.active] for fit in (nominal, more))
+    assert course.lead(with_it, bare) == -course.lead(bare, with_it)
+    dropped = [i for i, k in enumerate(more.problem.keys) if k.startswith(key)]
+    expansion = course.expansion(with_it)
+    assert (
+        course.lead(with_it, bare)
+        <= expansion.gain(worse=expansion.worse) - expansion.gain(dropped, worse=expansion.worse) + 1e-9
+    )
+
+
+def test_a_term_that_is_dropped_in_an_expansion_is_worth_what_it_wins(tmp_path):
+    nominal, _ = nominal_of(tmp_path, lambda x, v, t: -2.5e3 * x**3)
+    key = "cubic_stiffness"
+    more = fit_with(nominal, screen(nominal, slopes_of(nominal), key))
+    expansion = expanded(more)
+    dropped = [i for i, k in enumerate(more.problem.keys) if k.startswith(key)]
+    gradient, lost = expansion._without(dropped)
+    kept = [i for i in range(expansion.own) if i not in dropped]
+    inner = expansion.information[np.ix_(kept, kept)]
+    back = 0.5 * gradient[kept] @ np.linalg.solve(inner, gradient[kept])
+    true = more.local.log_posterior - maximise(nominal.problem, nominal.theta).local.log_posterior
+    assert lost - back == pytest.approx(true, rel=0.5)
