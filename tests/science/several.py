@@ -51,11 +51,15 @@ def fitted(observations):
 
 
 def rubbed(name, seed, level, *, friction=0.0, c=C, samples=1000, noise=0.005, finer=16):
-    """Return a recording of the oscillator with dry friction (N) under a multisine, by leapfrog; it truly sticks."""
+    """Return a recording of the oscillator with dry friction (N) under a multisine, by leapfrog; it truly sticks.
+
+    `level` is the rms of the force.
+    """
     rng = np.random.default_rng(seed)
     tones, phases = rng.uniform(1.0, 6.0, 10), rng.uniform(0.0, 2.0 * np.pi, 10)
     t = np.arange(samples * finer) * DT / finer
-    force = level / np.sqrt(10) * np.sum(np.cos(2.0 * np.pi * np.multiply.outer(t, tones) + phases), axis=1)
+    force = np.sum(np.cos(2.0 * np.pi * np.multiply.outer(t, tones) + phases), axis=1)
+    force *= level / np.std(force[::finer])
     h, x, v, seen = DT / finer, 0.0, 0.0, np.zeros(samples)
     for i, u in enumerate(force):
         if i % finer == 0:

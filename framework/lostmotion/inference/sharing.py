@@ -20,7 +20,7 @@ from scipy.special import chdtrc
 
 from lostmotion.case import Sensor
 from lostmotion.contracts import Array
-from lostmotion.inference.fit import Fit, maximise, restarted, sensitivity
+from lostmotion.inference.fit import MANY, Fit, maximise, restarted, sensitivity, warmed
 from lostmotion.inference.learned import Learned
 from lostmotion.inference.setup import separated
 from lostmotion.kernels.threads import each
@@ -34,12 +34,18 @@ LEVEL = 0.01
 ALIKE = 0.01
 """Values that scatter by this share hold as one: temperature and lubrication alone change real machines by as much."""
 ROUNDS = 8
+RAISED = 3.0
+"""By how much the log random force is raised where a fit without a curve begins."""
 BLOCKS, SHORTEST = 40, 10
 """Scores are added up over so many blocks of each recording, of so many readings each at least."""
+VAGUE = 0.05
+"""The rms tells to about this share how strongly a motion is driven: lines over the level may miss values by it."""
 MOST_OWN = 3
 """So many parameters are released at most: where more of them differ, the model does not hold."""
 SAMPLES = 40_000
 """The beginnings of the recordings are compared, so many samples together."""
+FEWER = 10_000
+"""So many samples where learned curves bring dozens of coefficients: all of them are fitted anew each time."""
 NEAR = 3.0
 """Own values of another parameter that come within this log-likelihood explain a difference as well."""
 FITS, KNOWN, STEEPEST = 0.05, 3.0, 4.0
@@ -72,7 +78,7 @@ class Power:
 
 @dataclass(frozen=True)
 class Shared:
-    """A parameter in each recording: `values` with 95 % intervals, and whether one value holds.
+    """A parameter in each recording: `values` with 95 % intervals, their best `common` value, and whether that holds.
 
     `chi2` with `dof` degrees of freedom tests that; `p` is corrected for the number of parameters. `power` tells how
     the values go with the level, `odd` the number of the only recording that differs, each where it is so. `instead`
@@ -81,6 +87,7 @@ class Shared:
 
     key: str
     values: tuple[Interval, ...]
+    common: Interval
     chi2: float
     dof: int
     p: float
@@ -102,12 +109,20 @@ class Shared:
 
 @dataclass(frozen=True)
 class Sharing:
-    """What the `recordings` of a fit share, parameter by parameter; `failed` names those of which no fit came out."""
+    """What the `recordings` of a fit share, parameter by parameter.
+
+    `released` names those that have values of each recording's own, in that order, while others are tested; `failed`
+    those of which no fit came out. `dropped` names learned curves that are not needed once what differs is released,
+    `gain` is the log evidence that this adds.
+    """
 
     recordings: tuple[str, ...]
     levels: Levels
     parameters: Mapping[str, Shared]
+    released: tuple[str, ...] = ()
     failed: tuple[str, ...] = ()
+    dropped: tuple[str, ...] = ()
+    gain: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -119,53 +134,74 @@ class Apart:
     free: Free
     at: Array
     covariance: Array
+    given: bool
 
 
 def sharing_of(fit: Fit) -> Sharing | None:
     """Return what the recordings of a fit share; None where there is one recording.
 
-    Each recording has noise levels of its own. Learned curves are held at what they are.
+    Each recording has noise levels of its own. Learned curves are one for all, and move along; values are also compared
+    without them, since a curve may stand in for a difference, and the course with the larger evidence is returned.
     """
-    names = [observation.name for observation in fit.problem.observations]
-    if len(names) < 2:
+    if len(fit.problem.observations) < 2:
         return None
-    base = separated(_compared(fit), Sensor())
-    tested = _tested(base.problem)
-    levels = levels_of(base.problem.observations)
+    compared = _compared(fit)
+    courses = [_course(separated(compared, Sensor()))]
+    if curves := curves_of(fit.problem):
+        plain = compared.problem
+        for key in curves:
+            plain = plain.reduced(key, fit.values)
+        bare, evidence = _course(separated(maximise(plain, warmed(plain, plain.start, RAISED)), Sensor()))
+        courses.append((replace(bare, dropped=curves), evidence))
+    return max(courses, key=lambda course: course[1])[0]
+
+
+def _course(shared: Fit) -> tuple[Sharing, float]:
+    """Return what recordings share, and the log evidence of the fit in which what differs is released."""
+    base = shared
+    observations, tested = base.problem.observations, _tested(base.problem)
+    levels = levels_of(observations)
     found: dict[str, Shared] = {}
-    released: list[Apart] = []
+    released: list[str] = []
     for turn in range(MOST_OWN + 1):
         rest = [key for key in tested if key not in found]
         apart = {one.key: one for one in _each_apart(base, rest)}
         tests = _tests(apart, levels)
-        own = _best(base, apart, tests)
+        own = _best(apart, tests)
         if turn == MOST_OWN or own is None:
             found |= tests
             break
         found[own.key] = tests[own.key]
-        released.append(own)
+        released.append(own.key)
         base = own.fit
+    gain = base.log_evidence - shared.log_evidence
     values = {key: found[key] for key in tested if key in found}
-    return Sharing(tuple(names), levels, values, tuple(key for key in tested if key not in found))
+    failed = tuple(key for key in tested if key not in found)
+    names = tuple(observation.name for observation in observations)
+    return Sharing(names, levels, values, tuple(released), failed, gain=gain), base.log_evidence
+
+
+def curves_of(problem: Problem) -> tuple[str, ...]:
+    """Return the keys of the learned curves that act in a problem."""
+    terms = zip(problem.system.keys, problem.system.terms, strict=True)
+    return tuple(key for key, term in terms if isinstance(term, Learned) and key in problem.active)
 
 
 def _compared(fit: Fit) -> Fit:
-    """Return the fit on the beginnings of its recordings, learned curves held, as a problem that starts there."""
+    """Return the fit on the beginnings of its recordings, as a problem that starts where it is highest."""
     problem = restarted(fit)
-    terms = zip(problem.system.keys, problem.system.terms, strict=True)
-    curves = tuple(f"{key}." for key, term in terms if isinstance(term, Learned))
-    held = [f.key for f in problem.free if curves and f.key.startswith(curves)]
-    kept = tuple(f for f in problem.free if f.key not in held)
-    problem = replace(problem.knowing({key: fit.values[key] for key in held}), free=kept)
-    most = max(SAMPLES // len(problem.observations), 1)
-    if not held and all(o.samples <= most for o in problem.observations):
+    samples = SAMPLES if len(problem.free) <= MANY else FEWER
+    most = max(samples // len(problem.observations), 1)
+    if all(o.samples <= most for o in problem.observations):
         return replace(fit, problem=problem)
     return maximise(problem.on(tuple(o.part(0, min(o.samples, most)) for o in problem.observations)), rounds=ROUNDS)
 
 
 def _tested(problem: Problem) -> tuple[str, ...]:
-    """Return the names of the parameters that are compared: all but noise levels and zeros of sensors."""
-    return tuple(dict.fromkeys(f.parameter for f in problem.free if f.level not in LEVELS))
+    """Return the names of the parameters that are compared: no noise levels, no coefficients of learned curves."""
+    curves = curves_of(problem)
+    names = [f.parameter for f in problem.free if f.level not in LEVELS]
+    return tuple(dict.fromkeys(name for name in names if name.rpartition(".")[0] not in curves))
 
 
 def levels_of(observations: Sequence[Observation]) -> Levels:
@@ -201,7 +237,9 @@ def apart_in(base: Fit, key: str) -> Apart | None:
         if fit.status == "diverged":
             return None
     columns = [fit.problem.keys.index(name) for name in keys_of(key, names)]
-    return Apart(key, fit, replace(free, key=key), fit.theta[columns], covariance_of(fit, columns))
+    return Apart(
+        key, fit, replace(free, key=key), fit.theta[columns], covariance_of(fit, columns), free.recording is not None
+    )
 
 
 def covariance_of(fit: Fit, columns: Sequence[int]) -> Array:
@@ -287,27 +325,27 @@ def odd_one(values: Array, covariance: Array) -> int | None:
 
 def _tests(apart: Mapping[str, Apart], levels: Levels) -> dict[str, Shared]:
     """Return the test of each parameter, with p-values corrected for the number of them."""
-    loose = {key: one.covariance + _tolerance(one) for key, one in apart.items()}
+    loose = {key: one.covariance + _tolerance(one, ALIKE) for key, one in apart.items()}
     chi2 = {key: homogeneity(one.at, loose[key]) for key, one in apart.items()}
     p = holm([float(chdtrc(len(apart[key].at) - 1, max(value, 0.0))) for key, value in chi2.items()])
     gains = {key: one.fit.log_likelihood for key, one in apart.items()}
     found = {}
     for (key, one), chance in zip(apart.items(), p, strict=True):
-        shared = Shared(key, _values(one), chi2[key], len(one.at) - 1, chance, given=one.free.recording is not None)
+        shared = Shared(key, _values(one), _common(one), chi2[key], len(one.at) - 1, chance, given=one.given)
         if not shared.holds:
             rivals = [k for k, q in zip(apart, p, strict=True) if k != key and q <= LEVEL]
             near = tuple(k for k in rivals if gains[k] > gains[key] - NEAR)
-            power = _power(one, loose[key], levels)
+            power = _power(one, one.covariance + _tolerance(one, VAGUE), levels)
             odd = odd_one(one.at, loose[key]) if power is None else None
             shared = replace(shared, power=power, odd=odd, instead=near)
         found[key] = shared
     return found
 
 
-def _tolerance(one: Apart) -> Array:
-    """Return the covariance (recordings, recordings) of a scatter that counts as none."""
+def _tolerance(one: Apart, share: float) -> Array:
+    """Return the covariance (recordings, recordings) of a scatter of this share of the values."""
     size = 1.0 if one.free.log else float(np.max(np.abs(one.at)))
-    return np.asarray((ALIKE * size) ** 2 * np.eye(len(one.at)))
+    return np.asarray((share * size) ** 2 * np.eye(len(one.at)))
 
 
 def _power(one: Apart, covariance: Array, levels: Levels) -> Power | None:
@@ -321,13 +359,25 @@ def _power(one: Apart, covariance: Array, levels: Levels) -> Power | None:
 
 
 def _values(one: Apart) -> tuple[Interval, ...]:
-    """Return the value of a parameter in each recording with its 95 % interval, within its bounds."""
-    free, sd = one.free, np.sqrt(np.diag(one.covariance))
-    ends = (free.value(np.clip(one.at + z * sd, free.low, free.high)) for z in (0.0, -1.96, 1.96))
-    return tuple(Interval(float(m), float(low), float(high), free.unit) for m, low, high in zip(*ends, strict=True))
+    """Return the value of a parameter in each recording with its 95 % interval."""
+    sd = np.sqrt(np.diag(one.covariance))
+    return tuple(_interval(one.free, at, wide) for at, wide in zip(one.at.tolist(), sd.tolist(), strict=True))
 
 
-def _best(base: Fit, apart: Mapping[str, Apart], tests: Mapping[str, Shared]) -> Apart | None:
+def _common(one: Apart) -> Interval:
+    """Return the best common value of a parameter with its 95 % interval."""
+    weights = np.linalg.solve(one.covariance, np.ones(len(one.at)))
+    total = float(np.sum(weights))
+    return _interval(one.free, float(weights @ one.at) / total, 1.0 / math.sqrt(total))
+
+
+def _interval(free: Free, at: float, sd: float) -> Interval:
+    """Return the interval of a parameter about a coordinate, within its bounds."""
+    median, low, high = (free.value(min(max(at + z * sd, free.low), free.high)) for z in (0.0, -1.96, 1.96))
+    return Interval(float(median), float(low), float(high), free.unit)
+
+
+def _best(apart: Mapping[str, Apart], tests: Mapping[str, Shared]) -> Apart | None:
     """Return the fit that explains most among those whose values differ; None where one value holds for all."""
-    differ = [one for key, one in apart.items() if not tests[key].holds and one.fit is not base]
+    differ = [one for key, one in apart.items() if not tests[key].holds and not one.given]
     return max(differ, key=lambda one: one.fit.log_likelihood, default=None)

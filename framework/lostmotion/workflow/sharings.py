@@ -14,6 +14,8 @@ from lostmotion.results import Interval
 from lostmotion.stages.diagnose import Diagnosis
 
 Entry = dict[str, Any]
+UNNAMED = ("unknown", "random_force")
+"""Entries of what no term explains: what differs from recording to recording may be all there is to it."""
 
 
 def shared_in(d: Diagnosis, found: Sequence[Entry]) -> dict[str, Any]:
@@ -30,6 +32,9 @@ def shared_in(d: Diagnosis, found: Sequence[Entry]) -> dict[str, Any]:
     problem = d.after.problem
     terms = dict(enumerate(d.named))
     told = [_told(entry, terms[i], problem, sharing) if i in terms else entry for i, entry in enumerate(found)]
+    for entry in told:
+        if entry["mechanism"] in UNNAMED and sharing.released:
+            entry["doubts"] = [*entry.get("doubts", ()), _released(sharing, problem)]
     return {"found": told, "sharing": sharing_entry(sharing, problem)}
 
 
@@ -46,6 +51,7 @@ def sharing_entry(sharing: Sharing, problem: Problem) -> Entry:
     kept = [names[key] for key, one in sharing.parameters.items() if one.holds]
     opening = [f"One value holds in all {len(sharing.recordings)} recordings that were fitted: {', '.join(kept)}."]
     differ = [sentences[key] for key, one in sharing.parameters.items() if not one.holds]
+    released = [_released(sharing, problem)] if sharing.released else []
     failed = [f"No fit came out with {name_of(key, problem)} of each recording's own." for key in sharing.failed]
     return {
         "recordings": list(sharing.recordings),
@@ -62,8 +68,20 @@ def sharing_entry(sharing: Sharing, problem: Problem) -> Entry:
             }
             for key, one in sharing.parameters.items()
         },
-        "says": [*(opening if kept else []), *differ, *failed],
+        "says": [
+            *(opening if kept else []),
+            *differ,
+            *failed,
+            *([_needless(sharing, problem)] if sharing.dropped else []),
+        ],
     }
+
+
+def _released(sharing: Sharing, problem: Problem) -> str:
+    """Return what values of each recording's own are worth, and whether a learned curve is needed beside them."""
+    others = " and ".join(name_of(key, problem) for key in sharing.released)
+    curve = ", and no learned curve is needed beside them" if sharing.dropped else ""
+    return f"Values of each recording's own for {others} raise the log evidence by {figures(sharing.gain)}{curve}."
 
 
 def _shared(one: Shared, said: str, sharing: Sharing) -> Entry:
@@ -90,9 +108,23 @@ def _told(entry: Entry, key: str, problem: Problem, sharing: Sharing) -> Entry:
     worst = min(own.values(), key=lambda one: one.p)
     told = [says(one, names, sharing) for one in own.values() if not one.holds] or [says(worst, names, sharing)]
     doubts = [says(one, names, sharing) for one in own.values() if not one.told]
+    doubts += [_moved(one, entry["parameters"][slots[slot]], names, sharing) for slot, one in own.items()]
     shared = {"holds": worst.holds, "p": worst.p, "says": " ".join(told)}
+    doubts = [doubt for doubt in doubts if doubt]
     more = {"by_recording": by_recording, "shared": shared}
     return {**entry, **more, **({"doubts": [*entry.get("doubts", ()), *doubts]} if doubts else {})}
+
+
+def _moved(one: Shared, before: Mapping[str, Any], names: Mapping[str, str], sharing: Sharing) -> str:
+    """Return that a value which holds is another one once what differs is released; empty where it is not."""
+    apart = before["low"] > one.common.high or before["high"] < one.common.low
+    if not (one.holds and sharing.released and apart):
+        return ""
+    others = " and ".join(names[key] for key in sharing.released)
+    return (
+        f"{sentence(names[one.key])} is {one.common} where {others} may differ from recording to recording, and"
+        f" {figures(before['median'])} where not."
+    )
 
 
 def name_of(key: str, problem: Problem) -> str:
