@@ -9,8 +9,10 @@ from scipy.linalg import expm
 from scipy.signal import lfilter
 
 from lostmotion.case import Case, Prior
-from lostmotion.inference.fit import maximise
-from lostmotion.inference.setup import problem_of
+from lostmotion.inference.candidates import Hint, with_term
+from lostmotion.inference.fit import maximise, restarted
+from lostmotion.inference.setup import polish, problem_of
+from lostmotion.inference.sharing import sharing_of
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.system import System
 from lostmotion.registry import default
@@ -39,9 +41,9 @@ def recorded(name, seed, level=1.0, *, samples=600, c=C, k=K, memory=0.0, slip=S
     return Observation.of(name, seen, push[:, None], DT, "position", held=True)
 
 
-def fitted(observations):
-    """Return the fit of an oscillator with damping and stiffness unknown, begun at the truth."""
-    system = System(default().make("model", "linear_oscillator"), ())
+def fitted(observations, *terms):
+    """Return the fit of an oscillator with damping and stiffness unknown, begun at the truth; `terms` may be tried."""
+    system = System(default().make("model", "linear_oscillator"), terms)
     case = Case("study", Path(), (), "linear_oscillator", {"m": M}, PRIORS, {}, (), "")
     problem = problem_of(system, case, tuple(observations), jobs=1)
     start = problem.start.copy()
@@ -70,3 +72,21 @@ def rubbed(name, seed, level, *, friction=0.0, c=C, samples=1000, noise=0.005, f
         x += 0.5 * h * v
     seen += noise * np.std(seen) * rng.standard_normal(samples)
     return Observation.of(name, seen, force[::finer, None], DT, "position")
+
+
+def rubbing(observations):
+    """Return the fit of an oscillator with dry friction."""
+    bare = fitted(observations, default().load("term", "coulomb_friction")())
+    hint = Hint("coulomb_friction", 0.0, {}, 1.0)
+    return polish(maximise(with_term(restarted(bare), hint, {"coulomb_friction.force": 0.5})))
+
+
+def least(number, memory):
+    """Return the least p-value over the parameters of three recordings that differ in nothing but their level."""
+    runs = [recorded(f"run {i}", 1000 * number + i, 2.0**i, slip=1.0, memory=memory) for i in range(3)]
+    return min(one.p for one in sharing_of(fitted(runs)).parameters.values())
+
+
+if __name__ == "__main__":
+    for memory in (0.0, 0.6, 0.9):
+        p = np.array([least(number, memory) for number in range(100)])

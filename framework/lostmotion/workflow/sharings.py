@@ -72,7 +72,7 @@ def sharing_entry(sharing: Sharing, problem: Problem) -> Entry:
             *(opening if kept else []),
             *differ,
             *failed,
-            *([_needless(sharing, problem)] if sharing.dropped else []),
+            *released,
         ],
     }
 
