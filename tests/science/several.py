@@ -85,8 +85,3 @@ def least(number, memory):
     """Return the least p-value over the parameters of three recordings that differ in nothing but their level."""
     runs = [recorded(f"run {i}", 1000 * number + i, 2.0**i, slip=1.0, memory=memory) for i in range(3)]
     return min(one.p for one in sharing_of(fitted(runs)).parameters.values())
-
-
-if __name__ == "__main__":
-    for memory in (0.0, 0.6, 0.9):
-        p = np.array([least(number, memory) for number in range(100)])

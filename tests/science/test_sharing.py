@@ -88,7 +88,7 @@ def test_nothing_is_compared_with_one_recording():
 def test_false_alarms_are_as_rare_as_is_said(memory):
     """Fifty sets of three recordings, the force noise as large as the drive: p < 0.05 in any of two parameters.
 
-    At 5 % eight are the 99.9 % point of fifty. `python tests/science/several.py` prints the rates of a hundred sets:
+    At 5 % eight are the 99.9 % point of fifty. `python benchmarks/sharing.py` prints the rates of a hundred sets:
     3 % for memories of 0, 0.6 and 0.9 each, and 0 or 1 % with p < 0.01. The scatter of 1 % that is allowed is small
     against the errors here.
     """

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from lostmotion.report.evidence import Evidence
 from lostmotion.report.posteriors import words_of
 from lostmotion.report.tables import Table
-from lostmotion.report.words import chance, figures, interval, measured, pretty, readable, with_unit
+from lostmotion.report.words import chance, figures, interval, measured, pretty, readable, typeset, with_unit
 
 
 def draw(evidence: Evidence) -> Figure | None:
@@ -50,8 +50,8 @@ def _row(name: str, entry: Mapping[str, Any]) -> list[str]:
 
 def _verdict(shared: Mapping[str, Any]) -> str:
     if shared["holds"]:
-        return f"yes ({chance(shared['p'])})"
+        return typeset(f"yes ({chance(shared['p'])})")
     if power := shared.get("power_of_level"):
         return f"goes with level to the power {figures(power['exponent'], 2)}"
     odd = shared.get("differs_in")
-    return f"no, differs in {odd}" if odd else f"no ({chance(shared['p'])})"
+    return f"no, differs in {odd}" if odd else typeset(f"no ({chance(shared['p'])})")
