@@ -13,7 +13,7 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests" / "science"))
 
-from several import least  # noqa: E402 - it lies beside the tests
+from several import least
 
 SETS = 100
 
