@@ -20,6 +20,7 @@ from lostmotion.report import (
     prediction,
     ranking,
     sensors,
+    sharing,
     show,
     strip,
     style,
@@ -42,8 +43,14 @@ class Drawn(NamedTuple):
     words: str = ""
 
 
-TABLES = {"parameters": tables.parameters, "sensors": sensors.table, "when": strip.table, "show": show.table}
-WORDS = {"decay": decay.words}
+TABLES = {
+    "parameters": tables.parameters,
+    "sensors": sensors.table,
+    "when": strip.table,
+    "sharing": sharing.table,
+    "show": show.table,
+}
+WORDS = {"decay": decay.words, "sharing": sharing.words}
 TITLES = {"portraits": portraits.title}
 """What stands above the figure of a section, and titles that depend on what is drawn."""
 PROSE = ("show",)
@@ -57,6 +64,7 @@ SECTIONS = (
     Section("learned", "The force that was learned", learned.draw, learned.caption),
     Section("ranking", "Which physics it may be", ranking.draw, ranking.caption),
     Section("parameters", "Parameters", posteriors.draw, posteriors.caption),
+    Section("sharing", "What recordings share", sharing.draw, sharing.caption),
     Section("portraits", "Phase portrait and Poincaré section", portraits.draw, portraits.caption),
     Section("show", "Before and after in numbers", show.draw, show.caption),
     Section("growth", "How far ahead predictions hold", growth.draw, growth.caption),

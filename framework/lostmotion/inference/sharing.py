@@ -1,0 +1,383 @@
+"""What several recordings share: whether one value of a parameter holds in all of them.
+
+Each parameter in turn gets a value of each recording's own, and the model is fitted once more from the shared optimum.
+The values are compared by a chi-square test of homogeneity (Cochran, Biometrics 10 (1954) 101-129) with their
+covariance by the sandwich of Huber and White, scores added up over blocks, so that leftovers with a memory do not pass
+for a difference. The p-values are corrected for the number of parameters (Holm, Scand. J. Statist. 6 (1979) 65-70).
+
+One parameter that differs makes others seem to differ that were made to share their values. So the one of which the
+values explain most is released, and the others are tested again beside it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.special import chdtrc
+
+from lostmotion.case import Sensor
+from lostmotion.contracts import Array
+from lostmotion.inference.fit import MANY, Fit, maximise, restarted, sensitivity, warmed
+from lostmotion.inference.learned import Learned
+from lostmotion.inference.setup import separated
+from lostmotion.kernels.threads import each
+from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.problem import Problem
+from lostmotion.likelihood.space import LEVELS, Free, keys_of
+from lostmotion.results import Interval
+
+LEVEL = 0.01
+"""With p-values below this, values differ: one diagnosis in a hundred doubts something that all recordings share."""
+ALIKE = 0.01
+"""Values that scatter by this share hold as one: temperature and lubrication alone change real machines by as much."""
+ROUNDS = 8
+RAISED = 3.0
+"""By how much the log random force is raised where a fit without a curve begins."""
+BLOCKS, SHORTEST = 40, 10
+"""Scores are added up over so many blocks of each recording, of so many readings each at least."""
+VAGUE = 0.05
+"""The rms tells to about this share how strongly a motion is driven: lines over the level may miss values by it."""
+MOST_OWN = 3
+"""So many parameters are released at most: where more of them differ, the model does not hold."""
+SAMPLES = 40_000
+"""The beginnings of the recordings are compared, so many samples together."""
+FEWER = 10_000
+"""So many samples where learned curves bring dozens of coefficients: all of them are fitted anew each time."""
+NEAR = 3.0
+"""Own values of another parameter that come within this log-likelihood explain a difference as well."""
+FITS, KNOWN, STEEPEST = 0.05, 3.0, 4.0
+"""A power of the level describes values when this p-value is left over, when its exponent is so many standard errors
+from zero, and no larger: steeper powers stand for a difference of another kind."""
+SPREAD = 1.1
+"""Levels of the drive that span less than this factor are one level; the levels of the response are used then."""
+
+
+@dataclass(frozen=True)
+class Levels:
+    """How strongly the machine moved in each recording: rms about the mean of the `drive`, or of the `response`.
+
+    `channel` is the input or the channel whose unit the `values` have.
+    """
+
+    of: str
+    channel: str
+    values: tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class Power:
+    """Values that go with the level to a power: its `exponent`, the standard error, the p-value of what is left."""
+
+    exponent: float
+    error: float
+    p: float
+
+
+@dataclass(frozen=True)
+class Shared:
+    """A parameter in each recording: `values` with 95 % intervals, their best `common` value, and whether that holds.
+
+    `chi2` with `dof` degrees of freedom tests that; `p` is corrected for the number of parameters. `power` tells how
+    the values go with the level, `odd` the number of the only recording that differs, each where it is so. `instead`
+    names parameters that would explain the difference as well. `given` says that the case gives each recording its own.
+    """
+
+    key: str
+    values: tuple[Interval, ...]
+    common: Interval
+    chi2: float
+    dof: int
+    p: float
+    power: Power | None = None
+    odd: int | None = None
+    instead: tuple[str, ...] = ()
+    given: bool = False
+
+    @property
+    def holds(self) -> bool:
+        """Whether one value holds in all recordings."""
+        return self.p > LEVEL
+
+    @property
+    def told(self) -> bool:
+        """Whether one value holds, or the values go with the level."""
+        return self.holds or self.power is not None
+
+
+@dataclass(frozen=True)
+class Sharing:
+    """What the `recordings` of a fit share, parameter by parameter.
+
+    `released` names those that have values of each recording's own, in that order, while others are tested; `failed`
+    those of which no fit came out. `dropped` names learned curves that are not needed once what differs is released,
+    `gain` is the log evidence that this adds.
+    """
+
+    recordings: tuple[str, ...]
+    levels: Levels
+    parameters: Mapping[str, Shared]
+    released: tuple[str, ...] = ()
+    failed: tuple[str, ...] = ()
+    dropped: tuple[str, ...] = ()
+    gain: float = 0.0
+
+
+@dataclass(frozen=True)
+class Apart:
+    """A fit in which a parameter has values of each recording's own: coordinates (recordings,), their covariance."""
+
+    key: str
+    fit: Fit
+    free: Free
+    at: Array
+    covariance: Array
+    given: bool
+
+
+def sharing_of(fit: Fit) -> Sharing | None:
+    """Return what the recordings of a fit share; None where there is one recording.
+
+    Each recording has noise levels of its own. Learned curves are one for all, and move along; values are also compared
+    without them, since a curve may stand in for a difference, and the course with the larger evidence is returned.
+    """
+    if len(fit.problem.observations) < 2:
+        return None
+    compared = _compared(fit)
+    courses = [_course(separated(compared, Sensor()))]
+    if curves := curves_of(fit.problem):
+        plain = compared.problem
+        for key in curves:
+            plain = plain.reduced(key, fit.values)
+        bare, evidence = _course(separated(maximise(plain, warmed(plain, plain.start, RAISED)), Sensor()))
+        courses.append((replace(bare, dropped=curves), evidence))
+    return max(courses, key=lambda course: course[1])[0]
+
+
+def _course(shared: Fit) -> tuple[Sharing, float]:
+    """Return what recordings share, and the log evidence of the fit in which what differs is released."""
+    base = shared
+    observations, tested = base.problem.observations, _tested(base.problem)
+    levels = levels_of(observations)
+    found: dict[str, Shared] = {}
+    released: list[str] = []
+    for turn in range(MOST_OWN + 1):
+        rest = [key for key in tested if key not in found]
+        apart = {one.key: one for one in _each_apart(base, rest)}
+        tests = _tests(apart, levels)
+        own = _best(apart, tests)
+        if turn == MOST_OWN or own is None:
+            found |= tests
+            break
+        found[own.key] = tests[own.key]
+        released.append(own.key)
+        base = own.fit
+    gain = base.log_evidence - shared.log_evidence
+    values = {key: found[key] for key in tested if key in found}
+    failed = tuple(key for key in tested if key not in found)
+    names = tuple(observation.name for observation in observations)
+    return Sharing(names, levels, values, tuple(released), failed, gain=gain), base.log_evidence
+
+
+def curves_of(problem: Problem) -> tuple[str, ...]:
+    """Return the keys of the learned curves that act in a problem."""
+    terms = zip(problem.system.keys, problem.system.terms, strict=True)
+    return tuple(key for key, term in terms if isinstance(term, Learned) and key in problem.active)
+
+
+def _compared(fit: Fit) -> Fit:
+    """Return the fit on the beginnings of its recordings, as a problem that starts where it is highest."""
+    problem = restarted(fit)
+    samples = SAMPLES if len(problem.free) <= MANY else FEWER
+    most = max(samples // len(problem.observations), 1)
+    if all(o.samples <= most for o in problem.observations):
+        return replace(fit, problem=problem)
+    return maximise(problem.on(tuple(o.part(0, min(o.samples, most)) for o in problem.observations)), rounds=ROUNDS)
+
+
+def _tested(problem: Problem) -> tuple[str, ...]:
+    """Return the names of the parameters that are compared: no noise levels, no coefficients of learned curves."""
+    curves = curves_of(problem)
+    names = [f.parameter for f in problem.free if f.level not in LEVELS]
+    return tuple(dict.fromkeys(name for name in names if name.rpartition(".")[0] not in curves))
+
+
+def levels_of(observations: Sequence[Observation]) -> Levels:
+    """Return how strongly the machine moved in each recording; by the drive, where that differs from one to another."""
+    first = observations[0]
+    if not any(observation.free for observation in observations):
+        drives = tuple(float(np.nanstd(observation.excitation)) for observation in observations)
+        if min(drives) > 0.0 and max(drives) > SPREAD * min(drives):
+            return Levels("drive", first.driven[0] if first.driven else "force", drives)
+    return Levels("response", first.channel, tuple(float(np.nanstd(o.response)) for o in observations))
+
+
+def _each_apart(base: Fit, keys: Sequence[str]) -> list[Apart]:
+    """Return the fits in which one parameter after the other has values of each recording's own."""
+    single, jobs = replace(base, problem=replace(base.problem, jobs=1)), base.problem.jobs
+    found = each(lambda key: apart_in(single, key), keys, jobs)
+    return [one for one in found if one is not None]
+
+
+def apart_in(base: Fit, key: str) -> Apart | None:
+    """Return the fit in which a parameter has values of each recording's own, from a base where all else is shared.
+
+    None where it diverges. Where the case gives each recording its own already, it is the base itself.
+    """
+    problem = restarted(base)
+    index = next(i for i, f in enumerate(problem.free) if f.parameter == key)
+    free, names = problem.free[index], [observation.name for observation in problem.observations]
+    fit = base
+    if free.recording is None:
+        own = [replace(free, key=name) for name in keys_of(key, names)]
+        split = replace(problem, free=(*problem.free[:index], *own, *problem.free[index + 1 :]))
+        fit = maximise(split, rounds=ROUNDS)
+        if fit.status == "diverged":
+            return None
+    columns = [fit.problem.keys.index(name) for name in keys_of(key, names)]
+    return Apart(
+        key, fit, replace(free, key=key), fit.theta[columns], covariance_of(fit, columns), free.recording is not None
+    )
+
+
+def covariance_of(fit: Fit, columns: Sequence[int]) -> Array:
+    """Return the robust covariance (columns, columns) of some coordinates of a fit of several recordings.
+
+    It is the sandwich, with scores added up over blocks of each recording, and in no direction less than the usual one.
+    """
+    slopes = sensitivity(fit.problem, fit.theta, fit.local.steps)
+    usual = fit.local.covariance
+    sandwich = usual @ _scatter(slopes.scores(), fit.problem.observations) @ usual
+    kept = np.ix_(columns, columns)
+    return widened(usual[kept], sandwich[kept])
+
+
+def _scatter(scores: Array, observations: Sequence[Observation]) -> Array:
+    """Return the covariance (n, n) of the sum of scores (n, readings), from blocks about the mean of each recording."""
+    scatter, begin = np.zeros((len(scores), len(scores))), 0
+    for observation in observations:
+        long = observation.readings.size
+        count = max(2, min(BLOCKS, long // SHORTEST))
+        edges = np.linspace(begin, begin + long, count + 1).astype(int)[:-1]
+        sums = np.add.reduceat(scores[:, : begin + long], edges, axis=1)
+        sums -= sums.mean(axis=1, keepdims=True)
+        scatter += sums @ sums.T * count / (count - 1.0)
+        begin += long
+    return scatter
+
+
+def widened(usual: Array, sandwich: Array) -> Array:
+    """Return a covariance (n, n) that is the `sandwich`, but in no direction less than the `usual` one."""
+    sd = np.sqrt(np.maximum(np.diag(usual), 1e-300))
+    values, vectors = np.linalg.eigh(usual / np.outer(sd, sd))
+    root = vectors * np.sqrt(np.maximum(values, 1e-12))
+    inverse = vectors / np.sqrt(np.maximum(values, 1e-12))
+    ratio, turned = np.linalg.eigh(inverse.T @ (sandwich / np.outer(sd, sd)) @ inverse)
+    wide = root @ turned * np.sqrt(np.maximum(ratio, 1.0))
+    return np.asarray(np.outer(sd, sd) * (wide @ wide.T))
+
+
+def homogeneity(values: Array, covariance: Array) -> float:
+    """Return the chi-square (n - 1 degrees of freedom) of values (n,) about their best common value."""
+    left, ones = np.asarray(values, dtype=float), np.ones(len(values))
+    weights = np.linalg.solve(covariance, ones)
+    left = left - float(weights @ left) / float(weights @ ones)
+    return float(left @ np.linalg.solve(covariance, left))
+
+
+def holm(p: Sequence[float]) -> list[float]:
+    """Return p-values corrected for their number, by Holm's method."""
+    order, adjusted, largest = np.argsort(p), [0.0] * len(p), 0.0
+    for rank, i in enumerate(order):
+        largest = max(largest, min(1.0, (len(p) - rank) * float(p[i])))
+        adjusted[i] = largest
+    return adjusted
+
+
+def power_of(values: Array, covariance: Array, levels: Array) -> Power | None:
+    """Return how logarithms of values (n,) go with those of the levels (n,): a straight line, where one describes them.
+
+    None for fewer than three values, equal levels, or a line that leaves something over.
+    """
+    if len(values) < 3 or not np.all(levels > 0.0) or not np.max(levels) > SPREAD * np.min(levels):
+        return None
+    rows = np.stack([np.ones(len(levels)), np.log(levels)])
+    weighted = np.linalg.solve(covariance, rows.T)
+    spread = np.linalg.inv(rows @ weighted)
+    line = spread @ (weighted.T @ values)
+    left = values - line @ rows
+    p = float(chdtrc(len(values) - 2, max(float(left @ np.linalg.solve(covariance, left)), 0.0)))
+    exponent, error = float(line[1]), math.sqrt(spread[1, 1])
+    return Power(exponent, error, p) if p > FITS and KNOWN * error < abs(exponent) <= STEEPEST else None
+
+
+def odd_one(values: Array, covariance: Array) -> int | None:
+    """Return the number of the only recording that differs, where the others agree; None where it is not one alone."""
+    if len(values) < 3:
+        return None
+    rest = [np.delete(np.arange(len(values)), i) for i in range(len(values))]
+    chi2 = [homogeneity(values[kept], covariance[np.ix_(kept, kept)]) for kept in rest]
+    good = [i for i, value in enumerate(chi2) if chdtrc(len(values) - 2, value) > FITS]
+    return good[0] if len(good) == 1 else None
+
+
+def _tests(apart: Mapping[str, Apart], levels: Levels) -> dict[str, Shared]:
+    """Return the test of each parameter, with p-values corrected for the number of them."""
+    loose = {key: one.covariance + _tolerance(one, ALIKE) for key, one in apart.items()}
+    chi2 = {key: homogeneity(one.at, loose[key]) for key, one in apart.items()}
+    p = holm([float(chdtrc(len(apart[key].at) - 1, max(value, 0.0))) for key, value in chi2.items()])
+    gains = {key: one.fit.log_likelihood for key, one in apart.items()}
+    found = {}
+    for (key, one), chance in zip(apart.items(), p, strict=True):
+        shared = Shared(key, _values(one), _common(one), chi2[key], len(one.at) - 1, chance, given=one.given)
+        if not shared.holds:
+            rivals = [k for k, q in zip(apart, p, strict=True) if k != key and q <= LEVEL]
+            near = tuple(k for k in rivals if gains[k] > gains[key] - NEAR)
+            power = _power(one, one.covariance + _tolerance(one, VAGUE), levels)
+            odd = odd_one(one.at, loose[key]) if power is None else None
+            shared = replace(shared, power=power, odd=odd, instead=near)
+        found[key] = shared
+    return found
+
+
+def _tolerance(one: Apart, share: float) -> Array:
+    """Return the covariance (recordings, recordings) of a scatter of this share of the values."""
+    size = 1.0 if one.free.log else float(np.max(np.abs(one.at)))
+    return np.asarray((share * size) ** 2 * np.eye(len(one.at)))
+
+
+def _power(one: Apart, covariance: Array, levels: Levels) -> Power | None:
+    """Return how the values of a parameter go with the level; only where each is known to be other than zero."""
+    if one.free.log:
+        return power_of(one.at, covariance, np.array(levels.values))
+    sd = np.sqrt(np.diag(covariance))
+    if not (np.all(one.at > 2.0 * sd) or np.all(one.at < -2.0 * sd)):
+        return None
+    return power_of(np.log(np.abs(one.at)), covariance / np.outer(one.at, one.at), np.array(levels.values))
+
+
+def _values(one: Apart) -> tuple[Interval, ...]:
+    """Return the value of a parameter in each recording with its 95 % interval."""
+    sd = np.sqrt(np.diag(one.covariance))
+    return tuple(_interval(one.free, at, wide) for at, wide in zip(one.at.tolist(), sd.tolist(), strict=True))
+
+
+def _common(one: Apart) -> Interval:
+    """Return the best common value of a parameter with its 95 % interval."""
+    weights = np.linalg.solve(one.covariance, np.ones(len(one.at)))
+    total = float(np.sum(weights))
+    return _interval(one.free, float(weights @ one.at) / total, 1.0 / math.sqrt(total))
+
+
+def _interval(free: Free, at: float, sd: float) -> Interval:
+    """Return the interval of a parameter about a coordinate, within its bounds."""
+    median, low, high = (free.value(min(max(at + z * sd, free.low), free.high)) for z in (0.0, -1.96, 1.96))
+    return Interval(float(median), float(low), float(high), free.unit)
+
+
+def _best(apart: Mapping[str, Apart], tests: Mapping[str, Shared]) -> Apart | None:
+    """Return the fit that explains most among those whose values differ; None where one value holds for all."""
+    differ = [one for key, one in apart.items() if not tests[key].holds and not one.given]
+    return max(differ, key=lambda one: one.fit.log_likelihood, default=None)
