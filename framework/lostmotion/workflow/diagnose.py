@@ -30,7 +30,8 @@ from lostmotion.workflow.prepare import Prepared, prepare
 from lostmotion.workflow.rivals import confused_with, proposed
 from lostmotion.workflow.sharings import shared_in
 from lostmotion.workflow.show import Seen, shown
-from lostmotion.workflow.verdict import verdict
+from lostmotion.workflow.states import doubted
+from lostmotion.workflow.verdict import says, verdict
 from lostmotion.workflow.vetting import blamed, raising, theirs, told_aside, within_numbers
 
 Say = Callable[[str], None]
@@ -70,6 +71,8 @@ def run_diagnosis(
     said = verdict(outcome)
     said["where"] |= disagreement_in(diagnosis, np.random.default_rng([seed, WHEN]))
     said |= shared_in(diagnosis, said["found"])
+    said["found"] = [doubted(entry) for entry in said["found"]]
+    said["says"] = says(outcome, said["found"], said["open"])
     decay = decay_in(diagnosis)
     content = {
         "title": prepared.case.title,

@@ -105,6 +105,11 @@ def _unusual(d: Diagnosis, key: str) -> Iterator[str]:
         yield f"A delay of {share:.0%} of a natural period is unusual: measure the time between the channels by itself."
 
 
+def doubted(entry: dict[str, Any]) -> dict[str, Any]:
+    """Return an entry of what was found: one that was named and is doubted since is likely."""
+    return {**entry, "state": LIKELY} if entry.get("doubts") and entry.get("state") == NAMED else entry
+
+
 def open_of(d: Diagnosis) -> list[dict[str, Any]]:
     """Return the terms that stay open: they would raise the likelihood, and something speaks against a name."""
     reasons = [
