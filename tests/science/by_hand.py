@@ -44,16 +44,12 @@ def motors(data: Path) -> Numbers:
 
 
 def motor(data: Path) -> Numbers:
-    """Return the torque at both steady speeds of the first run that the viscous friction of the catalogue leaves."""
+    """Return viscous friction and the torque beyond it, from the two steady speeds of the first run."""
     time, torque, velocity = motor_signal(data, RUNS[0])
-    numbers = {}
-    for name, (start, end) in {"first": (8.0, 10.0), "second": (18.0, 20.0)}.items():
-        part = (time >= start) & (time < end)
-        numbers[f"torque beyond 7.03e-5 N m s/rad at the {name} speed"] = (
-            float(np.mean(torque[part] - 7.03e-5 * velocity[part])),
-            "N m",
-        )
-    return numbers
+    ends = [(time >= start) & (time < start + 2.0) for start in (8.0, 18.0)]
+    (slow, low), (fast, high) = ((velocity[part].mean(), torque[part].mean()) for part in ends)
+    viscous = float((high - low) / (fast - slow))
+    return {"viscous friction": (viscous, "N m s/rad"), "torque beyond it": (float(low - viscous * slow), "N m")}
 
 
 def beam(data: Path) -> Numbers:
