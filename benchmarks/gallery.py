@@ -1,13 +1,18 @@
-"""Real recordings through `diagnose`: `python benchmarks/gallery.py [emps|silverbox|damper|all] --out DIR`.
+"""Real recordings through `diagnose`: `python benchmarks/gallery.py NAME --out DIR`, or `all`.
 
 Prints what was found, held-out errors before and after, and the time; the reports lie in DIR. For the Silverbox also
-the error of a free run over the arrow, which no fit has seen, in mV.
+the error of a free run over the arrow, which no fit has seen, in mV. What an expert reads off the recording without a
+model of ours (`tests/science/by_hand.py`) is printed first. `--write` puts the tables into the pages of the gallery,
+behind the lines `<!-- figures of benchmarks/gallery.py NAME -->` and `<!-- by hand: NAME -->`.
+
+The recordings are cut so that a diagnosis takes a minute: six seconds of each of EMPS (`emps_whole` takes all), 6,000
+samples of the Silverbox.
 """
 
 from __future__ import annotations
 
 import argparse
-import json
+import re
 import sys
 import time
 from collections.abc import Mapping
@@ -26,66 +31,28 @@ from lostmotion.workflow.diagnose import run_diagnosis
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "tests" / "science"))
 
-from machines import CARRIAGE, EMPS, EMPS_FILES, thinned  # noqa: E402 - they lie beside the tests
+import by_hand  # noqa: E402 - these lie beside the tests
+from rig_cases import CASES, RATE  # noqa: E402
 
-RATE = 1e7 / 2**14
-"""Samples a second of the Silverbox."""
-ARROW, MULTISINE = slice(100, 40575), slice(40650, 127400)
+ARROW = slice(100, 40575)
 SETTLING = 50
-SILVERBOX = f"""
-title = "Silverbox, from the linear oscillator"
-[[recordings]]
-file = "multisine.npz"
-rate = {RATE}
-excitation = {{ column = "u", quantity = "force", unit = "N" }}
-response = {{ column = "y", quantity = "position", unit = "m" }}
-[model]
-name = "linear_oscillator"
-[model.estimate]
-m = {{ low = 1e-7, high = 1e-4, scale = "log" }}
-c = {{ low = 1e-6, high = 1e-2, scale = "log" }}
-k = {{ low = 0.1, high = 10.0, scale = "log" }}
-"""
-DAMPED = """
-[model]
-name = "backlash_slider"
-[model.estimate]
-m = { median = 150.0, sd_log = 1.0 }
-c = { low = 1e3, high = 1e5, scale = "log" }
-k0 = { median = 5e6, sd_log = 1.0 }
-x0 = { median = 2e-3, sd_log = 0.7 }
-"""
-
-
-def emps(data: Path, folder: Path) -> str:
-    """Return the case of the EMPS carriage: one recording is fitted, the pulses are held out."""
-    return "".join(EMPS.format(file=(data / "emps" / f"{name}.mat").resolve()) for name in EMPS_FILES) + CARRIAGE
-
-
-def silverbox(data: Path, folder: Path) -> str:
-    """Return the case of the Silverbox, its first 12,000 samples of multisine written beside it."""
-    table = np.load(data / "silverbox" / "SNLS80mV.npz")
-    part = slice(MULTISINE.start, MULTISINE.start + 12_000)
-    np.savez(folder / "multisine.npz", u=table["V1"].ravel()[part], y=table["V2"].ravel()[part])
-    return SILVERBOX
-
-
-def damper(data: Path, folder: Path) -> str:
-    """Return the case of the friction damper with backlash at 0.5 Hz: its force under a prescribed motion."""
-    return thinned(folder, data / "brfd_friction_backlash", "d2_0.5Hz_30lb_1in") + DAMPED
-
-
-CASES = {"emps": emps, "silverbox": silverbox, "damper": damper}
+WHEN = ("before", "after")
+SHOWN = 0.01
+"""Candidates of a lower probability are not printed."""
 
 
 def arrow(content: Mapping[str, Any], data: Path, registry: Registry) -> dict[str, float]:
-    """Return the rms errors (V) of free runs over the arrow with the parameters before and after."""
+    """Return the rms errors (V) of free runs over the arrow with the parameters before and after.
+
+    A learned curve is no law beyond what it was learned on: with one there is no free run after.
+    """
     table = np.load(data / "silverbox" / "SNLS80mV.npz")
     u, y = (table[k].ravel()[ARROW] for k in ("V1", "V2"))
     grid = np.arange(len(u)) / RATE
     drive = Drive.smooth([CubicSpline(grid, u)], 1.0 / RATE, len(u))
-    errors = {}
-    for when, terms in (("before", ()), ("after", tuple(f for f in content["found"] if f.get("at") == "ground"))):
+    errors, laws = {}, tuple(f for f in content["found"] if f.get("at") == "ground")
+    learned = any(f["mechanism"] == "unknown" for f in content["found"])
+    for when, terms in (("before", ()),) if learned else (("before", ()), ("after", laws)):
         model = registry.make("model", "linear_oscillator")
         system = System.of(Assembly(model, tuple(registry.make("term", f["mechanism"]) for f in terms)))
         known = {s.key for s in system.slots}
@@ -101,6 +68,9 @@ def main() -> None:
     parser.add_argument("which", nargs="?", default="all", choices=(*CASES, "all"))
     parser.add_argument("--out", type=Path, required=True)
     parser.add_argument("--shared", type=Path, default=ROOT.parent / "shared", help="where the recordings lie")
+    parser.add_argument("--jobs", type=int, default=1, help="how many cores")
+    parser.add_argument("--propose", action="store_true", help="ask for the next experiment too, which takes longer")
+    parser.add_argument("--write", action="store_true", help="put the tables into the pages of the gallery")
     args = parser.parse_args()
     data, registry = args.shared / "data", default()
     for name in CASES if args.which == "all" else (args.which,):
@@ -108,11 +78,68 @@ def main() -> None:
         folder.mkdir(parents=True, exist_ok=True)
         (folder / "case.toml").write_text(CASES[name](data, folder))
         begin = time.perf_counter()
-        content = run_diagnosis(folder / "case.toml", folder / "result", registry)
+        content = run_diagnosis(folder / "case.toml", folder / "result", registry, jobs=args.jobs, propose=args.propose)
         told(name, content, time.perf_counter() - begin)
-        if name == "silverbox":
-            found = {k: f"{1e3 * v:.2f} mV" for k, v in arrow(content, data, registry).items()}
-            print(f"  free run over the arrow: {json.dumps(found)}")
+        further = arrow(content, data, registry) if name == "silverbox" else {}
+        tables = {f"figures of benchmarks/gallery.py {name}": table(content, further)}
+        if name in by_hand.READ:
+            tables[f"by hand: {name}"] = read(by_hand.READ[name](data))
+        print("\n\n".join(tables.values()), flush=True)
+        if args.write:
+            into_pages(tables)
+
+
+def read(numbers: by_hand.Numbers) -> str:
+    """Return what is read off by hand as a table."""
+    rows = [f"| {key} | {value:.4g} {unit} |" for key, (value, unit) in numbers.items()]
+    return "\n".join(["| read off by hand | |", "|---|---|", *rows])
+
+
+def table(content: Mapping[str, Any], further: Mapping[str, float]) -> str:
+    """Return what a diagnosis says as a table: parameters, names with their probabilities, held-out predictions."""
+    both, fit = content["parameters"], content["fit"]
+    units = {key: value["unit"] for when in WHEN for key, value in both[when].items()}
+    rows = [
+        (f"`{key}` ({unit})" if unit else f"`{key}`", *(between(both[w].get(key)) for w in WHEN))
+        for key, unit in units.items()
+    ]
+    rows += [
+        (f"named: {entry['mechanism']} {place_of(entry)}".rstrip(), "", f"{entry['probability']:.3f}")
+        for entry in content["found"]
+    ]
+    rows.append(("force left unexplained, rms (" + content["unexplained"]["unit"] + ")",
+                 *(f"{content[k]['rms']:.2g}" for k in ("unexplained_before", "unexplained"))))  # fmt: skip
+    over = f"over {fit['horizon_unit_time'] * fit['before']['horizon']:.3g} s"
+    rows.append((f"held-out error {over}", *(f"{fit[w]['heldout_nrmse']:.2%}" for w in WHEN)))
+    rows.append(("held-out log score", *(f"{fit[w]['heldout_log_score']:.3f}" for w in WHEN)))
+    if further:
+        rows.append(
+            (
+                "free run over the arrow, rms (mV)",
+                *(f"{1e3 * further[w]:.2f}" if w in further else "no law" for w in WHEN),
+            )
+        )
+    return "\n".join(["| | before | after |", "|---|---|---|", *(f"| {' | '.join(row)} |" for row in rows)])
+
+
+def between(value: Mapping[str, Any] | None) -> str:
+    """Return an estimate with its 95 % interval, or nothing."""
+    return f"{value['median']:.4g} [{value['low']:.4g}, {value['high']:.4g}]" if value else ""
+
+
+def place_of(entry: Mapping[str, Any]) -> str:
+    """Return where a term acts, if it acts at a place."""
+    return f"at {entry['at']}" if entry.get("at") else ""
+
+
+def into_pages(tables: Mapping[str, str]) -> None:
+    """Put tables into the pages of the gallery in place of those that stand behind the same marks."""
+    for page in (ROOT / "docs" / "gallery").glob("*.md"):
+        text = page.read_text()
+        for mark, lines in tables.items():
+            text = re.sub(rf"(<!-- {re.escape(mark)} -->\n\n)(\|[^\n]*\n)*", lambda m: f"{m[1]}{lines}\n", text)  # noqa: B023
+        if text != page.read_text():
+            page.write_text(text)
 
 
 def told(name: str, content: Mapping[str, Any], taken: float) -> None:
@@ -121,10 +148,12 @@ def told(name: str, content: Mapping[str, Any], taken: float) -> None:
     print(f"{name}, {taken:.0f} s")
     for line in (*content["says"], *content["notes"]):
         print(f"  {line}")
-    errors = " -> ".join(f"{fit[k]['heldout_nrmse']:.3g}" for k in ("before", "after"))
-    print(f"  held-out error {errors}, noise {fit['noise_floor_nrmse']:.3g}")
-    for key, value in content["parameters"]["after"].items():
-        print(f"  {key} = {value['median']:.5g} [{value['low']:.5g}, {value['high']:.5g}] {value['unit']}")
+    for label, key in (("error", "heldout_nrmse"), ("log score", "heldout_log_score")):
+        print(f"  held-out {label} " + " -> ".join(f"{fit[k][key]:.3g}" for k in ("before", "after")))
+    print(f"  noise {fit['noise_floor_nrmse']:.3g}")
+    for entry in content["ranking"]:
+        if entry["probability"] > SHOWN:
+            print(f"  {entry['mechanism']} {place_of(entry)}: probability {entry['probability']:.3f}")
 
 
 if __name__ == "__main__":

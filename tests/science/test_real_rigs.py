@@ -1,0 +1,137 @@
+"""What the gallery says of real recordings, on the cases that `benchmarks/gallery.py` prints.
+
+Each fact is about one recording of one machine: no chance, no rate of false alarms. What ought to be said and is not is
+marked as an expected failure, with the cause.
+"""
+
+from __future__ import annotations
+
+import json
+from functools import cache
+from pathlib import Path
+
+import by_hand
+import pytest
+from machines import FRICTION, PUBLISHED
+from rig_cases import CASES
+
+from lostmotion.registry import default
+from lostmotion.workflow.diagnose import run_diagnosis
+
+pytestmark = [pytest.mark.real, pytest.mark.slow]
+RIGS = tuple(name for name in CASES if name != "emps_whole")
+FRICTIONS = {"coulomb_friction", "stribeck_friction", "dahl_friction", "lugre_friction", "bouc_wen_hysteresis"}
+BEYOND = {"unknown", "random_force", "sensor_quantisation"}
+"""Entries of what was found that name no law of the machine."""
+FALSE_MAXIMUM = "the model alone is at a false maximum, and each term is fitted from there"
+PAIRS = "neither term is worth anything without the other, and the selection ends before it tries pairs"
+LOOSE = "the rival is credited with moving a level of noise that is at its bound"
+CONSTANT = "a constant force is one of the smooth forces that every name has to beat"
+
+
+@pytest.fixture(scope="module")
+def told(shared, tmp_path_factory):
+    """Return a function: what `diagnose` writes about a rig, worked out once."""
+    data = shared / "data"
+
+    @cache
+    def one(name):
+        folder = tmp_path_factory.mktemp(name)
+        try:
+            text = CASES[name](data, folder)
+        except FileNotFoundError as err:
+            pytest.skip(f"no recording: {err.filename} is absent")
+        (folder / "case.toml").write_text(text)
+        missing = [r for r in _files(text) if not (folder / r).exists()]
+        if missing:
+            pytest.skip(f"no recording: {missing[0]} is absent")
+        run_diagnosis(folder / "case.toml", folder / "out", default(), jobs=1, propose=False)
+        return json.loads((folder / "out" / "diagnosis.json").read_text())
+
+    return one
+
+
+def _files(text: str) -> list[Path]:
+    return [Path(line.split('"')[1]) for line in text.splitlines() if line.startswith("file = ")]
+
+
+def names(found) -> set[str]:
+    """Return the laws of the machine that were named."""
+    return {entry["mechanism"] for entry in found["found"]} - BEYOND
+
+
+@pytest.mark.parametrize("name", RIGS)
+def test_what_was_found_makes_no_held_out_prediction_worse(told, name):
+    before, after = (told(name)["fit"][when] for when in ("before", "after"))
+    assert after["heldout_nrmse"] <= before["heldout_nrmse"]
+    assert after["heldout_log_score"] >= before["heldout_log_score"]
+
+
+@pytest.mark.parametrize("name", RIGS)
+def test_no_rig_has_more_than_two_names(told, name):
+    """Others found two laws beside the model at the most."""
+    assert len(names(told(name))) <= 2
+
+
+def test_the_carriage_has_one_friction_of_the_published_size(told):
+    found, value = told("emps"), PUBLISHED[FRICTION][0]
+    assert names(found) & FRICTIONS == {"coulomb_friction"}
+    assert names(found) <= {"coulomb_friction", "offset_force"}
+    friction = found["parameters"]["after"][FRICTION]
+    assert friction["low"] < value < friction["high"]
+    assert friction["median"] == pytest.approx(value, rel=0.05)
+
+
+@pytest.mark.xfail(strict=True, reason=CONSTANT)
+def test_the_carriage_has_the_constant_force_of_its_reference(told):
+    assert "offset_force" in names(told("emps"))
+
+
+def test_the_silverbox_is_predicted_ten_times_better(told):
+    fit = told("silverbox")["fit"]
+    assert fit["after"]["heldout_nrmse"] < 0.1 * fit["before"]["heldout_nrmse"]
+
+
+@pytest.mark.xfail(strict=True, reason=LOOSE)
+def test_the_silverbox_has_a_cubic_spring(told):
+    assert "cubic_stiffness" in names(told("silverbox"))
+
+
+def test_the_motor_drive_has_friction_in_one_direction(told, shared):
+    """Steady speeds give the friction without a model; the fit of 14 s differs by a fifth at the most."""
+    found, read = told("motor_run"), by_hand.motor(shared / "data")
+    assert names(found) == {"coulomb_friction"}
+    assert found["parameters"]["after"][FRICTION]["median"] == pytest.approx(read["torque beyond it"][0], rel=0.2)
+
+
+@pytest.mark.xfail(strict=True, reason=PAIRS)
+def test_the_motor_drive_has_friction_and_a_constant_torque(told):
+    """Two directions tell them apart: 0.026 and -0.009 N m by least squares."""
+    assert names(told("motor_drive")) == {"coulomb_friction", "offset_force"}
+
+
+def test_no_law_is_named_for_a_band_with_play_at_30_lb(told):
+    """Seen before: a pulsating stiffness and a spring below zero, in a damper that has neither."""
+    assert names(told("damper")) <= FRICTIONS
+
+
+@pytest.mark.xfail(strict=True, reason=FALSE_MAXIMUM)
+def test_a_band_with_play_that_is_not_predicted_is_not_called_adequate(told):
+    found = told("damper_36lb")
+    assert found["fit"]["before"]["heldout_nrmse"] < 0.3 or found["verdict"] == "mismatch"
+
+
+def test_wells_that_differ_are_no_law_of_the_library(told):
+    """A quadratic spring and a circuit are not in it: the answer is unknown, over the position."""
+    found = told("bistable_beam")
+    assert names(found) == set()
+    assert [entry["mechanism"] for entry in found["found"]] == ["unknown"]
+    assert found["fit"]["after"]["heldout_nrmse"] < 0.8 * found["fit"]["before"]["heldout_nrmse"]
+
+
+def test_the_table_and_the_beam_have_one_unit_of_force(shared):
+    """The acceleration of the table counts once: units of the vibrometer and its place on the ground are right."""
+    if not (shared / "data" / "bistablex_chaos").is_dir():
+        pytest.skip("no recording of the bistable beam")
+    read = by_hand.bistable(shared / "data")
+    assert read["factor of the base acceleration"][0] == pytest.approx(1.0, abs=0.05)
