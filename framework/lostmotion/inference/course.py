@@ -7,11 +7,13 @@ from dataclasses import dataclass, field
 
 from lostmotion.inference.candidates import Hint
 from lostmotion.inference.fit import Fit
-from lostmotion.inference.rival import Expansion, expanded, fitted
+from lostmotion.inference.rival import Discrepancy, Expansion, expanded, fitted
 
 CLOSE = 12.0
 """Sets that are so close to the best in log weight are fitted again, and kept for comparison."""
 BEAM = 3
+FLOOR = 0.0
+"""No promise is believed to be worth less than nothing, and a lead below it need not be known exactly."""
 RICH = 20.0
 """A discrepancy that promises to add so much to the log evidence is fitted before a name is given."""
 
@@ -23,6 +25,14 @@ class Visit:
     terms: frozenset[str]
     fit: Fit
     weight: float
+
+
+def _checked(fit: Fit, expansion: Expansion, best: Discrepancy | None = None) -> tuple[float, float, float] | None:
+    """Return what the smooth forces of a discrepancy win when they are fitted, their price, and what is won beside."""
+    found = fitted(expansion, best)
+    if found is None or found[0].status == "diverged":
+        return None
+    return found[0].log_evidence - fit.log_evidence, found[1], expanded(found[0]).gain()
 
 
 @dataclass
@@ -42,7 +52,7 @@ class Selection:
     rivals: dict[frozenset[str], tuple[Fit, Expansion]] = field(default_factory=dict)
     unbeaten: set[str] = field(default_factory=set)
     stopped: bool = False
-    smooth: dict[frozenset[str], tuple[Fit, tuple[float, float, Expansion] | None]] = field(default_factory=dict)
+    smooth: dict[frozenset[str], tuple[Fit, tuple[float, float, float] | None]] = field(default_factory=dict)
     leads: dict[tuple[frozenset[str], ...], tuple[Visit, Visit, float]] = field(default_factory=dict)
 
     def expansion(self, visit: Visit) -> Expansion:
@@ -66,33 +76,16 @@ class Selection:
             known = self.leads[visit.terms, over.terms] = (visit, over, self._led(visit, over))
         return known[2]
 
-    def confirmed(self, visit: Visit, over: Visit) -> float:
-        """Return the log odds of a set over another one, either with the smooth forces of its discrepancy fitted.
-
-        What is promised by slopes about a fit is too little where a large random force stands for what is missing.
-        """
-        lead = self.lead(visit, over)
-        worse, prices = self.expansion(visit).worse, self._prices(visit, over)
-        worth = [self._fitted(v, worse) for v in (visit, over)]
-        fits = (visit.fit.log_evidence - over.fit.log_evidence) / worse + worth[0] - worth[1] - prices
-        self.leads[visit.terms, over.terms] = (visit, over, min(lead, fits))
-        return self.leads[visit.terms, over.terms][2]
-
-    def _fitted(self, visit: Visit, worse: float) -> float:
-        """Return the log evidence that a discrepancy adds to a set, promised or fitted, whichever is more."""
+    def worth(self, visit: Visit, worse: float) -> float:
+        """Return the log evidence that a discrepancy adds to a set; a large promise counts as far as it comes true."""
         expansion = self.expansion(visit)
         promised = expansion.gain(worse=worse)
         if promised < RICH:
             return promised
         if visit.terms not in self.smooth or self.smooth[visit.terms][0] is not visit.fit:
-            found = fitted(expansion)
-            told = (found[0].log_evidence - visit.fit.log_evidence, found[1], expanded(found[0])) if found else None
-            self.smooth[visit.terms] = (visit.fit, told)
+            self.smooth[visit.terms] = (visit.fit, _checked(visit.fit, expansion))
         known = self.smooth[visit.terms][1]
-        if known is None:
-            return promised
-        more, price, beside = known
-        return max(promised, more / worse - price + beside.gain(worse=worse))
+        return promised if known is None else min(promised, max(known[0] / worse - known[1] + known[2], FLOOR))
 
     @staticmethod
     def _prices(visit: Visit, over: Visit) -> float:
@@ -101,13 +94,19 @@ class Selection:
 
     def _led(self, visit: Visit, over: Visit) -> float:
         here, there = self.expansion(visit), self.expansion(over)
-        own, worse = here.gain(worse=here.worse), here.worse
-        other = (over.fit.log_evidence - visit.fit.log_evidence) / worse + there.gain(worse=worse)
-        if over.terms < visit.terms:
-            gone, keys = visit.terms - over.terms, visit.fit.problem.keys
-            dropped = [i for i, key in enumerate(keys) if key.rpartition(".")[0] in gone]
-            other = max(other, here.gain(dropped, worse=worse))
-        return own - other - self._prices(visit, over)
+        worse, prices = here.worse, self._prices(visit, over)
+        own, behind = self.worth(visit, worse), (over.fit.log_evidence - visit.fit.log_evidence) / worse
+        other = behind + self.worth(over, worse)
+        if not over.terms < visit.terms or own - other - prices < FLOOR:
+            return own - other - prices
+        gone, keys = visit.terms - over.terms, visit.fit.problem.keys
+        dropped = [i for i, key in enumerate(keys) if key.rpartition(".")[0] in gone]
+        seen = here.best(dropped, worse)
+        if seen.gain > other + RICH:
+            checked = _checked(over.fit, there, seen)
+            if checked:
+                return own - max(other, min(seen.gain, behind + checked[0] / worse - checked[1] + checked[2])) - prices
+        return own - max(other, seen.gain) - prices
 
     def probabilities(self) -> dict[frozenset[str], float]:
         """Return the posterior probability of each set among those visited, but for sets that were not believed.

@@ -18,7 +18,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.linalg.lapack import dpotrf, dtrtrs
 
-from lostmotion.contracts import Array
+from lostmotion.contracts import Array, place_of
 from lostmotion.inference.candidates import slopes_of, term_of
 from lostmotion.inference.curves import ROUNDS, size_of, transplanted, with_curve
 from lostmotion.inference.fit import BLOCKS, Fit, Sensitivity, maximise, restarted, solved
@@ -38,7 +38,7 @@ KNOWN = 0.01
 """The standard deviation of a known value, relative: drawings and data sheets are not more exact than this."""
 NUDGE, STEP = 3e-4, 1e-3
 """Finite-difference steps of a coefficient in units of the drive, and of the logarithm of a known value."""
-SHARES = (1.0, 0.5, 0.2)
+SHARES = (1.0, 0.5, 0.2, 0.0)
 """Fits with smooth forces begin with these shares of what was promised."""
 SWEEPS = 3
 PRICE = math.log(len(SIZES) * len(LENGTHS))
@@ -168,6 +168,7 @@ def expanded(fit: Fit) -> Expansion:
         frees += [Free(f"{key}.v{i}", "", 0.0, -1e3 * size, 1e3 * size, straight=True) for i in range(count)]
         steps += [NUDGE * size] * count
     errors, variances = _rows(problem.extended(frees, {key for key, _ in curves}), slopes, np.array(steps))
+    _centre(replace(fit, problem=problem), dict(curves), groups, (errors, variances))
     gauges = gauges_of(fit)
     joint = Sensitivity(
         slopes.theta,
@@ -178,11 +179,57 @@ def expanded(fit: Fit) -> Expansion:
     )
     gradient, information = joint.gradient(), joint.information()
     gradient[own + len(frees) :] += [g.stretch for g in gauges]
-    pull = np.array([f.pull for f in fit.problem.free])
-    gradient[:own] -= pull * (slopes.theta - np.array([f.mean for f in fit.problem.free]))
-    information[np.arange(own), np.arange(own)] += pull
+    gradient[:own] = 0.0  # it is a maximum; what is left is noise of the differences, and grows where nothing is told
+    information[np.arange(own), np.arange(own)] += [told_by_prior(f) for f in fit.problem.free]
     widths = np.array([KNOWN] * len(known) + [0.0] * (len(frees) - len(known)) + [g.width for g in gauges])
     return Expansion(fit, gradient, information, own, tuple(groups), widths, _memory(joint, own, information))
+
+
+def told_by_prior(free: Free) -> float:
+    """Return the information of the prior of a coordinate; of a uniform one by its variance, as the evidence has it."""
+    if math.isinf(free.sd) and free.high > free.low:
+        return 12.0 / (free.high - free.low) ** 2
+    return free.pull
+
+
+def _centre(fit: Fit, terms: dict[str, Learned], groups: Sequence[Group], rows: tuple[Array, Array]) -> None:
+    """Take the constant force out of the derivatives `rows` (coefficients, readings) of smooth forces, in place.
+
+    A constant force has a name: smooth forces are those without a mean along the motion. What a constant does is read
+    from the waves over time that make one.
+    """
+    clocks = [g for g in groups if isinstance(terms[g.name], OverTime)]
+    if not clocks:
+        return
+    first, places = clocks[0], {i.name: i for i in fit.problem.system.model.interfaces}
+    z = np.linspace(-1.0, 1.0, 400)
+    waves = terms[first.name].basis(z)[:, : first.columns.stop - first.columns.start]
+    flat = np.linalg.lstsq(waves, np.ones(len(z)), rcond=1e-6)[0]
+    constant = [row[first.columns].T @ flat for row in rows]
+    body = places[terms[first.name].at]
+    for group in groups:
+        term, place = terms[group.name], places[terms[group.name].at]
+        if (place.row, place.against) == (body.row, body.against):
+            mean = _along(fit, group.name, term)[: group.columns.stop - group.columns.start]
+            for row, of in zip(rows, constant, strict=True):
+                row[group.columns] -= np.outer(mean, of)
+
+
+def _along(fit: Fit, key: str, term: Learned) -> Array:
+    """Return the mean (count,) of each wave of a smooth force along the recorded motion."""
+    if isinstance(term, OverPhase):
+        return np.zeros(term.count)
+    if isinstance(term, OverTime):
+        return np.asarray(term.basis(np.linspace(-1.0, 1.0, 400)).mean(axis=0))
+    problem, place = fit.problem, place_of(fit.problem.system.model, term)
+    middle, half = (float(problem.known[problem.system.index[f"{key}.{name}"]]) for name in ("middle", "half"))
+    seen = []
+    for observation in problem.observations:
+        single = replace(problem.on((observation,)), jobs=1)
+        lever = problem.system.lever(single.full(fit.theta), place)
+        states = single.smooth(fit.theta).filtered
+        seen.append(single.observations[0].motion_at(place, states, lever)[int(term.over == "velocity")])
+    return np.asarray(term.basis((np.concatenate(seen) - middle) / half).mean(axis=0))
 
 
 def _with_curves(fit: Fit) -> Fit:
@@ -191,12 +238,13 @@ def _with_curves(fit: Fit) -> Fit:
     return fit if there else transplanted(fit)
 
 
-def fitted(expansion: Expansion) -> tuple[Fit, float] | None:
-    """Return the fit with the smooth forces of the best discrepancy, and their log price; None where there are none.
+def fitted(expansion: Expansion, best: Discrepancy | None = None) -> tuple[Fit, float] | None:
+    """Return the fit with the smooth forces of a discrepancy, and their log price; None where there are none.
 
-    A fit that has to stand for what is missing by a large random force promises too little of them.
+    Slopes about a fit may promise what does not come true: one-step errors are not straight in forces that are large
+    beside the random one. `best` is the discrepancy, that of the expansion itself if none is given.
     """
-    best = expansion.best((), expansion.worse)
+    best = best or expansion.best((), expansion.worse)
     chosen = [group for group, (_, option) in zip(expansion.groups, best.chosen, strict=True) if option >= 0]
     if not chosen:
         return None
@@ -209,7 +257,7 @@ def fitted(expansion: Expansion) -> tuple[Fit, float] | None:
         rows[:, : len(wide)] = wide, at
         trials = [with_curve(p, group.name, rows[0], f * rows[1]) for p, f in zip(trials, SHARES, strict=True)]
     heights = [trial.log_posterior(trial.clip(trial.start)) for trial in trials]
-    return maximise(trials[int(np.argmax(heights))], rounds=ROUNDS, tolerance=0.3), PRICE * len(chosen)
+    return maximise(trials[int(np.argmax(heights))], rounds=2 * ROUNDS, tolerance=0.3), PRICE * len(chosen)
 
 
 def _rows(wider: Problem, slopes: Sensitivity, steps: Array) -> tuple[Array, Array]:
