@@ -53,7 +53,7 @@ class Selection:
     unbeaten: set[str] = field(default_factory=set)
     stopped: bool = False
     smooth: dict[frozenset[str], tuple[Fit, tuple[float, float, float] | None]] = field(default_factory=dict)
-    leads: dict[tuple[frozenset[str], ...], tuple[Visit, Visit, float]] = field(default_factory=dict)
+    leads: dict[tuple[frozenset[str], frozenset[str], bool], tuple[Visit, Visit, float]] = field(default_factory=dict)
 
     def expansion(self, visit: Visit) -> Expansion:
         """Return the expansion of a visited set with the discrepancy; it is made once for each fit."""
@@ -71,21 +71,30 @@ class Selection:
         """
         if visit.terms < over.terms:
             return -self.lead(over, visit)
-        known = self.leads.get((visit.terms, over.terms))
+        key = (visit.terms, over.terms, self._is_checked(visit) and self._is_checked(over))
+        known = self.leads.get(key)
         if known is None or known[0] is not visit or known[1] is not over:
-            known = self.leads[visit.terms, over.terms] = (visit, over, self._led(visit, over))
+            known = self.leads[key] = (visit, over, self._led(visit, over))
         return known[2]
 
+    def check(self, visit: Visit) -> None:
+        """Fit the smooth forces of the discrepancy of a set where they promise much: from then on what they win counts.
+
+        Such a fit costs as much as a hundred score tests, so it is made only of sets on which a choice depends.
+        """
+        if not self._is_checked(visit):
+            expansion = self.expansion(visit)
+            much = expansion.gain() >= RICH
+            self.smooth[visit.terms] = (visit.fit, _checked(visit.fit, expansion) if much else None)
+
+    def _is_checked(self, visit: Visit) -> bool:
+        return visit.terms in self.smooth and self.smooth[visit.terms][0] is visit.fit
+
     def worth(self, visit: Visit, worse: float) -> float:
-        """Return the log evidence that a discrepancy adds to a set; a large promise counts as far as it comes true."""
-        expansion = self.expansion(visit)
-        promised = expansion.gain(worse=worse)
-        if promised < RICH:
-            return promised
-        if visit.terms not in self.smooth or self.smooth[visit.terms][0] is not visit.fit:
-            self.smooth[visit.terms] = (visit.fit, _checked(visit.fit, expansion))
-        known = self.smooth[visit.terms][1]
-        return promised if known is None else min(promised, max(known[0] / worse - known[1] + known[2], FLOOR))
+        """Return the log evidence that a discrepancy adds to a set; once it is checked, no more than comes true."""
+        promised = self.expansion(visit).gain(worse=worse)
+        won = self.smooth[visit.terms][1] if self._is_checked(visit) else None
+        return promised if won is None else min(promised, max(won[0] / worse - won[1] + won[2], FLOOR))
 
     @staticmethod
     def _prices(visit: Visit, over: Visit) -> float:
@@ -102,7 +111,7 @@ class Selection:
         gone, keys = visit.terms - over.terms, visit.fit.problem.keys
         dropped = [i for i, key in enumerate(keys) if key.rpartition(".")[0] in gone]
         seen = here.best(dropped, worse)
-        if seen.gain > other + RICH:
+        if seen.gain > other + RICH and self._is_checked(visit):
             checked = _checked(over.fit, there, seen)
             if checked:
                 return own - max(other, min(seen.gain, behind + checked[0] / worse - checked[1] + checked[2])) - prices
@@ -121,7 +130,7 @@ class Selection:
         heights = {k: v.weight - chosen.weight for k, v in believed.items()}
         known = [terms for terms in believed if terms in self.rivals and terms != chosen.terms]
         heights |= {terms: -self.lead(chosen, self.visits[terms]) for terms in known}
-        for (more, fewer), (_, _, lead) in self.leads.items():
+        for (more, fewer, _), (_, _, lead) in self.leads.items():
             if fewer < more and more in heights and fewer in heights and more != chosen.terms:
                 heights[more] = min(heights[more], heights[fewer] + lead)
         least = min([0.0, *(heights[terms] for terms in known)])

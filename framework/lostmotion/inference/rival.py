@@ -20,7 +20,7 @@ from scipy.linalg.lapack import dpotrf, dtrtrs
 
 from lostmotion.contracts import Array, place_of
 from lostmotion.inference.candidates import slopes_of, term_of
-from lostmotion.inference.curves import ROUNDS, size_of, transplanted, with_curve
+from lostmotion.inference.curves import size_of, transplanted, with_curve
 from lostmotion.inference.fit import BLOCKS, Fit, Sensitivity, maximise, restarted, solved
 from lostmotion.inference.gauges import gauges_of
 from lostmotion.inference.learned import Learned, OverPhase, OverPosition, OverTime, OverVelocity, spread
@@ -40,6 +40,8 @@ NUDGE, STEP = 3e-4, 1e-3
 """Finite-difference steps of a coefficient in units of the drive, and of the logarithm of a known value."""
 SHARES = (1.0, 0.5, 0.2, 0.0)
 """Fits with smooth forces begin with these shares of what was promised."""
+SETTLED = 3
+"""Rounds of such a fit: it begins at what slopes promise."""
 SWEEPS = 3
 PRICE = math.log(len(SIZES) * len(LENGTHS))
 """The log price of the size and the length of a smooth force that were chosen."""
@@ -257,7 +259,7 @@ def fitted(expansion: Expansion, best: Discrepancy | None = None) -> tuple[Fit, 
         rows[:, : len(wide)] = wide, at
         trials = [with_curve(p, group.name, rows[0], f * rows[1]) for p, f in zip(trials, SHARES, strict=True)]
     heights = [trial.log_posterior(trial.clip(trial.start)) for trial in trials]
-    return maximise(trials[int(np.argmax(heights))], rounds=2 * ROUNDS, tolerance=0.3), PRICE * len(chosen)
+    return maximise(trials[int(np.argmax(heights))], rounds=SETTLED, tolerance=0.3), PRICE * len(chosen)
 
 
 def _rows(wider: Problem, slopes: Sensitivity, steps: Array) -> tuple[Array, Array]:

@@ -170,11 +170,15 @@ class Selector:
         good = sorted((v for v in others if self._decided(v, here)), key=lambda v: -v.weight)[:CONTESTED]
         known = [v for v in others if v.terms in self.course.rivals and len(v.terms) == len(here.terms)]
         good += [v for v in known if v not in good]
+        if good:
+            self.course.check(here)
         leads = {v.terms: self.course.lead(v, here) for v in good}
         self.course.unbeaten = set()
         for visit in sorted(good, key=lambda v: -leads[v.terms]):
             needed = DECISIVE if visit.terms > here.terms else 0.0
-            if not leads[visit.terms] > needed:
+            if leads[visit.terms] > needed:
+                self.course.check(visit)
+            if not (leads[visit.terms] > needed and self.course.lead(visit, here) > needed):
                 self.course.unbeaten |= visit.terms - here.terms
                 continue
             if self._certain(visit, here):
@@ -338,6 +342,8 @@ class Selector:
             terms = chosen.problem.active - {key}
             self.say(f"without {key}")
             visit = self.course.visits.get(terms) or self._visit(maximise(chosen.problem.reduced(key, chosen.values)))
+            for checked in (here, visit):
+                self.course.check(checked)
             if visit.weight + DECISIVE > here.weight or not self.course.lead(here, visit) > DECISIVE:
                 self.course.chosen = visit.fit
                 return True
