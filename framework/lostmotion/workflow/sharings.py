@@ -117,6 +117,8 @@ def _told(entry: Entry, key: str, problem: Problem, sharing: Sharing) -> Entry:
 
 def _moved(one: Shared, before: Mapping[str, Any], names: Mapping[str, str], sharing: Sharing) -> str:
     """Return that a value which holds is another one once what differs is released; empty where it is not."""
+    if before["low"] is None:
+        return ""
     apart = before["low"] > one.common.high or before["high"] < one.common.low
     if not (one.holds and sharing.released and apart):
         return ""
