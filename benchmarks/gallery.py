@@ -124,7 +124,11 @@ def table(content: Mapping[str, Any], further: Mapping[str, float]) -> str:
 
 def between(value: Mapping[str, Any] | None) -> str:
     """Return an estimate with its 95 % interval, or nothing."""
-    return f"{value['median']:.4g} [{value['low']:.4g}, {value['high']:.4g}]" if value else ""
+    if not value:
+        return ""
+    if value["low"] is None:
+        return f"{value['median']:.4g} (interval withheld)"
+    return f"{value['median']:.4g} [{value['low']:.4g}, {value['high']:.4g}]"
 
 
 def place_of(entry: Mapping[str, Any]) -> str:
