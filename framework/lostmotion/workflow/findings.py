@@ -105,12 +105,14 @@ def _entry(outcome: Outcome, key: str, after: Mapping[str, Interval]) -> dict[st
     system, known = d.after.problem.system, d.after.problem.known
     held = {s.key: float(known[system.index[s.key]]) for s in slots}
     own = {s.param.name: after.get(s.key) or _of(np.full(1, held[s.key]), s.unit) for s in slots}
-    sentence = term.physics.format(**{name: str(i) for name, i in own.items()}) + _whose(d, term)
+    why = why_withheld(outcome)
+    numbers = {name: f"{i.median:.3g} {i.unit}" if why else str(i) for name, i in own.items()}
+    sentence = term.physics.format(**numbers) + _whose(d, term)
     if term.at in elsewhere(system.model):
         sentence += f" at the place {term.at!r}"
     share = float(np.max(np.abs(d.laws[key]))) / d.after.problem.scales.force
     percent, is_sensor = f"{100.0 * share:.2g}" if share < 1.0 else f"{100.0 * share:.0f}", isinstance(term, SensorTerm)
-    doubts = doubts_of(d, key) + ([why] if (why := why_withheld(outcome)) else [])
+    doubts = doubts_of(d, key) + ([why] if why else [])
     return {
         "mechanism": term.name,
         "at": term.at,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
@@ -236,11 +236,16 @@ def _unexplained(d: Diagnosis, *, after: bool) -> dict[str, Any]:
     }
 
 
-def _said(entry: dict[str, Any]) -> str:
-    """Return the sentence on an entry that was found; what is no more than likely is told so, with the reason."""
-    if entry.get("state") != LIKELY:
-        return str(entry["says"])
-    return f"Likely, not certain: {entry['says'][:-1]}. {' '.join(entry['doubts'])}"
+def _said(found: Sequence[dict[str, Any]]) -> Iterator[str]:
+    """Yield the sentences on what was found; what is no more than likely is told so, each doubt once."""
+    told: set[str] = set()
+    for entry in found:
+        if entry.get("state") != LIKELY:
+            yield str(entry["says"])
+            continue
+        doubts = [doubt for doubt in entry["doubts"] if doubt not in told]
+        told.update(doubts)
+        yield " ".join([f"Likely, not certain: {entry['says']}", *doubts])
 
 
 def says(outcome: Outcome, found: list[dict[str, Any]], rest: Sequence[dict[str, Any]] = ()) -> list[str]:
@@ -259,7 +264,7 @@ def says(outcome: Outcome, found: list[dict[str, Any]], rest: Sequence[dict[str,
     left = [f"Open: {row['says']}" for row in rest[:MOST_OPEN]]
     if not d.found:
         return [entry["says"] for entry in found] + left
-    opening = [_said(entry) for entry in found]
+    opening = list(_said(found))
     if len(found) == 1:
         opening[0] = f"{opening[0][:-1]}, and the model leaves it out."
     else:
