@@ -24,7 +24,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 BLOCK = re.compile(r"^(?P<fence>`{3,})(?P<language>\S*)[^\n]*\n(?P<code>.*?)^(?P=fence)[ ]*$", re.MULTILINE | re.DOTALL)
-MARK = re.compile(r"<!--\s*(file|add to|prints|exit|needs|slow|figures)(?:(?::| of)\s*(.*?))?\s*-->")
+MARK = re.compile(r"<!--\s*(file|add to|prints|exit|needs|slow|figures|by hand)(?:(?::| of)\s*(.*?))?\s*-->")
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 TOLERANCE = 0.05
 

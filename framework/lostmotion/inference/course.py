@@ -12,8 +12,9 @@ from lostmotion.inference.rival import Discrepancy, Expansion, expanded, fitted
 CLOSE = 12.0
 """Sets that are so close to the best in log weight are fitted again, and kept for comparison."""
 BEAM = 3
-FLOOR = 0.0
-"""No promise is believed to be worth less than nothing, and a lead below it need not be known exactly."""
+FLOOR = -10.0
+"""What a discrepancy is worth whose promise does not come true: known values and channels that are left open cost about
+so much where they explain nothing."""
 RICH = 20.0
 """A discrepancy that promises to add so much to the log evidence is fitted before a name is given."""
 
@@ -28,11 +29,15 @@ class Visit:
 
 
 def _checked(fit: Fit, expansion: Expansion, best: Discrepancy | None = None) -> tuple[float, float, float] | None:
-    """Return what the smooth forces of a discrepancy win when they are fitted, their price, and what is won beside."""
+    """Return what the smooth forces of a discrepancy win when they are fitted, their price, and what is won beside.
+
+    The rest, wrong known values and channels, is a promise again, and is believed up to `RICH`.
+    """
     found = fitted(expansion, best)
     if found is None or found[0].status == "diverged":
         return None
-    return found[0].log_evidence - fit.log_evidence, found[1], expanded(found[0]).gain()
+    beside = min(max(expanded(found[0]).gain(), 0.0), RICH)
+    return found[0].log_evidence - fit.log_evidence, found[1], beside
 
 
 @dataclass
@@ -106,7 +111,7 @@ class Selection:
         worse, prices = here.worse, self._prices(visit, over)
         own, behind = self.worth(visit, worse), (over.fit.log_evidence - visit.fit.log_evidence) / worse
         other = behind + self.worth(over, worse)
-        if not over.terms < visit.terms or own - other - prices < FLOOR:
+        if not over.terms < visit.terms or own - other - prices < 0.0:
             return own - other - prices
         gone, keys = visit.terms - over.terms, visit.fit.problem.keys
         dropped = [i for i, key in enumerate(keys) if key.rpartition(".")[0] in gone]

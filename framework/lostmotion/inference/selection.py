@@ -37,7 +37,7 @@ EXTRA = 1.5
 CONTESTED = 4
 """So many of the heaviest sets are held against the discrepancy in each round: each costs a hundred filter runs."""
 MOST_VISITS = 80
-"""A search ends after so many sets of terms, whatever is left: what many fits do not explain more of them will not."""
+"""A search ends after so many sets of terms, whatever is left."""
 NEARLY = 2.5
 DECISIVE = math.log(20.0)
 """A term is taken when it makes the posterior odds of the model twenty times better."""
@@ -163,23 +163,26 @@ class Selector:
     def _better(self, here: Visit) -> bool:
         """Take the best set visited in place of the chosen one, if it is decisively better and may be believed.
 
-        It has to be better alone, and beside the smooth force that nobody has named.
+        It has to be better alone, and beside the smooth force that nobody has named. Of those that lead by about as
+        much the one of most evidence is taken: a law is not exchanged for a relative with more parameters.
         """
         self._been.add(here.terms)
         others = [v for v in self.course.visits.values() if v.terms not in self._been]
         good = sorted((v for v in others if self._decided(v, here)), key=lambda v: -v.weight)[:CONTESTED]
-        known = [v for v in others if v.terms in self.course.rivals and len(v.terms) == len(here.terms)]
-        good += [v for v in known if v not in good]
-        if good:
-            self.course.check(here)
+        good += [
+            v for v in others if v.terms in self.course.smooth and len(v.terms) == len(here.terms) and v not in good
+        ]
+        for visit in [here, *good] if good else []:
+            self.course.check(visit)
         leads = {v.terms: self.course.lead(v, here) for v in good}
         self.course.unbeaten = set()
-        for visit in sorted(good, key=lambda v: -leads[v.terms]):
-            needed = DECISIVE if visit.terms > here.terms else 0.0
-            if leads[visit.terms] > needed:
-                self.course.check(visit)
-            if not (leads[visit.terms] > needed and self.course.lead(visit, here) > needed):
-                self.course.unbeaten |= visit.terms - here.terms
+        near = max(leads.values(), default=0.0) - DECISIVE
+        for visit in sorted(
+            good, key=lambda v: (-leads[v.terms], 0.0) if leads[v.terms] <= near else (-math.inf, -v.weight)
+        ):
+            needed = DECISIVE if visit.terms > here.terms or not self._decided(visit, here) else 0.0
+            if not leads[visit.terms] > needed:
+                self.course.unbeaten |= visit.terms - here.terms if visit.terms > here.terms else frozenset()
                 continue
             if self._certain(visit, here):
                 self.course.chosen = visit.fit
