@@ -36,8 +36,7 @@ EXTRA = 1.5
 """The log price of each parameter of a term beyond its first."""
 CONTESTED = 4
 """So many of the heaviest sets are held against the discrepancy in each round: each costs a hundred filter runs."""
-MOST_VISITS = 80
-"""A search ends after so many sets of terms, whatever is left."""
+MOST_VISITS = 80  # a search ends after so many sets of terms, whatever is left
 NEARLY = 2.5
 DECISIVE = math.log(20.0)
 """A term is taken when it makes the posterior odds of the model twenty times better."""
