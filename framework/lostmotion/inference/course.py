@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 from lostmotion.inference.candidates import Hint
 from lostmotion.inference.fit import Fit
-from lostmotion.inference.rival import Discrepancy, Expansion, expanded, fitted
+from lostmotion.inference.rival import Expansion, expanded, fitted
 
 CLOSE = 12.0
 """Sets that are so close to the best in log weight are fitted again, and kept for comparison."""
@@ -28,12 +28,12 @@ class Visit:
     weight: float
 
 
-def _checked(fit: Fit, expansion: Expansion, best: Discrepancy | None = None) -> tuple[float, float, float] | None:
+def _checked(fit: Fit, expansion: Expansion) -> tuple[float, float, float] | None:
     """Return what the smooth forces of a discrepancy win when they are fitted, their price, and what is won beside.
 
     The rest, wrong known values and channels, is a promise again, and is believed up to `RICH`.
     """
-    found = fitted(expansion, best)
+    found = fitted(expansion)
     if found is None or found[0].status == "diverged":
         return None
     beside = min(max(expanded(found[0]).gain(), 0.0), RICH)
@@ -101,26 +101,29 @@ class Selection:
         won = self.smooth[visit.terms][1] if self._is_checked(visit) else None
         return promised if won is None else min(promised, max(won[0] / worse - won[1] + won[2], FLOOR))
 
+    def feared(self, visit: Visit, worse: float) -> float:
+        """Return the log evidence that a discrepancy may add to a set that others have to beat: promised or fitted.
+
+        Fits of smooth forces may stop short of their maximum, and a rival is not to be beaten by that.
+        """
+        promised = self.expansion(visit).gain(worse=worse)
+        won = self.smooth[visit.terms][1] if self._is_checked(visit) else None
+        return promised if won is None else max(promised, won[0] / worse - won[1] + won[2])
+
     @staticmethod
     def _prices(visit: Visit, over: Visit) -> float:
         """Return by how much the terms of a set cost more than those of another one."""
         return (visit.fit.log_evidence - visit.weight) - (over.fit.log_evidence - over.weight)
 
     def _led(self, visit: Visit, over: Visit) -> float:
-        here, there = self.expansion(visit), self.expansion(over)
-        worse, prices = here.worse, self._prices(visit, over)
-        own, behind = self.worth(visit, worse), (over.fit.log_evidence - visit.fit.log_evidence) / worse
-        other = behind + self.worth(over, worse)
-        if not over.terms < visit.terms or own - other - prices < 0.0:
-            return own - other - prices
+        here, worse = self.expansion(visit), self.expansion(visit).worse
+        own = self.worth(visit, worse) - self._prices(visit, over)
+        behind = (over.fit.log_evidence - visit.fit.log_evidence) / worse
+        if not over.terms < visit.terms:
+            return own - behind - self.worth(over, worse)
         gone, keys = visit.terms - over.terms, visit.fit.problem.keys
         dropped = [i for i, key in enumerate(keys) if key.rpartition(".")[0] in gone]
-        seen = here.best(dropped, worse)
-        if seen.gain > other + RICH and self._is_checked(visit):
-            checked = _checked(over.fit, there, seen)
-            if checked:
-                return own - max(other, min(seen.gain, behind + checked[0] / worse - checked[1] + checked[2])) - prices
-        return own - max(other, seen.gain) - prices
+        return own - max(behind + self.feared(over, worse), here.gain(dropped, worse=worse))
 
     def probabilities(self) -> dict[frozenset[str], float]:
         """Return the posterior probability of each set among those visited, but for sets that were not believed.

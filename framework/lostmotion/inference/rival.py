@@ -240,13 +240,13 @@ def _with_curves(fit: Fit) -> Fit:
     return fit if there else transplanted(fit)
 
 
-def fitted(expansion: Expansion, best: Discrepancy | None = None) -> tuple[Fit, float] | None:
-    """Return the fit with the smooth forces of a discrepancy, and their log price; None where there are none.
+def fitted(expansion: Expansion) -> tuple[Fit, float] | None:
+    """Return the fit with the smooth forces of the best discrepancy, and their log price; None where there are none.
 
     Slopes about a fit may promise what does not come true: one-step errors are not straight in forces that are large
-    beside the random one. `best` is the discrepancy, that of the expansion itself if none is given.
+    beside the random one.
     """
-    best = best or expansion.best((), expansion.worse)
+    best = expansion.best((), expansion.worse)
     chosen = [group for group, (_, option) in zip(expansion.groups, best.chosen, strict=True) if option >= 0]
     if not chosen:
         return None

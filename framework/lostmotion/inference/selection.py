@@ -143,21 +143,7 @@ class Selector:
         for visit in self._nearly(here):
             self._additions(visit.fit)
         self._settle()
-        return self._better(here) or (self._ahead(here) and self._better(here))
-
-    def _ahead(self, here: Visit) -> bool:
-        """Add to the best set that evidence alone would take and its rival did not let pass; tell whether there is one.
-
-        Two terms may beat the rival together where neither does alone, such as friction and an offset of a drive.
-        """
-        unbeaten = [v for v in self.course.visits.values() if v.terms > here.terms and self._decided(v, here)]
-        unbeaten = [
-            v for v in unbeaten if len(v.terms) == len(here.terms) + 1 and v.terms - here.terms <= self.course.unbeaten
-        ]
-        if not unbeaten:
-            return False
-        self._additions(max(unbeaten, key=lambda v: v.weight).fit)
-        return True
+        return self._better(here)
 
     def _better(self, here: Visit) -> bool:
         """Take the best set visited in place of the chosen one, if it is decisively better and may be believed.
