@@ -72,7 +72,8 @@ class Selection:
 
         What one-step errors win is divided by how much their scores scatter more than independent ones would. Where
         the other is a part of the set, it is also asked what it is worth seen from here: with a random force that
-        is no larger than it has to be once the terms are in.
+        is no larger than it has to be once the terms are in. A part is feared by all that its discrepancy promises; the
+        set itself is believed by what comes true (`check`).
         """
         if visit.terms < over.terms:
             return -self.lead(over, visit)
@@ -101,15 +102,6 @@ class Selection:
         won = self.smooth[visit.terms][1] if self._is_checked(visit) else None
         return promised if won is None else min(promised, max(won[0] / worse - won[1] + won[2], FLOOR))
 
-    def feared(self, visit: Visit, worse: float) -> float:
-        """Return the log evidence that a discrepancy may add to a set that others have to beat: promised or fitted.
-
-        Fits of smooth forces may stop short of their maximum, and a rival is not to be beaten by that.
-        """
-        promised = self.expansion(visit).gain(worse=worse)
-        won = self.smooth[visit.terms][1] if self._is_checked(visit) else None
-        return promised if won is None else max(promised, won[0] / worse - won[1] + won[2])
-
     @staticmethod
     def _prices(visit: Visit, over: Visit) -> float:
         """Return by how much the terms of a set cost more than those of another one."""
@@ -123,7 +115,8 @@ class Selection:
             return own - behind - self.worth(over, worse)
         gone, keys = visit.terms - over.terms, visit.fit.problem.keys
         dropped = [i for i, key in enumerate(keys) if key.rpartition(".")[0] in gone]
-        return own - max(behind + self.feared(over, worse), here.gain(dropped, worse=worse))
+        feared = self.expansion(over).gain(worse=worse)
+        return own - max(behind + feared, here.gain(dropped, worse=worse))
 
     def probabilities(self) -> dict[frozenset[str], float]:
         """Return the posterior probability of each set among those visited, but for sets that were not believed.
