@@ -12,6 +12,8 @@ from lostmotion.inference.rival import Expansion, expanded, fitted
 CLOSE = 12.0
 """Sets that are so close to the best in log weight are fitted again, and kept for comparison."""
 BEAM = 3
+LONG = 4.0
+"""From this excess of the scatter of scores on their memory is long."""
 FLOOR = -10.0
 """What a discrepancy is worth whose promise does not come true: known values and channels that are left open cost about
 so much where they explain nothing."""
@@ -102,6 +104,15 @@ class Selection:
         won = self.smooth[visit.terms][1] if self._is_checked(visit) else None
         return promised if won is None else min(promised, max(won[0] / worse - won[1] + won[2], FLOOR))
 
+    def feared(self, visit: Visit, worse: float) -> float:
+        """Return the log evidence that a discrepancy may add to a part of a set: promised or fitted, whichever is more.
+
+        Where scores have a long memory what a fit wins is mostly that memory, and the promise alone counts.
+        """
+        promised = self.expansion(visit).gain(worse=worse)
+        won = self.smooth[visit.terms][1] if self._is_checked(visit) and worse < LONG else None
+        return promised if won is None else max(promised, won[0] / worse - won[1] + won[2])
+
     @staticmethod
     def _prices(visit: Visit, over: Visit) -> float:
         """Return by how much the terms of a set cost more than those of another one."""
@@ -115,7 +126,7 @@ class Selection:
             return own - behind - self.worth(over, worse)
         gone, keys = visit.terms - over.terms, visit.fit.problem.keys
         dropped = [i for i, key in enumerate(keys) if key.rpartition(".")[0] in gone]
-        feared = self.expansion(over).gain(worse=worse)
+        feared = self.feared(over, worse)
         return own - max(behind + feared, here.gain(dropped, worse=worse))
 
     def probabilities(self) -> dict[frozenset[str], float]:
