@@ -12,6 +12,8 @@ from lostmotion.inference.rival import Expansion, expanded, fitted
 CLOSE = 12.0
 """Sets that are so close to the best in log weight are fitted again, and kept for comparison."""
 BEAM = 3
+ABSURD = 100.0
+"""A promise beyond this, of which nothing comes true, tells that slopes about the fit mean nothing."""
 LONG = 4.0
 """From this excess of the scatter of scores on their memory is long."""
 FLOOR = -10.0
@@ -38,7 +40,8 @@ def _checked(fit: Fit, expansion: Expansion) -> tuple[float, float, float] | Non
     found = fitted(expansion)
     if found is None or found[0].status == "diverged":
         return None
-    beside = min(max(expanded(found[0]).gain(), 0.0), RICH)
+    promised = expanded(found[0]).gain()
+    beside = min(max(promised, 0.0), RICH) if promised < ABSURD else 0.0
     return found[0].log_evidence - fit.log_evidence, found[1], beside
 
 
@@ -127,7 +130,17 @@ class Selection:
         gone, keys = visit.terms - over.terms, visit.fit.problem.keys
         dropped = [i for i, key in enumerate(keys) if key.rpartition(".")[0] in gone]
         feared = self.feared(over, worse)
+        if not self.sound(visit):
+            return own - behind - feared
         return own - max(behind + feared, here.gain(dropped, worse=worse))
+
+    def sound(self, visit: Visit) -> bool:
+        """Return whether slopes about a set say what happens: a body at rest answers small forces not at all.
+
+        They do not where they promise much and nothing of it comes true.
+        """
+        won = self.smooth[visit.terms][1] if self._is_checked(visit) else None
+        return won is None or won[0] > 0.0 or self.expansion(visit).gain() < ABSURD
 
     def probabilities(self) -> dict[frozenset[str], float]:
         """Return the posterior probability of each set among those visited, but for sets that were not believed.
