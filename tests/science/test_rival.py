@@ -124,3 +124,17 @@ def test_leads_are_antisymmetric_and_bounded_by_what_the_larger_set_says(tmp_pat
         course.lead(with_it, bare)
         <= expansion.gain(worse=expansion.worse) - expansion.gain(dropped, worse=expansion.worse) + 1e-9
     )
+
+
+def test_a_promise_is_also_looked_for_from_what_would_stand_in_for_the_terms(tmp_path):
+    rub = lambda x, v, t: -1.0 * np.tanh(v / 1e-3)  # noqa: E731
+    nominal, _ = nominal_of(tmp_path, rub)
+    more = fit_with(nominal, screen(nominal, slopes_of(nominal), "coulomb_friction"))
+    expansion = expanded(more)
+    dropped = [i for i, k in enumerate(more.problem.keys) if k.startswith("coulomb_friction")]
+    stand_in = expansion.best(dropped, expansion.worse)
+    beside = expansion.best((), expansion.worse, stand_in.chosen)
+    assert any(option >= 0 for _, option in stand_in.chosen)
+    assert beside.gain >= stand_in.gain, "a set with the term is worth at least what it is worth without"
+    assert expansion.promise().gain == max(expansion.gain(), beside.gain)
+    assert expansion.best((), expansion.worse) is expansion.best((), expansion.worse)

@@ -95,15 +95,23 @@ class Selection:
         """
         if not self._is_checked(visit):
             expansion = self.expansion(visit)
-            much = expansion.gain() >= RICH
+            much = expansion.promise().gain >= RICH
             self.smooth[visit.terms] = (visit.fit, _checked(visit.fit, expansion) if much else None)
+
+    def contest(self, visit: Visit, over: Visit, needed: float) -> None:
+        """Check a set where that may decide whether it leads by as much as is needed.
+
+        A check makes a lead smaller, but where slopes about the set turn out to mean nothing.
+        """
+        if self.lead(visit, over) > needed or self.expansion(visit).promise().gain >= ABSURD:
+            self.check(visit)
 
     def _is_checked(self, visit: Visit) -> bool:
         return visit.terms in self.smooth and self.smooth[visit.terms][0] is visit.fit
 
     def worth(self, visit: Visit, worse: float) -> float:
         """Return the log evidence that a discrepancy adds to a set; once it is checked, no more than comes true."""
-        promised = self.expansion(visit).gain(worse=worse)
+        promised = self.expansion(visit).promise(worse).gain
         won = self.smooth[visit.terms][1] if self._is_checked(visit) else None
         return promised if won is None else min(promised, max(won[0] / worse - won[1] + won[2], FLOOR))
 
@@ -112,7 +120,7 @@ class Selection:
 
         Where scores have a long memory what a fit wins is mostly that memory, and the promise alone counts.
         """
-        promised = self.expansion(visit).gain(worse=worse)
+        promised = self.expansion(visit).promise(worse).gain
         won = self.smooth[visit.terms][1] if self._is_checked(visit) and worse < LONG else None
         return promised if won is None else max(promised, won[0] / worse - won[1] + won[2])
 
@@ -140,7 +148,7 @@ class Selection:
         They do not where they promise much and nothing of it comes true.
         """
         won = self.smooth[visit.terms][1] if self._is_checked(visit) else None
-        return won is None or won[0] > 0.0 or self.expansion(visit).gain() < ABSURD
+        return won is None or won[0] > 0.0 or self.expansion(visit).promise().gain < ABSURD
 
     def probabilities(self) -> dict[frozenset[str], float]:
         """Return the posterior probability of each set among those visited, but for sets that were not believed.

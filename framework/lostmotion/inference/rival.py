@@ -13,7 +13,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from scipy.linalg.lapack import dpotrf, dtrtrs
@@ -85,17 +85,37 @@ class Expansion:
     groups: tuple[Group, ...]
     widths: Array
     worse: float
+    _known: dict[tuple[object, ...], Discrepancy] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     def gain(self, dropped: Sequence[int] = (), worse: float = 0.0) -> float:
         """Return the log evidence that the discrepancy adds to the fit; see `best`."""
         return self.best(dropped, worse or self.worse).gain
 
-    def best(self, dropped: Sequence[int] = (), worse: float = 1.0) -> Discrepancy:
+    def promise(self, worse: float = 0.0) -> Discrepancy:
+        """Return the best discrepancy, looked for from none and from what stands in for all terms of the fit."""
+        worse = worse or self.worse
+        alone = self.best((), worse)
+        terms = [i for i, key in enumerate(self.fit.problem.keys) if key.rpartition(".")[0] in self.fit.problem.active]
+        if not terms:
+            return alone
+        beside = self.best((), worse, self.best(terms, worse).chosen)
+        return max(alone, beside, key=lambda found: found.gain)
+
+    def best(
+        self, dropped: Sequence[int] = (), worse: float = 1.0, begin: Sequence[tuple[str, int]] = ()
+    ) -> Discrepancy:
         """Return the discrepancy of the best smoothness, where likelihoods count by one over `worse`.
 
         Own coordinates that are `dropped` are put at zero, all others moving along: what the set is worth without a
-        term, as far as one-step errors are straight in it. The drop of the log posterior is counted.
+        term, as far as one-step errors are straight in it. The drop of the log posterior is counted. The search begins
+        at the options `begin`, of which each smooth force has none if nothing is said.
         """
+        asked = (*dropped, worse, *begin)
+        if asked not in self._known:
+            self._known[asked] = self._best(dropped, worse, [option for _, option in begin] or [-1] * len(self.groups))
+        return self._known[asked]
+
+    def _best(self, dropped: Sequence[int], worse: float, begin: list[int]) -> Discrepancy:
         kept = np.setdiff1d(np.arange(self.own), np.asarray(dropped, dtype=int))
         more = np.arange(self.own, len(self.gradient))
         gradient, lost = self._without(dropped)
@@ -105,7 +125,7 @@ class Expansion:
         force = gradient[more] - cross.T @ pulled[:, -1]
         moved = 0.5 * float(gradient[kept] @ pulled[:, -1]) if len(dropped) else 0.0
         h, g = 0.5 * (information + information.T) / worse, force / worse
-        found = self._smoothest(h, g)
+        found = self._smoothest(h, g, begin)
         return replace(found, gain=found.gain + (moved - lost) / worse)
 
     def _without(self, dropped: Sequence[int]) -> tuple[Array, float]:
@@ -115,10 +135,13 @@ class Expansion:
         pulled = self.information @ away
         return self.gradient - pulled, 0.5 * float(away @ pulled) - float(self.gradient @ away)
 
-    def _smoothest(self, h: Array, g: Array) -> Discrepancy:
+    def _smoothest(self, h: Array, g: Array, chosen: list[int]) -> Discrepancy:
         """Return the best discrepancy: each smooth force in turn gets the width that pays most, or none."""
-        widths, chosen = self.widths.copy(), [-1] * len(self.groups)
-        best = evidence_of(h, g, widths)
+        widths = self.widths.copy()
+        for group, option in zip(self.groups, chosen, strict=True):
+            if option >= 0:
+                widths[group.columns] = group.options[option]
+        best = evidence_of(h, g, widths) - PRICE * sum(option >= 0 for option in chosen)
         for _ in range(SWEEPS):
             before = best
             for k, group in enumerate(self.groups):
@@ -246,7 +269,7 @@ def fitted(expansion: Expansion) -> tuple[Fit, float] | None:
     Slopes about a fit may promise what does not come true: one-step errors are not straight in forces that are large
     beside the random one.
     """
-    best = expansion.best((), expansion.worse)
+    best = expansion.promise()
     chosen = [group for group, (_, option) in zip(expansion.groups, best.chosen, strict=True) if option >= 0]
     if not chosen:
         return None

@@ -157,16 +157,20 @@ class Selector:
         good += [
             v for v in others if v.terms in self.course.smooth and len(v.terms) == len(here.terms) and v not in good
         ]
-        for visit in [here, *good] if good else []:
-            self.course.check(visit)
+        if good:
+            self.course.check(here)
+        needs = {v.terms: DECISIVE if v.terms > here.terms or not self._decided(v, here) else 0.0 for v in good}
+        for visit in good:
+            self.course.contest(visit, here, needs[visit.terms])
         leads = {v.terms: self.course.lead(v, here) for v in good}
         self.course.unbeaten = set()
-        near = max(leads.values(), default=0.0) - DECISIVE
-        for visit in sorted(
-            good, key=lambda v: (-leads[v.terms], 0.0) if leads[v.terms] <= near else (-math.inf, -v.weight)
-        ):
-            needed = DECISIVE if visit.terms > here.terms or not self._decided(visit, here) else 0.0
-            if not leads[visit.terms] > needed:
+        near = [v for v in good if leads[v.terms] > max(leads.values()) - DECISIVE]
+        behind = [v for v in good if v not in near]
+        for visit in [
+            *sorted(near, key=lambda v: -v.weight),
+            *sorted(behind, key=lambda v: -leads[v.terms]),
+        ]:
+            if not leads[visit.terms] > needs[visit.terms]:
                 self.course.unbeaten |= visit.terms - here.terms if visit.terms > here.terms else frozenset()
                 continue
             if self._certain(visit, here):
@@ -330,8 +334,8 @@ class Selector:
             terms = chosen.problem.active - {key}
             self.say(f"without {key}")
             visit = self.course.visits.get(terms) or self._visit(maximise(chosen.problem.reduced(key, chosen.values)))
-            for checked in (here, visit):
-                self.course.check(checked)
+            self.course.check(visit)
+            self.course.contest(here, visit, DECISIVE)
             if visit.weight + DECISIVE > here.weight or not self.course.lead(here, visit) > DECISIVE:
                 self.course.chosen = visit.fit
                 return True

@@ -10,15 +10,26 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from functools import partial
 
 import numpy as np
 
 from lostmotion.contracts import Array
-from lostmotion.errors import DataError
 from lostmotion.kernels.independent_rough import CELLS, REACH, Flaws, move_rough
 from lostmotion.kernels.independent_zoo import Hidden
 from lostmotion.workflow.mechanisms import NOISY, TABLE, UNKNOWN, Effect, Pilot
-from lostmotion.workflow.zoo import ACROSS, FEWEST, MOST, PIECE, Meddling, Rig, Signal, drawn_log, sized
+from lostmotion.workflow.zoo import (
+    ACROSS,
+    Meddling,
+    Rig,
+    Signal,
+    drawn_log,
+    followed,
+    foot_of,
+    pace_of,
+    sized,
+    wide_prior,
+)
 
 CYCLE, MULTISINE, SWEEP, STEPS, IMPACTS = "cycle", "multisine", "sweep", "steps", "impacts"
 KINDS = (CYCLE, MULTISINE, SWEEP, STEPS, IMPACTS)
@@ -85,13 +96,8 @@ def draw_machine(kind: str, rng: np.random.Generator, most: int) -> Rig:
     top = max((w for _, w, _ in signal.tones), default=0.0) / (ratio * natural)
     rate *= max(1.0, ACROSS * top / period)
     estimated = ("c", "k") if model == "linear_oscillator" else ("c", "x0")
-    priors = {name: _prior(values[name], rng) for name in estimated}
+    priors = {name: wide_prior(values[name], rng) for name in estimated}
     return Rig(model, values, estimated, signal, rate, samples, drawn_log(rng, 0.002, 0.03), priors)
-
-
-def _prior(value: float, rng: np.random.Generator) -> dict[str, float | str]:
-    below, above = 10.0 ** rng.uniform(0.4, 1.2, 2)
-    return {"low": float(f"{value / below:.3g}"), "high": float(f"{value * above:.3g}"), "scale": "log"}
 
 
 def _signal(kind: str, size: float, omega: float, times: tuple[float, float], rng: np.random.Generator) -> Signal:
@@ -206,32 +212,15 @@ def _scaled(raw: Array, z: Array, seen: Array, rms: float) -> Array:
 def moved_roughly(rig: Rig, hidden: tuple[Hidden, Meddling], world: World, rng: np.random.Generator) -> Array:
     """Return what the sensor shows (samples,) before its noise, after the machine has settled."""
     inside, meddling = hidden
-    fastest = math.sqrt((rig.body.k + rig.body.k0) / rig.body.m) + rig.body.c / rig.body.m + rig.signal.omega
-    fastest = max(fastest, 0.4 * world.flaws["far_pace"])
-    every = int(min(max(math.ceil(fastest / rig.rate / FINE), FEWEST), MOST))
-    settle = rig.signal.settling(rig.rate)
-    step = 1.0 / (rig.rate * every)
-    kicks = meddling.rms * rng.standard_normal(settle + rig.samples)
     curves = np.array([world.curves[name] for name in ("position", "velocity", "friction")])
-    state, seen = np.zeros(7), []
-    state[0] = rig.signal.value(np.array([-settle / rig.rate]))[0] if rig.based else 0.0
-    for first in range(-settle, rig.samples, PIECE):
-        count = min(PIECE, rig.samples - first)
-        begin = first / rig.rate - meddling.sensor_delay
-        edges = np.asarray(begin + np.arange(count * every + 1) * step, dtype=float)
-        middles = edges[:-1] + 0.5 * step
-        value, slope = meddling.drive(rig.signal, middles)
-        kick = np.repeat(kicks[settle + first : settle + first + count], every) + _timed(world, rig, middles)
-        base = np.zeros((3, len(value)))
-        if rig.based:
-            base[0], base[1], base[2] = value, slope, meddling.drive(rig.signal, edges[1:])[1]
-        force = kick if rig.based else kick + value
-        flaws = Flaws(**world.flaws)
-        seen.append(move_rough(force, base, rig.body, inside, flaws, curves, state, (begin, step), every))
-    position = np.concatenate(seen)[settle:]
-    if not np.isfinite(position).all():
-        raise DataError("the simulated motion left all bounds")
-    return (1.0 + meddling.sensor_gain) * position
+    flaws, state = Flaws(**world.flaws), np.zeros(7)
+    state[0] = foot_of(rig)
+
+    def follow(force: Array, base: Array, clock: tuple[float, float], every: int) -> Array:
+        return np.asarray(move_rough(force, base, rig.body, inside, flaws, curves, state, clock, every))
+
+    fastest = max(pace_of(rig), 0.4 * world.flaws["far_pace"])
+    return followed(rig, meddling, rng, fastest / FINE, follow, partial(_timed, world, rig))
 
 
 def _timed(world: World, rig: Rig, t: Array) -> Array:

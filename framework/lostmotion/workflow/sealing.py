@@ -7,9 +7,10 @@ that nobody can find a truth by trying. `seal.json` holds the digests of both, a
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import asdict, dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -88,13 +89,16 @@ def concealed(blind: Blind, out: Path, number: int) -> dict[str, Any]:
     kind = KINDS[number % len(KINDS)]
     names, variant = _chosen(blind, rng, kind if blind.world == IMPERFECT else "")
     place = folder_for(out / "cases" / label(number))
-    world = None
     if blind.world == IMPERFECT:
-        rig, effects, truth, world = _rough_machine(blind, names[:1], kind, rng)
+        names = names[:1]
+        draw, fill = partial(draw_machine, kind, rng, blind.most), partial(_rough, names, kind, rng)
+    else:
+        draw, fill = partial(draw_rig, rng, blind.most), partial(_perfect, names, rng)
+    rig, (effects, truth, world) = _machine(names, rng, draw, fill)
+    if world:
         response, noise = recorded_roughly(rig, truth, world, rng)
         excitation = rig.signal.value(rig.time) + USUAL * rig.signal.amplitude * rng.standard_normal(len(truth))
     else:
-        rig, effects, truth = _machine(blind, names, rng)
         excitation, response, noise = _recorded(rig, truth, hidden_in(rig, effects)[1].step, variant, rng)
     save_table(place / "recording.csv", {"time": rig.time, "excitation": excitation, "response": response}, {}, {})
     with whole(place / "case.toml") as spare:
@@ -166,41 +170,40 @@ def _unlike(names: Sequence[str]) -> list[str]:
     return [name for name in names if kin[TABLE[name].kin] == name]
 
 
-def _machine(blind: Blind, names: Sequence[str], rng: np.random.Generator) -> tuple[Rig, tuple[Effect, ...], Array]:
-    """Return a machine that can have all of these mechanisms, the mechanisms with their sizes, and its motion."""
+Filled = tuple[tuple[Effect, ...], Array, "World | None"]
+"""What is hidden in a machine, with its sizes; its motion (samples,); and its flaws, if it has any."""
+
+
+def _machine(
+    names: Sequence[str],
+    rng: np.random.Generator,
+    draw: Callable[[], Rig],
+    fill: Callable[[Pilot], Filled],
+) -> tuple[Rig, Filled]:
+    """Return a machine that can have all of these mechanisms, and what it is filled with."""
     for _ in range(TRIES):
-        rig = draw_rig(rng, blind.most)
+        rig = draw()
         if not all(TABLE[name].fits(rig) if name in TABLE else rig.model in SPRUNG for name in names):
             continue
         with suppress(DataError):
             pilot = Pilot(rig, moved(rig, Hidden(), Meddling(), rng))
             if "x0" in rig.values and not TOUCHES[0] < float(np.mean(np.abs(pilot.touching))) < TOUCHES[1]:
                 continue
-            effects = tuple(drawn(name, pilot, rng) for name in names)
-            truth = moved(rig, *hidden_in(rig, effects), rng)
-            if float(np.std(truth)) < RUNAWAY * float(np.std(pilot.q)):
-                return rig, effects, truth
+            filled = fill(pilot)
+            if float(np.std(filled[1])) < RUNAWAY * float(np.std(pilot.q)):
+                return rig, filled
     raise DataError(f"no machine was drawn that can have {' and '.join(names) or 'nothing'}")
 
 
-def _rough_machine(
-    blind: Blind, names: Sequence[str], kind: str, rng: np.random.Generator
-) -> tuple[Rig, tuple[Effect, ...], Array, World]:
-    """Return a machine of an imperfect world under a kind of drive, what is hidden in it, its motion and its flaws."""
-    for _ in range(TRIES):
-        rig = draw_machine(kind, rng, blind.most)
-        if not all(TABLE[name].fits(rig) if name in TABLE else rig.model in SPRUNG for name in names):
-            continue
-        with suppress(DataError):
-            pilot = Pilot(rig, moved(rig, Hidden(), Meddling(), rng))
-            if "x0" in rig.values and not TOUCHES[0] < float(np.mean(np.abs(pilot.touching))) < TOUCHES[1]:
-                continue
-            world = draw_world(kind, pilot, rng)
-            effects = tuple(draw_effect(name, pilot, rng) for name in names)
-            truth = moved_roughly(rig, hidden_in(rig, effects), world, rng)
-            if float(np.std(truth)) < RUNAWAY * float(np.std(pilot.q)):
-                return rig, effects, truth, world
-    raise DataError(f"no machine was drawn that can have {' and '.join(names) or 'nothing'}")
+def _perfect(names: Sequence[str], rng: np.random.Generator, pilot: Pilot) -> Filled:
+    effects = tuple(drawn(name, pilot, rng) for name in names)
+    return effects, moved(pilot.rig, *hidden_in(pilot.rig, effects), rng), None
+
+
+def _rough(names: Sequence[str], kind: str, rng: np.random.Generator, pilot: Pilot) -> Filled:
+    world = draw_world(kind, pilot, rng)
+    effects = tuple(draw_effect(name, pilot, rng) for name in names)
+    return effects, moved_roughly(pilot.rig, hidden_in(pilot.rig, effects), world, rng), world
 
 
 def _possible(name: str, kind: str) -> bool:

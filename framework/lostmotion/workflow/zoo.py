@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -154,24 +154,59 @@ class Rig:
 
 def moved(rig: Rig, hidden: Hidden, meddling: Meddling, rng: np.random.Generator) -> Array:
     """Return the true position (samples,) that a sensor without noise shows, after the machine has settled."""
-    fastest = math.sqrt((rig.body.k + rig.body.k0) / rig.body.m) + rig.body.c / rig.body.m + rig.signal.omega
-    every = int(min(max(math.ceil(fastest / rig.rate / FINE), FEWEST), MOST))
+    state = np.zeros(4)
+    state[0] = foot_of(rig)
+
+    def follow(force: Array, base: Array, clock: tuple[float, float], every: int) -> Array:
+        return np.asarray(move(force, base, rig.body, hidden, state, clock, every))
+
+    return followed(rig, meddling, rng, pace_of(rig) / FINE, follow)
+
+
+def pace_of(rig: Rig) -> float:
+    """Return an upper bound of the rates (1/s) at which a machine moves."""
+    return math.sqrt((rig.body.k + rig.body.k0) / rig.body.m) + rig.body.c / rig.body.m + rig.signal.omega
+
+
+def foot_of(rig: Rig) -> float:
+    """Return the position at which a machine begins, before it settles."""
+    return float(rig.signal.value(np.array([-rig.signal.settling(rig.rate) / rig.rate]))[0]) if rig.based else 0.0
+
+
+Follow = Callable[[Array, Array, tuple[float, float], int], Array]
+"""Moves a machine on under a force (steps,) and the motion of its base (3, steps): position, velocity in the middle of
+steps, velocity at their ends. Told when it begins and the step (s), and how many steps make a sample; returns the
+position at samples."""
+
+
+def followed(
+    rig: Rig,
+    meddling: Meddling,
+    rng: np.random.Generator,
+    pace: float,
+    follow: Follow,
+    beside: Callable[[Array], Array | float] = lambda _middles: 0.0,
+) -> Array:
+    """Return the position (samples,) that a sensor without noise shows, piece by piece, after the machine has settled.
+
+    At least `pace` steps are made in a second. `beside` is a further force (N) at times (s). Raises `DataError` when
+    the motion leaves all bounds.
+    """
+    every = int(min(max(math.ceil(pace / rig.rate), FEWEST), MOST))
     settle = rig.signal.settling(rig.rate)
     step = 1.0 / (rig.rate * every)
-    kicks = meddling.rms * rng.standard_normal(settle + rig.samples)
-    state, seen = np.zeros(4), []
-    state[0] = rig.signal.value(np.array([-settle / rig.rate]))[0] if rig.based else 0.0
+    kicks, seen = meddling.rms * rng.standard_normal(settle + rig.samples), []
     for first in range(-settle, rig.samples, PIECE):
         count = min(PIECE, rig.samples - first)
         begin = first / rig.rate - meddling.sensor_delay
         edges = np.asarray(begin + np.arange(count * every + 1) * step, dtype=float)
-        value, slope = meddling.drive(rig.signal, edges[:-1] + 0.5 * step)
-        kick = np.repeat(kicks[settle + first : settle + first + count], every)
+        middles = edges[:-1] + 0.5 * step
+        value, slope = meddling.drive(rig.signal, middles)
+        force = np.repeat(kicks[settle + first : settle + first + count], every) + beside(middles)
         base = np.zeros((3, len(value)))
         if rig.based:
             base[0], base[1], base[2] = value, slope, meddling.drive(rig.signal, edges[1:])[1]
-        force = kick if rig.based else kick + value
-        seen.append(move(force, base, rig.body, hidden, state, (begin, step), every))
+        seen.append(follow(force if rig.based else force + value, base, (begin, step), every))
     position = np.concatenate(seen)[settle:]
     if not np.isfinite(position).all():
         raise DataError("the simulated motion left all bounds")
@@ -194,7 +229,7 @@ def draw_rig(rng: np.random.Generator, most: int) -> Rig:
     if rng.random() < 0.15:
         signal = Signal(signal.tones[:1], float(rng.uniform(0.3, 1.0)) * signal.omega * rate / samples)
     estimated = {"linear_oscillator": ("c", "k"), "rigid_drive": ("m", "c")}.get(model, ("c", "x0"))
-    priors = {name: _prior(values[name], rng) for name in estimated}
+    priors = {name: wide_prior(values[name], rng) for name in estimated}
     return Rig(model, values, estimated, signal, rate, samples, drawn_log(rng, 0.003, 0.1), priors)
 
 
@@ -235,7 +270,7 @@ def _signal(amplitude: float, omega: float, rng: np.random.Generator, *, single:
     return Signal(tuple(tones))
 
 
-def _prior(value: float, rng: np.random.Generator) -> dict[str, Any]:
+def wide_prior(value: float, rng: np.random.Generator) -> dict[str, Any]:
     """Return a wide prior that holds a value, anywhere but near its ends."""
     below, above = 10.0 ** rng.uniform(0.4, 1.2, 2)
     return {"low": _figures(value / below), "high": _figures(value * above), "scale": "log"}
