@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 from lostmotion.inference.candidates import Hint
 from lostmotion.inference.fit import Fit
@@ -32,17 +33,29 @@ class Visit:
     weight: float
 
 
-def _checked(fit: Fit, expansion: Expansion) -> tuple[float, float, float] | None:
-    """Return what the smooth forces of a discrepancy win when they are fitted, their price, and what is won beside.
+class Won(NamedTuple):
+    """What smooth forces have won when they were fitted: log evidence, their log price, and what is promised `beside`.
 
-    The rest, wrong known values and channels, is a promise again, and is believed up to `RICH`.
+    That rest, wrong known values and channels, is believed up to `RICH`.
     """
+
+    evidence: float
+    price: float
+    beside: float
+
+    def over(self, worse: float) -> float:
+        """Return the log evidence that was won, where likelihoods count by one over `worse`."""
+        return self.evidence / worse - self.price + self.beside
+
+
+def _checked(fit: Fit, expansion: Expansion) -> Won | None:
+    """Return what the smooth forces of a discrepancy win when they are fitted; None where there are none."""
     found = fitted(expansion)
     if found is None or found[0].status == "diverged":
         return None
     promised = expanded(found[0]).gain()
     beside = min(max(promised, 0.0), RICH) if promised < ABSURD else 0.0
-    return found[0].log_evidence - fit.log_evidence, found[1], beside
+    return Won(found[0].log_evidence - fit.log_evidence, found[1], beside)
 
 
 @dataclass
@@ -62,7 +75,7 @@ class Selection:
     rivals: dict[frozenset[str], tuple[Fit, Expansion]] = field(default_factory=dict)
     unbeaten: set[str] = field(default_factory=set)
     stopped: bool = False
-    smooth: dict[frozenset[str], tuple[Fit, tuple[float, float, float] | None]] = field(default_factory=dict)
+    smooth: dict[frozenset[str], tuple[Fit, Won | None]] = field(default_factory=dict)
     leads: dict[tuple[frozenset[str], frozenset[str], bool], tuple[Visit, Visit, float]] = field(default_factory=dict)
 
     def expansion(self, visit: Visit) -> Expansion:
@@ -113,7 +126,7 @@ class Selection:
         """Return the log evidence that a discrepancy adds to a set; once it is checked, no more than comes true."""
         promised = self.expansion(visit).promise(worse).gain
         won = self.smooth[visit.terms][1] if self._is_checked(visit) else None
-        return promised if won is None else min(promised, max(won[0] / worse - won[1] + won[2], FLOOR))
+        return promised if won is None else min(promised, max(won.over(worse), FLOOR))
 
     def feared(self, visit: Visit, worse: float) -> float:
         """Return the log evidence that a discrepancy may add to a part of a set: promised or fitted, whichever is more.
@@ -122,7 +135,7 @@ class Selection:
         """
         promised = self.expansion(visit).promise(worse).gain
         won = self.smooth[visit.terms][1] if self._is_checked(visit) and worse < LONG else None
-        return promised if won is None else max(promised, won[0] / worse - won[1] + won[2])
+        return promised if won is None else max(promised, won.over(worse))
 
     @staticmethod
     def _prices(visit: Visit, over: Visit) -> float:
@@ -148,7 +161,7 @@ class Selection:
         They do not where they promise much and nothing of it comes true.
         """
         won = self.smooth[visit.terms][1] if self._is_checked(visit) else None
-        return won is None or won[0] > 0.0 or self.expansion(visit).promise().gain < ABSURD
+        return won is None or won.evidence > 0.0 or self.expansion(visit).promise().gain < ABSURD
 
     def probabilities(self) -> dict[frozenset[str], float]:
         """Return the posterior probability of each set among those visited, but for sets that were not believed.

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import itertools
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -52,39 +53,53 @@ class Shape:
 def transplanted(fit: Fit) -> Fit:
     """Return a fit in a system that has every curve beside its terms, with the ranges that the motion visited.
 
-    All terms stay, so that one kernel serves whatever is active.
+    All terms stay, so that one kernel serves whatever is active. A system that has them is left as it is.
     """
     problem, old = fit.problem, fit.problem.system
+    if any(isinstance(term, Learned) for term in old.terms):
+        return fit
     driven = all(observation.tone.omega > 0.0 for observation in problem.observations)
     curves = curves_for(old.model, driven=driven)
     system = System(old.model, (*old.terms, *curves))
     known = system.vector(
         {slot.key: problem.known[old.index[slot.key]] for slot in system.slots if slot.key in old.index}
     )
+    moved = motions_of(fit, [place_of(old.model, curve) for curve in curves])
     for curve in curves:
-        low, high = _range(fit, curve)
+        low, high = _range(fit, curve, moved)
         known[system.index[f"{key_of(curve)}.middle"]] = 0.5 * (low + high)
         known[system.index[f"{key_of(curve)}.half"]] = 0.5 * (high - low)
     return replace(fit, problem=replace(problem, system=system, known=known))
 
 
-def _range(fit: Fit, curve: Learned) -> tuple[float, float]:
+Motions = dict[str, list[Array]]
+"""Position and velocity (2, samples) in each recording, by the names of places of a model."""
+
+
+def motions_of(fit: Fit, places: Sequence[Interface]) -> Motions:
+    """Return the motion at places of the model as a fit sees it in each recording; each is smoothed once."""
+    problem, distinct = fit.problem, {place.name: place for place in places}
+    found: Motions = {name: [] for name in distinct}
+    for observation in problem.observations:
+        single = replace(problem.on((observation,)), jobs=1)
+        states, full = single.smooth(fit.theta).filtered, single.full(fit.theta)
+        for name, place in distinct.items():
+            found[name].append(single.observations[0].motion_at(place, states, problem.system.lever(full, place)))
+    return found
+
+
+def _range(fit: Fit, curve: Learned, moved: Motions) -> tuple[float, float]:
     """Return the least and the greatest value of what a curve runs over, in all recordings, with a narrow margin."""
     problem = fit.problem
     if curve.over in ("time", "phase"):
         return 0.0, max(float(observation.time[-1]) for observation in problem.observations)
     place = place_of(problem.system.model, curve)
-    column = int(curve.over == "velocity")
-    ends = [_ends(problem, fit.theta, i, place, column) for i in range(len(problem.observations))]
+    ends = [_ends(motion[int(curve.over == "velocity")]) for motion in moved[place.name]]
     low, high = min(e[0] for e in ends), max(e[1] for e in ends)
     return low - EDGE * (high - low), high + EDGE * (high - low)
 
 
-def _ends(problem: Problem, theta: Array, index: int, place: Interface, column: int) -> tuple[float, float]:
-    observation = problem.observations[index]
-    single = replace(problem.on((observation,)), jobs=1)
-    lever = problem.system.lever(single.full(theta), place)
-    moved = single.observations[0].motion_at(place, single.smooth(theta).filtered, lever)[column]
+def _ends(moved: Array) -> tuple[float, float]:
     low, high = np.quantile(moved[len(moved) // 50 :], [1e-3, 1.0 - 1e-3])
     return float(low), float(high)
 

@@ -183,9 +183,7 @@ def _local(problem: Problem, slopes: Sensitivity) -> Local:
         gradient, information = slopes.gradient(), slopes.information()
     for i, f in enumerate(problem.free):
         gradient[i] -= f.pull * (theta[i] - f.mean)
-        information[i, i] += f.pull
-        if math.isinf(f.sd) and f.high > f.low:
-            information[i, i] += 12.0 / (f.high - f.low) ** 2
+        information[i, i] += f.told
     log_likelihood = slopes.here.log_likelihood
     return Local(theta, log_likelihood, log_likelihood + problem.log_prior(theta), gradient, information, slopes.steps)
 

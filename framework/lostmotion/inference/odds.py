@@ -90,9 +90,7 @@ def log_odds(fit: Fit) -> dict[str, Ratio]:
 
 def _ready(fit: Fit) -> Fit:
     """Return a fit in a system with every curve, with the steps of a search, on as many samples as are asked."""
-    problem = fit.problem
-    if not any(isinstance(term, Learned) for term in problem.system.terms):
-        fit = transplanted(fit)
+    fit = transplanted(fit)
     short = stepped(_shortened(fit.problem), fit.theta)
     return replace(fit, problem=short)
 

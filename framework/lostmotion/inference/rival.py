@@ -18,9 +18,9 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from scipy.linalg.lapack import dpotrf, dtrtrs
 
-from lostmotion.contracts import Array, place_of
+from lostmotion.contracts import Array, Interface, place_of
 from lostmotion.inference.candidates import slopes_of, term_of
-from lostmotion.inference.curves import size_of, transplanted, with_curve
+from lostmotion.inference.curves import Motions, motions_of, size_of, transplanted, with_curve
 from lostmotion.inference.fit import BLOCKS, Fit, Sensitivity, maximise, restarted, solved
 from lostmotion.inference.gauges import gauges_of
 from lostmotion.inference.learned import Learned, OverPhase, OverPosition, OverTime, OverVelocity, spread
@@ -180,7 +180,7 @@ def evidence_of(h: Array, g: Array, widths: Array) -> float:
 
 def expanded(fit: Fit) -> Expansion:
     """Return the expansion of a fit with its discrepancy."""
-    slopes, problem, own = slopes_of(fit), _with_curves(fit).problem, len(fit.theta)
+    slopes, problem, own = slopes_of(fit), transplanted(fit).problem, len(fit.theta)
     known = _known(problem)
     curves = [(key_of(t), t) for t in problem.system.terms if isinstance(t, SMOOTH)]
     curves = [(key, term) for key, term in curves if key not in problem.active]
@@ -205,16 +205,9 @@ def expanded(fit: Fit) -> Expansion:
     gradient, information = joint.gradient(), joint.information()
     gradient[own + len(frees) :] += [g.stretch for g in gauges]
     gradient[:own] = 0.0  # it is a maximum; what is left is noise of the differences, and grows where nothing is told
-    information[np.arange(own), np.arange(own)] += [told_by_prior(f) for f in fit.problem.free]
+    information[np.arange(own), np.arange(own)] += [f.told for f in fit.problem.free]
     widths = np.array([KNOWN] * len(known) + [0.0] * (len(frees) - len(known)) + [g.width for g in gauges])
     return Expansion(fit, gradient, information, own, tuple(groups), widths, _memory(joint, own, information))
-
-
-def told_by_prior(free: Free) -> float:
-    """Return the information of the prior of a coordinate; of a uniform one by its variance, as the evidence has it."""
-    if math.isinf(free.sd) and free.high > free.low:
-        return 12.0 / (free.high - free.low) ** 2
-    return free.pull
 
 
 def _centre(fit: Fit, terms: dict[str, Learned], groups: Sequence[Group], rows: tuple[Array, Array]) -> None:
@@ -232,35 +225,30 @@ def _centre(fit: Fit, terms: dict[str, Learned], groups: Sequence[Group], rows: 
     flat = np.linalg.lstsq(waves, np.ones(len(z)), rcond=1e-6)[0]
     constant = [row[first.columns].T @ flat for row in rows]
     body = places[terms[first.name].at]
-    for group in groups:
-        term, place = terms[group.name], places[terms[group.name].at]
-        if (place.row, place.against) == (body.row, body.against):
-            mean = _along(fit, group.name, term)[: group.columns.stop - group.columns.start]
-            for row, of in zip(rows, constant, strict=True):
-                row[group.columns] -= np.outer(mean, of)
+    same = [g for g in groups if _rides(places[terms[g.name].at], body)]
+    moved = motions_of(fit, [places[terms[g.name].at] for g in same])
+    for group in same:
+        mean = _along(fit, group.name, terms[group.name], moved)[: group.columns.stop - group.columns.start]
+        for row, of in zip(rows, constant, strict=True):
+            row[group.columns] -= np.outer(mean, of)
 
 
-def _along(fit: Fit, key: str, term: Learned) -> Array:
+def _rides(place: Interface, body: Interface) -> bool:
+    """Return whether forces at two places act on the same bodies."""
+    return (place.row, place.against) == (body.row, body.against)
+
+
+def _along(fit: Fit, key: str, term: Learned, moved: Motions) -> Array:
     """Return the mean (count,) of each wave of a smooth force along the recorded motion."""
     if isinstance(term, OverPhase):
         return np.zeros(term.count)
     if isinstance(term, OverTime):
         return np.asarray(term.basis(np.linspace(-1.0, 1.0, 400)).mean(axis=0))
-    problem, place = fit.problem, place_of(fit.problem.system.model, term)
+    problem = fit.problem
     middle, half = (float(problem.known[problem.system.index[f"{key}.{name}"]]) for name in ("middle", "half"))
-    seen = []
-    for observation in problem.observations:
-        single = replace(problem.on((observation,)), jobs=1)
-        lever = problem.system.lever(single.full(fit.theta), place)
-        states = single.smooth(fit.theta).filtered
-        seen.append(single.observations[0].motion_at(place, states, lever)[int(term.over == "velocity")])
+    place = place_of(problem.system.model, term)
+    seen = [motion[int(term.over == "velocity")] for motion in moved[place.name]]
     return np.asarray(term.basis((np.concatenate(seen) - middle) / half).mean(axis=0))
-
-
-def _with_curves(fit: Fit) -> Fit:
-    """Return a fit in a system with every curve."""
-    there = any(isinstance(term, Learned) for term in fit.problem.system.terms)
-    return fit if there else transplanted(fit)
 
 
 def fitted(expansion: Expansion) -> tuple[Fit, float] | None:
@@ -273,7 +261,7 @@ def fitted(expansion: Expansion) -> tuple[Fit, float] | None:
     chosen = [group for group, (_, option) in zip(expansion.groups, best.chosen, strict=True) if option >= 0]
     if not chosen:
         return None
-    problem = restarted(_with_curves(expansion.fit))
+    problem = restarted(transplanted(expansion.fit))
     trials = [problem for _ in SHARES]
     for group in chosen:
         wide, at = best.widths[group.columns], best.mean[group.columns]

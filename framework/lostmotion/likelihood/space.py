@@ -66,6 +66,11 @@ class Free:
         return 1.0 / self.sd**2 if math.isfinite(self.sd) else 0.0
 
     @property
+    def told(self) -> float:
+        """The information of the prior as the evidence has it: that of a uniform one by its variance."""
+        return self.pull if math.isfinite(self.sd) or not self.high > self.low else 12.0 / (self.high - self.low) ** 2
+
+    @property
     def parameter(self) -> str:
         """The key without the recording."""
         return parted(self.key)[0]

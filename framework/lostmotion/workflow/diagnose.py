@@ -28,10 +28,8 @@ from lostmotion.workflow.mixed import draws_after
 from lostmotion.workflow.notes import notes_of
 from lostmotion.workflow.prepare import Prepared, prepare
 from lostmotion.workflow.rivals import confused_with, proposed
-from lostmotion.workflow.sharings import shared_in
 from lostmotion.workflow.show import Seen, shown
-from lostmotion.workflow.states import doubted
-from lostmotion.workflow.verdict import says, verdict
+from lostmotion.workflow.verdict import verdict
 from lostmotion.workflow.vetting import blamed, raising, theirs, told_aside, within_numbers
 
 Say = Callable[[str], None]
@@ -70,9 +68,6 @@ def run_diagnosis(
     evidence = evidence_of(diagnosis, np.random.default_rng([seed, EVIDENCE]))
     said = verdict(outcome)
     said["where"] |= disagreement_in(diagnosis, np.random.default_rng([seed, WHEN]))
-    said |= shared_in(diagnosis, said["found"])
-    said["found"] = [doubted(entry) for entry in said["found"]]
-    said["says"] = says(outcome, said["found"], said["open"])
     decay = decay_in(diagnosis)
     content = {
         "title": prepared.case.title,

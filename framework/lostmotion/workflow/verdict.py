@@ -26,7 +26,8 @@ from lostmotion.workflow.findings import (
     why_withheld,
 )
 from lostmotion.workflow.notes import drowned
-from lostmotion.workflow.states import LIKELY, open_of
+from lostmotion.workflow.sharings import shared_in
+from lostmotion.workflow.states import LIKELY, doubted, open_of
 from lostmotion.workflow.unknowns import unknown_odds, where
 
 WORTH_NAMING = 0.01
@@ -38,6 +39,8 @@ def verdict(outcome: Outcome) -> dict[str, Any]:
     """Return the content of `diagnosis.json`, provenance and title left out."""
     d = outcome.diagnosis
     found, why, rest = found_in(outcome), why_withheld(outcome), open_of(d)
+    shared = shared_in(d, found)
+    found = [doubted(entry) for entry in shared.pop("found", found)]
     return {
         "schema": "lostmotion.diagnosis/1",
         "verdict": "mismatch" if found else "adequate",
@@ -57,6 +60,7 @@ def verdict(outcome: Outcome) -> dict[str, Any]:
         "fit": _fit(outcome),
         "model": {"before": label(d.before), "after": label(d.after)},
         **_setting(outcome),
+        **shared,
     }
 
 
