@@ -21,6 +21,7 @@ class _Commands(LazyGroup):
         "demo": ("lostmotion.cli.demo:command", "See it work: a robot joint hides friction, and it is found."),
         "diagnose": ("lostmotion.cli.diagnose:command", "Find the physics that the model of a case leaves out."),
         "identify": ("lostmotion.cli.identify:command", "Estimate the parameters of a case, with their intervals."),
+        "init": ("lostmotion.cli.init:command", "Look at a recording and write a first case for it."),
         "map": ("lostmotion.cli.map:command", "Map an exponent, or anything else, over parameters."),
         "prove": ("lostmotion.cli.prove:command", "Hide effects from it in a blind trial, and score what it finds."),
         "reproduce": ("lostmotion.cli.reproduce:command", "Redo the paper of 2007: its figures and tables."),

@@ -58,6 +58,13 @@ def _checked(fit: Fit, expansion: Expansion) -> Won | None:
     return Won(found[0].log_evidence - fit.log_evidence, found[1], beside)
 
 
+class Lead(NamedTuple):
+    """The log odds of a set over another one, and what they were worked out from."""
+
+    basis: tuple[object, ...]
+    value: float
+
+
 @dataclass
 class Selection:
     """The course of a selection: the nominal fit, every set visited, the hints of the first round, the set chosen.
@@ -76,7 +83,7 @@ class Selection:
     unbeaten: set[str] = field(default_factory=set)
     stopped: bool = False
     smooth: dict[frozenset[str], tuple[Fit, Won | None]] = field(default_factory=dict)
-    leads: dict[tuple[frozenset[str], frozenset[str], bool], tuple[Visit, Visit, float]] = field(default_factory=dict)
+    leads: dict[tuple[frozenset[str], frozenset[str]], Lead] = field(default_factory=dict)
 
     def expansion(self, visit: Visit) -> Expansion:
         """Return the expansion of a visited set with the discrepancy; it is made once for each fit."""
@@ -95,11 +102,18 @@ class Selection:
         """
         if visit.terms < over.terms:
             return -self.lead(over, visit)
-        key = (visit.terms, over.terms, self._is_checked(visit) and self._is_checked(over))
-        known = self.leads.get(key)
-        if known is None or known[0] is not visit or known[1] is not over:
-            known = self.leads[key] = (visit, over, self._led(visit, over))
-        return known[2]
+        basis = (
+            visit.fit,
+            self._won(visit),
+            over.fit,
+            self._won(over),
+            self._is_checked(visit),
+            self._is_checked(over),
+        )
+        known = self.leads.get((visit.terms, over.terms))
+        if known is None or any(old is not new for old, new in zip(known.basis, basis, strict=True)):
+            known = self.leads[visit.terms, over.terms] = Lead(basis, self._led(visit, over))
+        return known.value
 
     def check(self, visit: Visit) -> None:
         """Fit the smooth forces of the discrepancy of a set where they promise much: from then on what they win counts.
@@ -111,13 +125,21 @@ class Selection:
             much = expansion.promise().gain >= RICH
             self.smooth[visit.terms] = (visit.fit, _checked(visit.fit, expansion) if much else None)
 
+    def _won(self, visit: Visit) -> Won | None:
+        """Return what the smooth forces of a set have won when they were fitted; None where they were not."""
+        return self.smooth[visit.terms][1] if self._is_checked(visit) else None
+
     def contest(self, visit: Visit, over: Visit, needed: float) -> None:
         """Check a set where that may decide whether it leads by as much as is needed.
 
-        A check makes a lead smaller, but where slopes about the set turn out to mean nothing.
+        A check makes a lead smaller, but where slopes about the set turn out to mean nothing. Where the discrepancy of
+        one of the two was fitted, that of the other is fitted too, however little it promises.
         """
         if self.lead(visit, over) > needed or self.expansion(visit).promise().gain >= ABSURD:
             self.check(visit)
+        bare = [v for v in (visit, over) if self._won(v) is None]
+        if len(bare) == 1 and self.lead(visit, over) > needed:
+            self.smooth[bare[0].terms] = (bare[0].fit, _checked(bare[0].fit, self.expansion(bare[0])))
 
     def _is_checked(self, visit: Visit) -> bool:
         return visit.terms in self.smooth and self.smooth[visit.terms][0] is visit.fit
@@ -125,7 +147,7 @@ class Selection:
     def worth(self, visit: Visit, worse: float) -> float:
         """Return the log evidence that a discrepancy adds to a set; once it is checked, no more than comes true."""
         promised = self.expansion(visit).promise(worse).gain
-        won = self.smooth[visit.terms][1] if self._is_checked(visit) else None
+        won = self._won(visit)
         return promised if won is None else min(promised, max(won.over(worse), FLOOR))
 
     def feared(self, visit: Visit, worse: float) -> float:
@@ -134,7 +156,7 @@ class Selection:
         Where scores have a long memory what a fit wins is mostly that memory, and the promise alone counts.
         """
         promised = self.expansion(visit).promise(worse).gain
-        won = self.smooth[visit.terms][1] if self._is_checked(visit) and worse < LONG else None
+        won = self._won(visit) if worse < LONG else None
         return promised if won is None else max(promised, won.over(worse))
 
     @staticmethod
@@ -160,7 +182,7 @@ class Selection:
 
         They do not where they promise much and nothing of it comes true.
         """
-        won = self.smooth[visit.terms][1] if self._is_checked(visit) else None
+        won = self._won(visit)
         return won is None or won.evidence > 0.0 or self.expansion(visit).promise().gain < ABSURD
 
     def probabilities(self) -> dict[frozenset[str], float]:
@@ -176,9 +198,9 @@ class Selection:
         heights = {k: v.weight - chosen.weight for k, v in believed.items()}
         known = [terms for terms in believed if terms in self.rivals and terms != chosen.terms]
         heights |= {terms: -self.lead(chosen, self.visits[terms]) for terms in known}
-        for (more, fewer, _), (_, _, lead) in self.leads.items():
+        for (more, fewer), lead in self.leads.items():
             if fewer < more and more in heights and fewer in heights and more != chosen.terms:
-                heights[more] = min(heights[more], heights[fewer] + lead)
+                heights[more] = min(heights[more], heights[fewer] + lead.value)
         least = min([0.0, *(heights[terms] for terms in known)])
         heights |= {k: min(h, least) for k, h in heights.items() if k not in self.rivals}
         top = max(heights.values())

@@ -40,8 +40,8 @@ NUDGE, STEP = 3e-4, 1e-3
 """Finite-difference steps of a coefficient in units of the drive, and of the logarithm of a known value."""
 SHARES = (1.0, 0.5, 0.2, 0.0)
 """Fits with smooth forces begin with these shares of what was promised."""
-SETTLED = 3
-"""Rounds of such a fit: it begins at what slopes promise."""
+SETTLED, ALONE = 3, 20
+"""Rounds of such a fit, which begins at what slopes promise; and of one with known values alone: these cost less."""
 SWEEPS = 3
 PRICE = math.log(len(SIZES) * len(LENGTHS))
 """The log price of the size and the length of a smooth force that were chosen."""
@@ -252,25 +252,30 @@ def _along(fit: Fit, key: str, term: Learned, moved: Motions) -> Array:
 
 
 def fitted(expansion: Expansion) -> tuple[Fit, float] | None:
-    """Return the fit with the smooth forces of the best discrepancy, and their log price; None where there are none.
+    """Return the fit with the smooth forces of the best discrepancy and free known values, and the log price of these.
 
-    Slopes about a fit may promise what does not come true: one-step errors are not straight in forces that are large
-    beside the random one.
+    None where there is neither. Slopes about a fit may promise what does not come true: one-step errors are not
+    straight in forces that are large beside the random one, nor in known values that are far off.
     """
     best = expansion.promise()
     chosen = [group for group, (_, option) in zip(expansion.groups, best.chosen, strict=True) if option >= 0]
-    if not chosen:
-        return None
     problem = restarted(transplanted(expansion.fit))
-    trials = [problem for _ in SHARES]
-    for group in chosen:
-        wide, at = best.widths[group.columns], best.mean[group.columns]
-        count = term_of(problem, group.name)[0].count  # type: ignore[attr-defined]
-        rows = np.zeros((2, count))
-        rows[:, : len(wide)] = wide, at
-        trials = [with_curve(p, group.name, rows[0], f * rows[1]) for p, f in zip(trials, SHARES, strict=True)]
+    known = _known(problem)
+    if not chosen and not known:
+        return None
+    trials = []
+    for share in SHARES:
+        wrong = [replace(f, start=f.mean + share * float(best.mean[i])) for i, f in enumerate(known)]
+        trial = problem.extended(wrong, ())
+        for group in chosen:
+            count = term_of(problem, group.name)[0].count  # type: ignore[attr-defined]
+            rows = np.zeros((2, count))
+            rows[:, : group.columns.stop - group.columns.start] = best.widths[group.columns], best.mean[group.columns]
+            trial = with_curve(trial, group.name, rows[0], share * rows[1])
+        trials.append(trial)
     heights = [trial.log_posterior(trial.clip(trial.start)) for trial in trials]
-    return maximise(trials[int(np.argmax(heights))], rounds=SETTLED, tolerance=0.3), PRICE * len(chosen)
+    best_start = int(np.argmax(np.where(np.isnan(heights), -np.inf, heights)))
+    return maximise(trials[best_start], rounds=SETTLED if chosen else ALONE, tolerance=0.3), PRICE * len(chosen)
 
 
 def _rows(wider: Problem, slopes: Sensitivity, steps: Array) -> tuple[Array, Array]:
