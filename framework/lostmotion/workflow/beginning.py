@@ -283,5 +283,5 @@ def _described(column: Column, outline: Outline) -> str:
 
 
 def _noise(values: Array) -> float:
-    """Return the deviation of white noise (n,) by third differences, of which smooth motion has next to none."""
-    return float(np.std(np.diff(values, 3)) / math.sqrt(20.0)) if values.size > 8 else 0.0
+    """Return the deviation of white noise (n,) by sixth differences, of which smooth motion has next to none."""
+    return float(np.std(np.diff(values, 6)) / math.sqrt(math.comb(12, 6))) if values.size > 20 else 0.0

@@ -1,0 +1,122 @@
+"""What an unknown table looks like: time, units, roles; and the case that is made of it."""
+
+import tomllib
+
+import numpy as np
+import pytest
+
+from lostmotion.errors import CaseError, DataError
+from lostmotion.recording.outline import Wishes, outlined
+from lostmotion.registry import Registry
+from lostmotion.workflow.beginning import begun, scales_of
+
+N, RATE = 800, 200.0
+T = np.arange(N) / RATE
+M, C, K = 1.5, 2.0, 400.0
+
+
+def recorded(seed=0):
+    """Return force (N) and position (m) of an oscillator in its steady state: each tone by its own response."""
+    rng = np.random.default_rng(seed)
+    omega, turn = 2.0 * np.pi * np.arange(2, 30) / T[-1], rng.uniform(0.0, 2.0 * np.pi, 28)
+    drive = 3.0 * np.exp(1j * (np.multiply.outer(T, omega) + turn))
+    moved = drive / (K - M * omega**2 + 1j * C * omega)
+    return drive.real.sum(axis=1), moved.real.sum(axis=1) + 1e-5 * rng.standard_normal(N)
+
+
+def table(folder, head, *columns, name="run.csv"):
+    rows = "\n".join(",".join(f"{v:.9g}" for v in row) for row in zip(*columns, strict=True))
+    (folder / name).write_text(f"{head}\n{rows}\n", encoding="utf-8")
+    return folder / name
+
+
+def test_units_tell_what_columns_measure_and_names_where_there_are_none(tmp_path):
+    force, x = recorded()
+    path = table(tmp_path, "Time,Shaker,Laser,acc,strange\nms,N,mm,,", 1e3 * T, force, 1e3 * x, x, x)
+    found = outlined(path, Wishes())
+    assert (found.time, found.time_unit, found.samples) == ("Time", "ms", N)
+    assert found.dt == pytest.approx(1.0 / RATE)
+    assert {c.name: (c.kind, c.sure) for c in found.columns} == {
+        "Shaker": ("force", True),
+        "Laser": ("position", True),
+        "acc": ("acceleration", False),
+        "strange": ("", False),
+    }
+    assert (found.drive.name, found.response.name, found.based) == ("Shaker", "Laser", False)
+
+
+def test_a_foot_drives_where_the_force_is_read_by_a_load_cell(tmp_path):
+    force, x = recorded()
+    found = outlined(table(tmp_path, "t,Load cell [N],Table [deg],arm [deg]", T, force, x, 2.0 * x), Wishes())
+    assert (found.drive.name, found.response.name, found.based) == ("Table [deg]", "arm [deg]", True)
+    assert found.response.turns
+
+
+def test_wishes_come_first(tmp_path):
+    force, x = recorded()
+    path = table(tmp_path, "t,a,b", T, force, x)
+    found = outlined(path, Wishes(drive="a", response="b", units={"a": "kN", "b": "um"}))
+    assert (found.drive.said, found.drive.kind, found.response.said) == ("kN", "force", "um")
+    bare = outlined(path, Wishes(rate=50.0, drive="none", response="b"))
+    assert (bare.time, bare.dt, bare.drive) == (None, 0.02, None)
+
+
+@pytest.mark.parametrize(
+    ("head", "wishes", "says"),
+    [
+        ("a,b,c", Wishes(drive="d"), "did you mean"),
+        ("t,b,c", Wishes(time="nothing"), "has no column 'nothing'"),
+    ],
+)
+def test_what_cannot_be_told_is_refused_with_what_is_there(tmp_path, head, wishes, says):
+    force, x = recorded()
+    with pytest.raises(DataError, match=says if "mean" not in says else "has no column 'd'"):
+        outlined(table(tmp_path, head, T, force, x), wishes)
+
+
+def test_a_table_without_time_asks_for_the_rate(tmp_path):
+    force, x = recorded()
+    with pytest.raises(DataError, match=r"--time COLUMN, or --rate HZ"):
+        outlined(table(tmp_path, "F,x", force, x), Wishes())
+
+
+def test_the_line_through_the_spectra_finds_mass_damping_and_stiffness(tmp_path):
+    force, x = recorded()
+    found = outlined(table(tmp_path, "t,F [N],x [mm]", T, force, 1e3 * x), Wishes())
+    straight = scales_of(found, {}).straight
+    assert straight["m"] == pytest.approx(M, rel=0.1)
+    assert straight["k"] == pytest.approx(K, rel=0.1)
+    assert straight["c"] == pytest.approx(C, rel=1.0)
+
+
+@pytest.mark.parametrize("factor", [1.0, 0.25])
+def test_the_case_can_be_read_and_its_priors_hold_the_truth(tmp_path, factor):
+    force, x = recorded()
+    table(tmp_path, "t,F,x", T, force / factor, x)
+    draft = begun(
+        tmp_path / "run.csv", tmp_path / "case.toml", Wishes(units={"F": "N"}), Registry.discover(), "", {"F": factor}
+    )
+    case = tomllib.loads(draft.text)
+    assert case["model"]["name"] == "linear_oscillator"
+    for name, true in (("m", M), ("c", C), ("k", K)):
+        prior = case["model"]["estimate"][name]
+        assert prior["low"] < true < prior["high"]
+    assert case["recordings"][0]["inputs"][0].get("factor") == factor
+    assert "the file gives no unit: m and position are guesses" in draft.text
+
+
+def test_without_a_force_the_inertia_has_to_be_known(tmp_path):
+    _, x = recorded()
+    table(tmp_path, "t,base [rad],q [rad]", T, x, 2.0 * x)
+    draft = begun(tmp_path / "run.csv", tmp_path / "case.toml", Wishes(), Registry.discover())
+    case = tomllib.loads(draft.text)
+    assert case["model"]["name"] == "robot_joint"
+    assert case["model"]["known"] == {"m": 1.0, "mgl": 0.0}
+    assert "only ratios to it can be told" in draft.text
+
+
+def test_a_model_without_the_channel_is_refused(tmp_path):
+    force, x = recorded()
+    table(tmp_path, "t,base [m],q [m]", T, force, x)
+    with pytest.raises(CaseError, match="lin_backlash has no input 'base_position'"):
+        begun(tmp_path / "run.csv", tmp_path / "case.toml", Wishes(), Registry.discover(), "lin_backlash")
