@@ -64,7 +64,7 @@ class Column:
     @property
     def said(self) -> str:
         """The unit that a case would state for it: that of the file, or the SI unit of what it seems to measure."""
-        return self.unit or SI[self.kind or "position"]
+        return self.unit if self.sure else SI[self.kind or "position"]
 
     @property
     def turns(self) -> bool:
@@ -149,8 +149,10 @@ def _column(table: Table, name: str, stated: str | None) -> Column:
     kind = next((kind for kind in KINDS if unit and _measures(unit, kind)), "")
     if kind:
         return Column(name, values, unit, kind, sure=True)
+    if stated:
+        raise DataError(f"the unit {stated!r} of {name!r} measures none of {', '.join(KINDS)}: write for instance 'mm'")
     called = next((kind for kind, pattern in NAMES.items() if pattern.search(name)), "")
-    return Column(name, values, "", called, sure=False)
+    return Column(name, values, unit, called, sure=False)
 
 
 def _measures(unit: str, kind: str) -> bool:

@@ -210,7 +210,10 @@ def _plain(name: str) -> bool:
 
 
 def _doubt(column: Column) -> str:
-    return "" if column.sure else f"  # the file gives no unit: {column.said} and {column.kind} are guesses"
+    if column.sure:
+        return ""
+    why = f"the file says {column.unit}, which may need a factor" if column.unit else "the file gives no unit"
+    return f"  # {why}: {column.said} and {column.kind} are guesses"
 
 
 def _parameters(outline: Outline, machine: Model, scales: Scales) -> Iterator[str]:
@@ -272,14 +275,15 @@ def _found(outline: Outline, machine: Model, factors: Mapping[str, float]) -> It
 def _described(column: Column, outline: Outline) -> str:
     roles = {outline.drive.name if outline.drive else "": "drive", outline.response.name: "response"}
     role = roles.get(column.name, "not used")
-    unit = column.unit or f"no unit, taken for {column.said}" if column.kind else column.unit or "no unit"
+    taken = f", taken for {column.said}" if column.kind and not column.sure else ""
     seen = column.values[np.isfinite(column.values)]
     if not seen.size:
         return f"  {column.name}: no reading at all"
     size = f"{seen.min():.4g} to {seen.max():.4g}"
     lost = f", {column.lost} readings lost" if column.lost else ""
     noise = f", noise about {_noise(seen):.2g}" if role == "response" else ""
-    return f"  {column.name} ({unit}): {column.kind or 'unknown'}, {size}{noise}{lost} -> {role}"
+    named = f"  {column.name} ({column.unit or 'no unit'}{taken})"
+    return f"{named}: {column.kind or 'unknown'}, {size}{noise}{lost} -> {role}"
 
 
 def _noise(values: Array) -> float:
