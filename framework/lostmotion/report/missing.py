@@ -99,16 +99,22 @@ def _draw_band(axes: Axes, evidence: Evidence, what: tuple[Version, str], at: Ar
         axes.plot(at, mean, color=who.colour, label=who.named("missing force"), marker="o", markersize=2.6)
 
 
+SHOWN = 0.01
+"""A share of the force that is smaller is not told beside a star: what acts on another body hardly shows in the force
+on the first one, and yet in the likelihood."""
+
+
 def _name_share(axes: Axes, evidence: Evidence, covariate: str) -> None:
     share = evidence.number("where", "explained_by", covariate)
     if not np.isfinite(share):
         return
-    said = f"{percent(share)} explained by {NAMES.get(covariate, covariate)}"
-    known = evidence.fact("where", "significant")
+    name, known = NAMES.get(covariate, covariate), evidence.fact("where", "significant")
+    said = f"{percent(share)} explained by {name}"
     if known is None:
         axes.set_title(said, color="#444444")
     elif covariate in known:
-        axes.set_title(f"{said} *", color="black", fontweight="bold")
+        shown = said if share >= SHOWN else f"{name}: beyond chance by likelihood"
+        axes.set_title(f"{shown} *", color="black", fontweight="bold")
     else:
         axes.set_title(f"{said}: not beyond chance", color="#8c8c8c")
 
