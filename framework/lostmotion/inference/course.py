@@ -18,8 +18,8 @@ ABSURD = 100.0
 LONG = 4.0
 """From this excess of the scatter of scores on their memory is long."""
 FLOOR = -10.0
-"""What a discrepancy is worth whose promise does not come true: known values and channels that are left open cost about
-so much where they explain nothing."""
+"""What a discrepancy is worth at most whose promise does not come true: known values and channels that are left open
+cost about so much where they explain nothing."""
 RICH = 20.0
 """A discrepancy that promises to add so much to the log evidence is fitted before a name is given."""
 
@@ -53,8 +53,9 @@ def _checked(fit: Fit, expansion: Expansion) -> Won | None:
     found = fitted(expansion)
     if found is None or found[0].status == "diverged":
         return None
-    promised = expanded(found[0]).gain()
-    beside = min(max(promised, 0.0), RICH) if promised < ABSURD else 0.0
+    rest = expanded(found[0])
+    promised = rest.gain()
+    beside = min(promised if promised < ABSURD else rest.bare(rest.worse), RICH)
     return Won(found[0].log_evidence - fit.log_evidence, found[1], beside)
 
 
@@ -146,9 +147,11 @@ class Selection:
 
     def worth(self, visit: Visit, worse: float) -> float:
         """Return the log evidence that a discrepancy adds to a set; once it is checked, no more than comes true."""
-        promised = self.expansion(visit).promise(worse).gain
-        won = self._won(visit)
-        return promised if won is None else min(promised, max(won.over(worse), FLOOR))
+        expansion = self.expansion(visit)
+        promised, won = expansion.promise(worse).gain, self._won(visit)
+        if won is None:
+            return promised
+        return min(promised, max(won.over(worse), min(expansion.bare(worse), FLOOR)))
 
     def feared(self, visit: Visit, worse: float) -> float:
         """Return the log evidence that a discrepancy may add to a part of a set: promised or fitted, whichever is more.

@@ -115,7 +115,18 @@ class Expansion:
             self._known[asked] = self._best(dropped, worse, [option for _, option in begin] or [-1] * len(self.groups))
         return self._known[asked]
 
+    def bare(self, worse: float) -> float:
+        """Return the log evidence that known values and channels add alone, which are always free a little."""
+        h, g, _ = self._about((), worse)
+        return evidence_of(h, g, self.widths)
+
     def _best(self, dropped: Sequence[int], worse: float, begin: list[int]) -> Discrepancy:
+        h, g, more = self._about(dropped, worse)
+        found = self._smoothest(h, g, begin)
+        return replace(found, gain=found.gain + more)
+
+    def _about(self, dropped: Sequence[int], worse: float) -> tuple[Array, Array, float]:
+        """Return information and gradient of the discrepancy, own coordinates moving along, and what these win."""
         kept = np.setdiff1d(np.arange(self.own), np.asarray(dropped, dtype=int))
         more = np.arange(self.own, len(self.gradient))
         gradient, lost = self._without(dropped)
@@ -124,9 +135,7 @@ class Expansion:
         information = self.information[np.ix_(more, more)] - cross.T @ pulled[:, :-1]
         force = gradient[more] - cross.T @ pulled[:, -1]
         moved = 0.5 * float(gradient[kept] @ pulled[:, -1]) if len(dropped) else 0.0
-        h, g = 0.5 * (information + information.T) / worse, force / worse
-        found = self._smoothest(h, g, begin)
-        return replace(found, gain=found.gain + (moved - lost) / worse)
+        return 0.5 * (information + information.T) / worse, force / worse, (moved - lost) / worse
 
     def _without(self, dropped: Sequence[int]) -> tuple[Array, float]:
         """Return the gradient where some own coordinates are zero, and what the log posterior loses on the way."""
