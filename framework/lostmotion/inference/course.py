@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from lostmotion.inference.candidates import Hint
 from lostmotion.inference.fit import Fit
-from lostmotion.inference.rival import Expansion, expanded, fitted
+from lostmotion.inference.rival import Expansion, expanded, fitted, stood_in
 
 CLOSE = 12.0
 """Sets that are so close to the best in log weight are fitted again, and kept for comparison."""
@@ -48,9 +48,8 @@ class Won(NamedTuple):
         return self.evidence / worse - self.price + self.beside
 
 
-def _checked(fit: Fit, expansion: Expansion) -> Won | None:
-    """Return what the smooth forces of a discrepancy win when they are fitted; None where there are none."""
-    found = fitted(expansion)
+def _won_by(found: tuple[Fit, float] | None, fit: Fit) -> Won | None:
+    """Return what a fit with smooth forces has won over the one without; None where there is none."""
     if found is None or found[0].status == "diverged":
         return None
     rest = expanded(found[0])
@@ -85,6 +84,7 @@ class Selection:
     stopped: bool = False
     smooth: dict[frozenset[str], tuple[Fit, Won | None]] = field(default_factory=dict)
     leads: dict[tuple[frozenset[str], frozenset[str]], Lead] = field(default_factory=dict)
+    stood: dict[tuple[frozenset[str], frozenset[str]], tuple[Fit, Fit]] = field(default_factory=dict)
 
     def expansion(self, visit: Visit) -> Expansion:
         """Return the expansion of a visited set with the discrepancy; it is made once for each fit."""
@@ -99,7 +99,7 @@ class Selection:
         What one-step errors win is divided by how much their scores scatter more than independent ones would. Where
         the other is a part of the set, it is also asked what it is worth seen from here: with a random force that
         is no larger than it has to be once the terms are in. A part is feared by all that its discrepancy promises; the
-        set itself is believed by what comes true (`check`).
+        set itself is believed by what comes true (`check`). Where both were fitted, fits are compared.
         """
         if visit.terms < over.terms:
             return -self.lead(over, visit)
@@ -124,7 +124,7 @@ class Selection:
         if not self._is_checked(visit):
             expansion = self.expansion(visit)
             much = expansion.promise().gain >= RICH
-            self.smooth[visit.terms] = (visit.fit, _checked(visit.fit, expansion) if much else None)
+            self.smooth[visit.terms] = (visit.fit, _won_by(fitted(expansion), visit.fit) if much else None)
 
     def _won(self, visit: Visit) -> Won | None:
         """Return what the smooth forces of a set have won when they were fitted; None where they were not."""
@@ -140,7 +140,22 @@ class Selection:
             self.check(visit)
         bare = [v for v in (visit, over) if self._won(v) is None]
         if len(bare) == 1 and self.lead(visit, over) > needed:
-            self.smooth[bare[0].terms] = (bare[0].fit, _checked(bare[0].fit, self.expansion(bare[0])))
+            self.smooth[bare[0].terms] = (bare[0].fit, _won_by(fitted(self.expansion(bare[0])), bare[0].fit))
+        if over.terms < visit.terms and self._by_fits(visit, over) > needed >= self.lead(visit, over):
+            self._stand_in(visit, over)
+
+    def _stand_in(self, visit: Visit, over: Visit) -> None:
+        """Fit smooth forces in place of the terms that a set has beyond a part of it, as slopes about it say they can.
+
+        What they win is won by the part; from then on fits alone tell how far the set is ahead of it.
+        """
+        known, found = self._won(over), None
+        if known is not None and self._won(visit) is not None:
+            found = _won_by(stood_in(self.expansion(visit), visit.terms - over.terms), over.fit)
+        if known is not None and found is not None:
+            best = max(known, found, key=lambda won: won.over(1.0))
+            self.smooth[over.terms] = (over.fit, best)
+            self.stood[visit.terms, over.terms] = (visit.fit, over.fit)
 
     def _is_checked(self, visit: Visit) -> bool:
         return visit.terms in self.smooth and self.smooth[visit.terms][0] is visit.fit
@@ -169,16 +184,24 @@ class Selection:
 
     def _led(self, visit: Visit, over: Visit) -> float:
         here, worse = self.expansion(visit), self.expansion(visit).worse
-        own = self.worth(visit, worse) - self._prices(visit, over)
-        behind = (over.fit.log_evidence - visit.fit.log_evidence) / worse
+        own, prices = self.worth(visit, worse), self._prices(visit, over)
         if not over.terms < visit.terms:
-            return own - behind - self.worth(over, worse)
+            behind = (over.fit.log_evidence - visit.fit.log_evidence) / worse
+            return own - behind - self.worth(over, worse) - prices
+        lead, stood = self._by_fits(visit, over), self.stood.get((visit.terms, over.terms))
+        if not self.sound(visit) or (stood and stood[0] is visit.fit and stood[1] is over.fit):
+            return lead
         gone, keys = visit.terms - over.terms, visit.fit.problem.keys
         dropped = [i for i, key in enumerate(keys) if key.rpartition(".")[0] in gone]
-        feared = self.feared(over, worse)
-        if not self.sound(visit):
-            return own - behind - feared
-        return own - max(behind + feared, here.gain(dropped, worse=worse))
+        return min(lead, own - here.gain(dropped, worse=worse) - prices)
+
+    def _by_fits(self, visit: Visit, over: Visit) -> float:
+        """Return the lead of a set over a part of it by what smooth forces promise or win beside either."""
+        here, worse = self.expansion(visit), self.expansion(visit).worse
+        won = self._won(visit) if self._won(over) and worse < LONG else None
+        own = max(won.over(worse), min(here.bare(worse), FLOOR)) if won else self.worth(visit, worse)
+        behind = (over.fit.log_evidence - visit.fit.log_evidence) / worse
+        return own - behind - self.feared(over, worse) - self._prices(visit, over)
 
     def sound(self, visit: Visit) -> bool:
         """Return whether slopes about a set say what happens: a body at rest answers small forces not at all.

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -266,9 +266,25 @@ def fitted(expansion: Expansion) -> tuple[Fit, float] | None:
     None where there is neither. Slopes about a fit may promise what does not come true: one-step errors are not
     straight in forces that are large beside the random one, nor in known values that are far off.
     """
-    best = expansion.promise()
-    chosen = [group for group, (_, option) in zip(expansion.groups, best.chosen, strict=True) if option >= 0]
+    return _with_forces(expansion, restarted(transplanted(expansion.fit)), expansion.promise())
+
+
+def stood_in(expansion: Expansion, gone: Collection[str]) -> tuple[Fit, float] | None:
+    """Return the fit in which smooth forces and free known values stand in for some terms, and their log price.
+
+    It begins where slopes about the fit with the terms say that these can be replaced.
+    """
+    keys = expansion.fit.problem.keys
+    dropped = [i for i, key in enumerate(keys) if key.rpartition(".")[0] in gone]
     problem = restarted(transplanted(expansion.fit))
+    for key in gone:
+        problem = problem.reduced(key, {})
+    return _with_forces(expansion, problem, expansion.best(dropped, expansion.worse))
+
+
+def _with_forces(expansion: Expansion, problem: Problem, best: Discrepancy) -> tuple[Fit, float] | None:
+    """Return the fit of a problem with the smooth forces of a discrepancy and free known values, and their price."""
+    chosen = [group for group, (_, option) in zip(expansion.groups, best.chosen, strict=True) if option >= 0]
     known = _known(problem)
     if not chosen and not known:
         return None
