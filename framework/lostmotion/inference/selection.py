@@ -336,7 +336,9 @@ class Selector:
             visit = self.course.visits.get(terms) or self._visit(maximise(chosen.problem.reduced(key, chosen.values)))
             self.course.check(visit)
             self.course.contest(here, visit, DECISIVE)
-            if visit.weight + DECISIVE > here.weight or not self.course.lead(here, visit) > DECISIVE:
+            told = here.weight > visit.weight + DECISIVE
+            if not told or not self.course.lead(here, visit) > DECISIVE:
+                self.course.unbeaten |= {key} if told else set()
                 self.course.chosen = visit.fit
                 return True
         return False
