@@ -122,9 +122,14 @@ class Selection:
         Such a fit costs as much as a hundred score tests, so it is made only of sets on which a choice depends.
         """
         if not self._is_checked(visit):
-            expansion = self.expansion(visit)
-            much = expansion.promise().gain >= RICH
-            self.smooth[visit.terms] = (visit.fit, _won_by(fitted(expansion), visit.fit) if much else None)
+            if self.expansion(visit).promise().gain >= RICH:
+                self._fit_beside(visit)
+            else:
+                self.smooth[visit.terms] = (visit.fit, None)
+
+    def _fit_beside(self, visit: Visit) -> None:
+        """Fit the discrepancy beside a set, and note what it has won."""
+        self.smooth[visit.terms] = (visit.fit, _won_by(fitted(self.expansion(visit)), visit.fit))
 
     def _won(self, visit: Visit) -> Won | None:
         """Return what the smooth forces of a set have won when they were fitted; None where they were not."""
@@ -140,7 +145,7 @@ class Selection:
             self.check(visit)
         bare = [v for v in (visit, over) if self._won(v) is None]
         if len(bare) == 1 and self.lead(visit, over) > needed:
-            self.smooth[bare[0].terms] = (bare[0].fit, _won_by(fitted(self.expansion(bare[0])), bare[0].fit))
+            self._fit_beside(bare[0])
         if over.terms < visit.terms and self._by_fits(visit, over) > needed >= self.lead(visit, over):
             self._stand_in(visit, over)
 
@@ -149,12 +154,12 @@ class Selection:
 
         What they win is won by the part; from then on fits alone tell how far the set is ahead of it.
         """
-        known, found = self._won(over), None
-        if known is not None and self._won(visit) is not None:
-            found = _won_by(stood_in(self.expansion(visit), visit.terms - over.terms), over.fit)
-        if known is not None and found is not None:
-            best = max(known, found, key=lambda won: won.over(1.0))
-            self.smooth[over.terms] = (over.fit, best)
+        known = self._won(over)
+        if known is None or self._won(visit) is None:
+            return
+        found = _won_by(stood_in(self.expansion(visit), visit.terms - over.terms), over.fit)
+        if found is not None:
+            self.smooth[over.terms] = (over.fit, max(known, found, key=lambda won: won.over(1.0)))
             self.stood[visit.terms, over.terms] = (visit.fit, over.fit)
 
     def _is_checked(self, visit: Visit) -> bool:
@@ -191,8 +196,7 @@ class Selection:
         lead, stood = self._by_fits(visit, over), self.stood.get((visit.terms, over.terms))
         if not self.sound(visit) or (stood and stood[0] is visit.fit and stood[1] is over.fit):
             return lead
-        gone, keys = visit.terms - over.terms, visit.fit.problem.keys
-        dropped = [i for i, key in enumerate(keys) if key.rpartition(".")[0] in gone]
+        dropped = here.coordinates_of(visit.terms - over.terms)
         return min(lead, own - here.gain(dropped, worse=worse) - prices)
 
     def _by_fits(self, visit: Visit, over: Visit) -> float:

@@ -91,11 +91,15 @@ class Expansion:
         """Return the log evidence that the discrepancy adds to the fit; see `best`."""
         return self.best(dropped, worse or self.worse).gain
 
+    def coordinates_of(self, terms: Collection[str]) -> list[int]:
+        """Return the indices of the own coordinates that belong to some terms."""
+        return [i for i, key in enumerate(self.fit.problem.keys) if key.rpartition(".")[0] in terms]
+
     def promise(self, worse: float = 0.0) -> Discrepancy:
         """Return the best discrepancy, looked for from none and from what stands in for all terms of the fit."""
         worse = worse or self.worse
         alone = self.best((), worse)
-        terms = [i for i, key in enumerate(self.fit.problem.keys) if key.rpartition(".")[0] in self.fit.problem.active]
+        terms = self.coordinates_of(self.fit.problem.active)
         if not terms:
             return alone
         beside = self.best((), worse, self.best(terms, worse).chosen)
@@ -274,8 +278,7 @@ def stood_in(expansion: Expansion, gone: Collection[str]) -> tuple[Fit, float] |
 
     It begins where slopes about the fit with the terms say that these can be replaced.
     """
-    keys = expansion.fit.problem.keys
-    dropped = [i for i, key in enumerate(keys) if key.rpartition(".")[0] in gone]
+    dropped = expansion.coordinates_of(gone)
     problem = restarted(transplanted(expansion.fit))
     for key in gone:
         problem = problem.reduced(key, {})

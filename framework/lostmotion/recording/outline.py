@@ -76,7 +76,7 @@ class Column:
 class Outline:
     """A table as it looks: the time column (None where the rate was given), the sampling step (s), all other columns.
 
-    `drive` is None where nothing seems to drive the machine. `based` says that the drive is a motion of the base.
+    `drive` is None where nothing seems to drive the machine.
     """
 
     file: str
@@ -87,7 +87,11 @@ class Outline:
     columns: tuple[Column, ...]
     drive: Column | None
     response: Column
-    based: bool
+
+    @property
+    def based(self) -> bool:
+        """Whether the drive is a motion of the base."""
+        return self.drive is not None and self.drive.kind in ("position", "acceleration")
 
 
 @dataclass(frozen=True)
@@ -116,7 +120,7 @@ def outlined(path: Path, wishes: Wishes) -> Outline:
     others = [name for name in table.full_names if time is None or table.columns[name] is not table.columns[time]]
     columns = tuple(_column(table, n, said.get(n)) for n in others if table.columns[n].size == samples)
     drive, response = _roles(columns, wishes, source)
-    return Outline(source, time, unit, dt, samples, columns, drive, response, _is_foot(drive))
+    return Outline(source, time, unit, dt, samples, columns, drive, response)
 
 
 def _usual_size(table: Table) -> int:
@@ -161,10 +165,6 @@ def _measures(unit: str, kind: str) -> bool:
     except DataError:
         return False
     return True
-
-
-def _is_foot(drive: Column | None) -> bool:
-    return drive is not None and drive.kind in ("position", "acceleration")
 
 
 def _roles(columns: Sequence[Column], wishes: Wishes, source: str) -> tuple[Column | None, Column]:

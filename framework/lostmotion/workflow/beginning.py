@@ -16,6 +16,7 @@ from lostmotion.contracts import Array, Model
 from lostmotion.errors import CaseError
 from lostmotion.parts import Param
 from lostmotion.quantities import si_factor
+from lostmotion.recording.checks import filled
 from lostmotion.recording.outline import Column, Outline, Wishes, outlined
 from lostmotion.registry import Registry
 from lostmotion.signals import refined_period
@@ -129,8 +130,7 @@ def scales_of(outline: Outline, factors: Mapping[str, float]) -> Scales:
 def _filled(column: Column, factors: Mapping[str, float]) -> Array:
     """Return a column (n,) in SI units without its mean; lost readings are bridged by straight lines."""
     values = column.values * si_factor(column.said, column.kind)[0] * factors.get(column.name, 1.0)
-    seen, index = np.isfinite(values), np.arange(values.size)
-    even = np.interp(index, index[seen], values[seen])
+    even = filled(values)
     return np.asarray(even - even.mean())
 
 
