@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from lostmotion.inference.candidates import Hint
 from lostmotion.inference.fit import Fit
-from lostmotion.inference.rival import Expansion, expanded, fitted, stood_in
+from lostmotion.inference.rival import Expansion, expanded, fitted, righted, stood_in
 
 CLOSE = 12.0
 """Sets that are so close to the best in log weight are fitted again, and kept for comparison."""
@@ -22,6 +22,9 @@ FLOOR = -10.0
 cost about so much where they explain nothing."""
 RICH = 20.0
 """A discrepancy that promises to add so much to the log evidence is fitted before a name is given."""
+
+RIGHTED = 3
+"""So often the channels of a recording are put right where their flaws promise more than `RICH`."""
 
 
 @dataclass(frozen=True)
@@ -52,10 +55,27 @@ def _won_by(found: tuple[Fit, float] | None, fit: Fit) -> Won | None:
     """Return what a fit with smooth forces has won over the one without; None where there is none."""
     if found is None or found[0].status == "diverged":
         return None
-    rest = expanded(found[0])
+    best, price = found
+    rest, right = expanded(best), None
+    won = _with_rest(best.log_evidence - fit.log_evidence, price, rest)
+    for _ in range(RIGHTED):
+        if not rest.bare(rest.worse) > RICH:
+            break
+        right = righted(rest, right)
+        if right is None or right.fit.status == "diverged":
+            break
+        rest = expanded(right.fit)
+        more = _with_rest(right.fit.log_evidence + right.wider - fit.log_evidence, price + right.price, rest)
+        if not more.over(rest.worse) > won.over(rest.worse):
+            break
+        won = more
+    return won
+
+
+def _with_rest(evidence: float, price: float, rest: Expansion) -> Won:
+    """Return what was won, with the promise of an expansion about it, which is believed up to `RICH`."""
     promised = rest.gain()
-    beside = min(promised if promised < ABSURD else rest.bare(rest.worse), RICH)
-    return Won(found[0].log_evidence - fit.log_evidence, found[1], beside)
+    return Won(evidence, price, min(promised if promised < ABSURD else rest.bare(rest.worse), RICH))
 
 
 class Lead(NamedTuple):
@@ -165,6 +185,14 @@ class Selection:
     def _is_checked(self, visit: Visit) -> bool:
         return visit.terms in self.smooth and self.smooth[visit.terms][0] is visit.fit
 
+    def beaten(self) -> float:
+        """Return the log evidence that smooth forces promise beside the chosen set, where its expansion is known."""
+        terms = self.chosen.problem.active
+        if terms not in self.rivals:
+            return 0.0
+        expansion = self.expansion(self.visits[terms])
+        return expansion.promise().gain - expansion.bare(expansion.worse)
+
     def worth(self, visit: Visit, worse: float) -> float:
         """Return the log evidence that a discrepancy adds to a set; once it is checked, no more than comes true."""
         expansion = self.expansion(visit)
@@ -228,7 +256,7 @@ class Selection:
         heights = {k: v.weight - chosen.weight for k, v in believed.items()}
         known = [terms for terms in believed if terms in self.rivals and terms != chosen.terms]
         heights |= {terms: -self.lead(chosen, self.visits[terms]) for terms in known}
-        for (more, fewer), lead in self.leads.items():
+        for (more, fewer), lead in sorted(self.leads.items(), key=lambda known: len(known[0][0])):
             if fewer < more and more in heights and fewer in heights and more != chosen.terms:
                 heights[more] = min(heights[more], heights[fewer] + lead.value)
         least = min([0.0, *(heights[terms] for terms in known)])

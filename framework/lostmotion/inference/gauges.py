@@ -11,6 +11,7 @@ from lostmotion.contracts import Array
 from lostmotion.inference.fit import Fit
 from lostmotion.likelihood.observation import Observation
 
+Change = Callable[[Observation, float], Observation]
 CALIBRATED = 0.01
 """The standard deviation of the scale of a sensor and of a drive, relative."""
 BENT = 0.005
@@ -25,14 +26,15 @@ SMALL = 1e-4
 class Gauge:
     """What a flaw of a channel does to errors and variances (readings,), and the usual `width` of it.
 
-    It is put on the recording in place of the model: `stretch` is what it adds to the log density of the readings,
-    which become wider or narrower by it.
+    It is put on the recording in place of the model: `change` returns a recording with so much of it, and `stretch` is
+    what it adds to the log density of the readings, which become wider or narrower by it.
     """
 
     errors: Array
     variances: Array
     width: float
     stretch: float
+    change: Change
 
 
 def gauges_of(fit: Fit) -> list[Gauge]:
@@ -40,16 +42,13 @@ def gauges_of(fit: Fit) -> list[Gauge]:
     problem, here = fit.problem, fit.problem.innovations(fit.theta)
     found = []
     for change, width, stretch in _flaws(problem.observations):
-        seen = problem.on(tuple(change(o) for o in problem.observations)).innovations(fit.theta)
+        seen = problem.on(tuple(change(o, SMALL) for o in problem.observations)).innovations(fit.theta)
         slopes = (seen.errors - here.errors) / SMALL, (seen.variances - here.variances) / SMALL
-        found.append(Gauge(*slopes, width, stretch))
+        found.append(Gauge(*slopes, width, stretch, change))
     return found
 
 
-_Change = Callable[[Observation], Observation]
-
-
-def _flaws(observations: tuple[Observation, ...]) -> Iterator[tuple[_Change, float, float]]:
+def _flaws(observations: tuple[Observation, ...]) -> Iterator[tuple[Change, float, float]]:
     """Yield each flaw as a change of a recording, with its usual width and what it adds to the log density."""
     first = observations[0]
     for sensor in range(len(first.sensors)):
@@ -68,32 +67,32 @@ def _flaws(observations: tuple[Observation, ...]) -> Iterator[tuple[_Change, flo
             yield _moved(column), APART, 0.0
 
 
-def _bent(sensor: int, power: int, scale: tuple[float, float]) -> _Change:
+def _bent(sensor: int, power: int, scale: tuple[float, float]) -> Change:
     middle, amplitude = scale
 
-    def change(o: Observation) -> Observation:
+    def change(o: Observation, size: float) -> Observation:
         readings = o.readings.copy()
         shown = o.readings[:, sensor]
         more = shown if power == 1 else amplitude * ((shown - middle) / amplitude) ** power
-        readings[:, sensor] = shown + SMALL * more
+        readings[:, sensor] = shown + size * more
         return replace(o, readings=readings)
 
     return change
 
 
-def _scaled(column: int) -> _Change:
-    def change(o: Observation) -> Observation:
+def _scaled(column: int) -> Change:
+    def change(o: Observation, size: float) -> Observation:
         inputs = o.inputs.copy()
-        inputs[:, column] *= 1.0 + SMALL
+        inputs[:, column] *= 1.0 + size
         return replace(o, inputs=inputs)
 
     return change
 
 
-def _moved(column: int) -> _Change:
-    def change(o: Observation) -> Observation:
+def _moved(column: int) -> Change:
+    def change(o: Observation, size: float) -> Observation:
         inputs = o.inputs.copy()
-        inputs[:, column] += SMALL * np.gradient(o.inputs[:, column])
+        inputs[:, column] += size * np.gradient(o.inputs[:, column])
         return replace(o, inputs=inputs)
 
     return change

@@ -22,7 +22,7 @@ from lostmotion.contracts import Array, Interface, place_of
 from lostmotion.inference.candidates import slopes_of, term_of
 from lostmotion.inference.curves import Motions, motions_of, size_of, transplanted, with_curve
 from lostmotion.inference.fit import BLOCKS, Fit, Sensitivity, maximise, restarted, solved
-from lostmotion.inference.gauges import gauges_of
+from lostmotion.inference.gauges import Gauge, gauges_of
 from lostmotion.inference.learned import Learned, OverPhase, OverPosition, OverTime, OverVelocity, spread
 from lostmotion.likelihood.problem import Free, Problem
 from lostmotion.likelihood.system import key_of
@@ -42,6 +42,8 @@ SHARES = (1.0, 0.5, 0.2, 0.0)
 """Fits with smooth forces begin with these shares of what was promised."""
 SETTLED, ALONE = 3, 20
 """Rounds of such a fit, which begins at what slopes promise; and of one with known values alone: these cost less."""
+USUAL = 3.0
+"""Flaws of channels are put right as far as they are usual: up to so many of their widths."""
 SWEEPS = 3
 PRICE = math.log(len(SIZES) * len(LENGTHS))
 """The log price of the size and the length of a smooth force that were chosen."""
@@ -74,8 +76,9 @@ class Expansion:
     """The log posterior of a fit about its maximum, in its own coordinates (first) and those of the discrepancy.
 
     `gradient` (n,) and `information` (n, n) hold the priors of the fit's own coordinates, `own` counts these. `widths`
-    (n - own,) are the prior widths of what is always there, zero for smooth forces. `worse` is by how much scores that
-    have a memory scatter more than independent ones would, as a factor of the variance, 1 at the least.
+    (n - own,) are the prior widths of what is always there, zero for smooth forces; those of the `gauges` come last.
+    `worse` is by how much scores that have a memory scatter more than independent ones would, as a factor of the
+    variance, 1 at the least.
     """
 
     fit: Fit
@@ -83,6 +86,7 @@ class Expansion:
     information: Array
     own: int
     groups: tuple[Group, ...]
+    gauges: tuple[Gauge, ...]
     widths: Array
     worse: float
     _known: dict[tuple[object, ...], Discrepancy] = field(default_factory=dict, init=False, repr=False, compare=False)
@@ -123,6 +127,11 @@ class Expansion:
         """Return the log evidence that known values and channels add alone, which are always free a little."""
         h, g, _ = self._about((), worse)
         return evidence_of(h, g, self.widths)
+
+    def told_by_gauges(self) -> Array:
+        """Return the information (gauges, gauges) on the flaws of channels, own coordinates moving along."""
+        first = len(self.widths) - len(self.gauges)
+        return np.asarray(self._about((), 1.0)[0][first:, first:])
 
     def _best(self, dropped: Sequence[int], worse: float, begin: list[int]) -> Discrepancy:
         h, g, more = self._about(dropped, worse)
@@ -220,7 +229,9 @@ def expanded(fit: Fit) -> Expansion:
     gradient[:own] = 0.0  # it is a maximum; what is left is noise of the differences, and grows where nothing is told
     information[np.arange(own), np.arange(own)] += [f.told for f in fit.problem.free]
     widths = np.array([KNOWN] * len(known) + [0.0] * (len(frees) - len(known)) + [g.width for g in gauges])
-    return Expansion(fit, gradient, information, own, tuple(groups), widths, _memory(joint, own, information))
+    return Expansion(
+        fit, gradient, information, own, tuple(groups), tuple(gauges), widths, _memory(joint, own, information)
+    )
 
 
 def _centre(fit: Fit, terms: dict[str, Learned], groups: Sequence[Group], rows: tuple[Array, Array]) -> None:
@@ -304,6 +315,42 @@ def _with_forces(expansion: Expansion, problem: Problem, best: Discrepancy) -> t
     heights = [trial.log_posterior(trial.clip(trial.start)) for trial in trials]
     best_start = int(np.argmax(np.where(np.isnan(heights), -np.inf, heights)))
     return maximise(trials[best_start], rounds=SETTLED if chosen else ALONE, tolerance=0.3), PRICE * len(chosen)
+
+
+@dataclass(frozen=True)
+class Righted:
+    """A fit to recordings whose channels were put right by `sizes` (gauges,) in all.
+
+    `wider` is what the readings gain in log density, being wider or narrower, and `price` the log price of the flaws:
+    that of their size by the prior, and of their having been estimated.
+    """
+
+    fit: Fit
+    sizes: Array
+    wider: float
+    price: float
+
+
+def righted(expansion: Expansion, before: Righted | None = None) -> Righted | None:
+    """Return the fit to recordings whose channels are put right as the discrepancy says; None without channels.
+
+    Those of the expansion may have been put right `before`. Flaws of more than `USUAL` widths have names: an error of a
+    gain, a delay.
+    """
+    count, fit = len(expansion.gauges), expansion.fit
+    if not count:
+        return None
+    best, observations = expansion.promise(), fit.problem.observations
+    widths, already = best.widths[-count:], before.sizes if before else np.zeros(count)
+    sizes = np.clip(already + best.mean[-count:], -USUAL * widths, USUAL * widths)
+    wider = before.wider if before else 0.0
+    for gauge, size in zip(expansion.gauges, sizes - already, strict=True):
+        observations = tuple(gauge.change(o, float(size)) for o in observations)
+        wider += gauge.stretch * float(size)
+    better = maximise(restarted(fit).on(observations), rounds=SETTLED, tolerance=0.3)
+    inner = np.eye(count) + expansion.told_by_gauges() * np.outer(widths, widths)
+    price = 0.5 * float(np.sum((sizes / widths) ** 2)) + 0.5 * float(np.linalg.slogdet(inner)[1])
+    return Righted(better, sizes, wider, price)
 
 
 def _rows(wider: Problem, slopes: Sensitivity, steps: Array) -> tuple[Array, Array]:

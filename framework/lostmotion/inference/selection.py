@@ -9,7 +9,6 @@ from functools import partial
 
 import numpy as np
 
-from lostmotion.contracts import Term
 from lostmotion.inference.candidates import (
     Hint,
     Shapes,
@@ -24,6 +23,7 @@ from lostmotion.inference.candidates import (
 )
 from lostmotion.inference.course import BEAM, CLOSE, Selection, Visit
 from lostmotion.inference.fit import MANY, Fit, alone, maximise, restarted, together, warmed
+from lostmotion.inference.prices import price_of, related
 from lostmotion.inference.standing import CERTAIN, standing
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.problem import RANDOM
@@ -32,8 +32,6 @@ PROMISING = 3.0
 """A term is fitted when its score test promises at least this gain in log-likelihood."""
 MOST_FITTED = 6
 MOST_TERMS = 5
-EXTRA = 1.5
-"""The log price of each parameter of a term beyond its first."""
 CONTESTED = 4
 """So many of the heaviest sets are held against the discrepancy in each round: each costs a hundred filter runs."""
 MOST_VISITS = 80  # a search ends after so many sets of terms, whatever is left
@@ -93,16 +91,38 @@ class Selector:
         """Choose the best of some sets, less what it can do without, after score tests on top of the nominal fit."""
         self._screened(self.course.nominal)
         self.course.chosen = max((self._visit(fit) for fit in fits), key=lambda v: v.weight).fit
-        while self._backward():
-            pass
+        self._shrink()
 
     def _finished(self, step: Callable[[], bool]) -> Selection:
         """Return the selection after as many steps forward as lead on, and then backward."""
         while len(self.course.chosen.problem.active) < MOST_TERMS and step():
             pass
-        while self._backward():
-            pass
+        self._shrink()
+        tested = {self.course.chosen.problem.active}
+        while len(tested) <= CONTESTED and (ahead := self._ahead(tested)):
+            self._challenge(ahead)
+            tested.add(ahead.terms)
         return self.course
+
+    def _ahead(self, tested: set[frozenset[str]]) -> Visit | None:
+        """Return the set that leads the chosen one by most beside the smooth force, of those not `tested` yet."""
+        here = self.course.visits[self.course.chosen.problem.active]
+        known = [self.course.visits[terms] for terms in self.course.rivals if terms not in tested]
+        known = [v for v in known if not v.terms & self.course.declined and v.terms != here.terms]
+        best = min(known, key=lambda v: self.course.lead(here, v), default=None)
+        return best if best and self.course.lead(here, best) < 0.0 else None
+
+    def _challenge(self, visit: Visit) -> None:
+        """Put a set in place of the chosen one if it leads still after terms are dropped that it can do without.
+
+        A set that is no better than a part of itself says nothing against another one.
+        """
+        old = self.course.visits[self.course.chosen.problem.active]
+        self.course.chosen = visit.fit
+        self._shrink()
+        new = self.course.visits[self.course.chosen.problem.active]
+        if new.terms != old.terms and not self.course.lead(new, old) > 0.0:
+            self.course.chosen = old.fit
 
     def _extended(self) -> bool:
         """Take the best of what one more term leads to, if it is decisive."""
@@ -154,9 +174,8 @@ class Selector:
         self._been.add(here.terms)
         others = [v for v in self.course.visits.values() if v.terms not in self._been]
         good = sorted((v for v in others if self._decided(v, here)), key=lambda v: -v.weight)[:CONTESTED]
-        good += [
-            v for v in others if v.terms in self.course.smooth and len(v.terms) == len(here.terms) and v not in good
-        ]
+        same = [v for v in others if v.terms in self.course.smooth and len(v.terms) == len(here.terms)]
+        good += [v for v in same if v not in good]
         if good:
             self.course.check(here)
         needs = {v.terms: DECISIVE if v.terms > here.terms or not self._decided(v, here) else 0.0 for v in good}
@@ -166,10 +185,7 @@ class Selector:
         self.course.unbeaten = set()
         near = [v for v in good if leads[v.terms] > max(leads.values()) - DECISIVE]
         behind = [v for v in good if v not in near]
-        for visit in [
-            *sorted(near, key=lambda v: -v.weight),
-            *sorted(behind, key=lambda v: -leads[v.terms]),
-        ]:
+        for visit in [*sorted(near, key=lambda v: -v.weight), *sorted(behind, key=lambda v: -leads[v.terms])]:
             if not leads[visit.terms] > needs[visit.terms]:
                 self.course.unbeaten |= visit.terms - here.terms if visit.terms > here.terms else frozenset()
                 continue
@@ -326,6 +342,11 @@ class Selector:
                 if hint.gain > PROMISING and hint.distinct > SAME:
                     self._visit(fit_with(without, hint, hopeless=self._hopeless()))
 
+    def _shrink(self) -> None:
+        """Drop terms until none is left without which the set has more weight."""
+        while self._backward():
+            pass
+
     def _backward(self) -> bool:
         """Drop a term without which the set has more weight."""
         chosen = self.course.chosen
@@ -354,21 +375,6 @@ class Selector:
     @staticmethod
     def _related(fit: Fit, mine: str, other: str) -> bool:
         return related(term_of(fit.problem, mine)[0], term_of(fit.problem, other)[0])
-
-
-def related(one: Term, other: Term) -> bool:
-    """Return whether two terms tell the same story at the same place."""
-    return one.at == other.at and (other.name in one.resembles or one.name in other.resembles)
-
-
-def price_of(term: Term, many: int) -> float:
-    """Return the log price of a term by the prior: one of `many`, a factor e, its further parameters and choices.
-
-    What an engineer looks for last costs more (`Term.unlikely`).
-    """
-    choices = [len(q.choices) for q in term.params if q.choices]
-    further = len(term.params) - len(choices) - 1
-    return math.log(max(many, 1)) + 1.0 + term.unlikely + EXTRA * further + sum(math.log(count) for count in choices)
 
 
 def quiet(fit: Fit) -> bool:

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
+from scipy.stats import ttest_1samp
 
 from lostmotion.contracts import Array
 from lostmotion.inference.fit import Fit
@@ -31,6 +32,11 @@ REACH = 8.0
 SEGMENT = 3.0
 RISE = 0.01
 """A held-out error that rises by a smaller share than this has not changed."""
+
+PARTS = 10
+"""Free runs are held against those of another model over so many successive parts of what was held out."""
+CHANCE = 0.05
+"""The chance of calling a model better that is not (two-sided test of Student)."""
 
 
 @dataclass(frozen=True)
@@ -160,6 +166,34 @@ def worsened(before: Prediction, after: Prediction) -> bool:
         return True
     more = after.scores - before.scores
     return len(more) > 1 and float(np.mean(more)) < -float(np.std(more, ddof=1)) / math.sqrt(len(more))
+
+
+def run_errors(fit: Fit, pieces: Sequence[Piece], horizon: Horizon) -> Array:
+    """Return the rms error (PARTS,) of free runs over a horizon, from starts in successive parts of held-out data.
+
+    Errors of several sensors are told over the deviation of each, and averaged.
+    """
+    found = []
+    for piece in pieces:
+        problem = fit.problem.on((piece.observation,))
+        runs = _runs(problem, fit, filtered(problem, fit.theta).states, piece, horizon)
+        own = [np.nanmean(run.error[:, : horizon.steps + 1] ** 2, axis=1) for run in runs]
+        scales = [deviation(pieces, sensor) for sensor in range(len(runs))]
+        found.append(np.mean([squares / scale**2 for squares, scale in zip(own, scales, strict=True)], axis=0))
+    joint = np.concatenate(found)
+    return np.array([math.sqrt(float(np.mean(part))) for part in np.array_split(joint, PARTS) if len(part)])
+
+
+def confirmed(errors: Array, without: Array) -> bool:
+    """Return whether `errors` (PARTS,) of one model are smaller than those of another by more than chance.
+
+    The paired test of Student on their logarithms, so that parts with little motion count as much as others.
+    """
+    least = np.finfo(float).tiny
+    more = np.log(np.maximum(without, least)) - np.log(np.maximum(errors, least))
+    if len(more) < 3 or not np.all(np.isfinite(more)) or not np.any(more):
+        return False
+    return bool(np.mean(more) > 0.0 and ttest_1samp(more, 0.0).pvalue < CHANCE)
 
 
 def own_motion(fit: Fit, pieces: Sequence[Piece]) -> float:

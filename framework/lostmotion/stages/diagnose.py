@@ -11,13 +11,14 @@ from lostmotion.case import Case
 from lostmotion.contracts import Array, Interface, Model, SensorTerm, Term, Values, place_of
 from lostmotion.errors import DataError
 from lostmotion.inference.candidates import term_of
-from lostmotion.inference.course import Selection, Visit
+from lostmotion.inference.course import RICH, Selection, Visit
 from lostmotion.inference.fit import Fit, maximise
 from lostmotion.inference.learned import Learned, OverTime
 from lostmotion.inference.locate import Curve, covariates, curve, edges_of, further, summary
 from lostmotion.inference.odds import Ratio, likely, log_odds
+from lostmotion.inference.prices import price_of
 from lostmotion.inference.scout import scoutable, scouted
-from lostmotion.inference.selection import price_of, significant_random_force
+from lostmotion.inference.selection import significant_random_force
 from lostmotion.inference.setup import HELD_OUT, polish, problem_of, search, split, stepped
 from lostmotion.inference.shares import Covariate, Share, shares_of, significant
 from lostmotion.inference.stretches import sought
@@ -198,7 +199,8 @@ def diagnose(
     marks = marks_of(after)
     bare = Diagnosis(before, after, selection, shown, _NOWHERE, None, _NO, {}, {}, gain, train, held, marks)
     known = _located(bare, chance)
-    suspicious = known.unexplained or bool((known.left or known.located).structure) or len(known.found) >= MANY
+    structured = bool((known.left or known.located).structure)
+    suspicious = known.unexplained or structured or len(known.found) >= MANY or selection.beaten() > RICH
     if not suspicious:
         return known
     learned = curves.unknown(selection.nominal, selection.chosen)

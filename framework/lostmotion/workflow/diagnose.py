@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -10,12 +11,22 @@ from typing import Any
 import numpy as np
 
 from lostmotion.errors import ContractError
+from lostmotion.inference.course import RICH
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.system import System, key_of
 from lostmotion.provenance import provenance
 from lostmotion.registry import Registry
 from lostmotion.report import write_report
-from lostmotion.stages.compare import exponent_of, horizon_for, pieces_of, predict, rates_of, worsened
+from lostmotion.stages.compare import (
+    confirmed,
+    exponent_of,
+    horizon_for,
+    pieces_of,
+    predict,
+    rates_of,
+    run_errors,
+    worsened,
+)
 from lostmotion.stages.diagnose import Diagnosis, diagnose, simpler
 from lostmotion.storage import folder_for, save_arrays, save_json
 from lostmotion.workflow.arrays import arrays_of
@@ -137,7 +148,33 @@ def upheld(diagnosis: Diagnosis, prepared: Prepared, rng: np.random.Generator, s
             break
         say(f"held-out predictions without {less.withdrawn[-1]}")
         outcome = judged(less, prepared, rng)
-    return outcome
+    return replace(outcome, unconfirmed=unconfirmed(outcome, prepared))
+
+
+def unconfirmed(outcome: Outcome, prepared: Prepared) -> dict[str, str]:
+    """Return a sentence on each found term that free runs over held-out data do without as well.
+
+    Asked where the model is not right in other ways too: where smooth forces, or flaws of channels, promise much beside
+    what was found. There evidence grows with every sample, whatever the term; a prediction does not.
+    """
+    selection, d = outcome.diagnosis.selection, outcome.diagnosis
+    here = selection.visits.get(selection.chosen.problem.active)
+    if here is None or not here.terms or not selection.expansion(here).promise().gain > RICH:
+        return {}
+    pieces, told = pieces_of(prepared.observations, d.held), {}
+    errors = run_errors(here.fit, pieces, outcome.horizon)
+    for key in d.named:
+        less = selection.visits.get(here.terms - {key})
+        if less is None or key not in here.terms:
+            continue
+        without = run_errors(less.fit, pieces, outcome.horizon)
+        if not confirmed(errors, without):
+            told[key] = (
+                "The model is not right in other ways too, and free runs over held-out data err by"
+                f" {math.sqrt(np.mean(errors**2)):.2%} of the response with it and by"
+                f" {math.sqrt(np.mean(without**2)):.2%} without it: the difference is within chance."
+            )
+    return told
 
 
 def _background(prepared: Prepared, outcome: Outcome, seed: int) -> dict[str, Any]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -26,7 +26,10 @@ DRAWS = 2000
 
 @dataclass(frozen=True)
 class Outcome:
-    """A diagnosis, its predictions, the horizon they are judged over, draws (draws, keys) of both posteriors."""
+    """A diagnosis, its predictions, the horizon they are judged over, draws (draws, keys) of both posteriors.
+
+    `unconfirmed` tells by term, in a sentence, that held-out data are predicted no better with it than without it.
+    """
 
     diagnosis: Diagnosis
     before: Prediction
@@ -34,6 +37,7 @@ class Outcome:
     horizon: Horizon
     draws_before: Array
     draws_after: Array
+    unconfirmed: Mapping[str, str] = field(default_factory=dict)
 
 
 def draws_of(fit: Fit, rng: np.random.Generator) -> Array:
@@ -112,7 +116,7 @@ def _entry(outcome: Outcome, key: str, after: Mapping[str, Interval]) -> dict[st
         sentence += f" at the place {term.at!r}"
     share = float(np.max(np.abs(d.laws[key]))) / d.after.problem.scales.force
     percent, is_sensor = f"{100.0 * share:.2g}" if share < 1.0 else f"{100.0 * share:.0f}", isinstance(term, SensorTerm)
-    doubts = doubts_of(d, key) + ([why] if why else [])
+    doubts = doubts_of(d, key) + [doubt for doubt in (outcome.unconfirmed.get(key), why) if doubt]
     return {
         "mechanism": term.name,
         "at": term.at,

@@ -15,6 +15,7 @@ from functools import partial
 import numpy as np
 
 from lostmotion.contracts import Array
+from lostmotion.inference.setup import HELD_OUT
 from lostmotion.kernels.independent_rough import CELLS, REACH, Flaws, move_rough
 from lostmotion.kernels.independent_zoo import Hidden
 from lostmotion.workflow.mechanisms import NOISY, TABLE, UNKNOWN, Effect, Pilot
@@ -41,6 +42,8 @@ SIZE = (0.02, 0.3)
 SMOOTH = (0.005, 0.05)
 """The rms of all smooth forces together over the amplitude of the drive, or of the force of inertia if that is less."""
 WAVES = 4
+FITTED = 1.0 - HELD_OUT
+"""The share of a recording that a diagnosis fits."""
 Curve = tuple[tuple[float, float], ...]
 """Cosine and sine of each wave of a random function."""
 
@@ -224,14 +227,29 @@ def moved_roughly(rig: Rig, hidden: tuple[Hidden, Meddling], world: World, rng: 
 
 
 def _timed(world: World, rig: Rig, t: Array) -> Array:
-    """Return the smooth forces (samples,) over phase and time at the times `t` (s)."""
+    """Return the smooth forces (samples,) over phase and time at the times `t` (s).
+
+    Those over time have no mean before `FITTED` of the recording, nor after it: a constant force has a name.
+    """
     total, duration = np.zeros(len(t)), rig.samples / rig.rate
     for blemish in world.smooth:
         if blemish.over in ("phase", "time"):
             pace = rig.signal.omega if blemish.over == "phase" else math.pi / duration
             size = math.sqrt(0.5 * sum(a * a + b * b for a, b in blemish.waves))
-            total += blemish.rms / max(size, 1e-300) * _function(blemish.waves, pace * t)
+            force = _function(blemish.waves, pace * t)
+            if blemish.over == "time":
+                force = force - _level(blemish.waves, t / duration)
+            total += blemish.rms / max(size, 1e-300) * force
     return total
+
+
+def _level(waves: Curve, share: Array) -> Array:
+    """Return the straight line over shares of a recording that has the means of a random function in both its parts."""
+    parts = ((0.0, FITTED), (FITTED, 1.0))
+    means = [float(np.mean(_function(waves, math.pi * np.linspace(a, b, 2001)))) for a, b in parts]
+    middles = [0.5 * (a + b) for a, b in parts]
+    slope = (means[1] - means[0]) / (middles[1] - middles[0])
+    return np.asarray(means[0] + slope * (share - middles[0]))
 
 
 def recorded_roughly(rig: Rig, truth: Array, world: World, rng: np.random.Generator) -> tuple[Array, float]:

@@ -12,7 +12,7 @@ from lostmotion.case import Experiment
 from lostmotion.contracts import Term
 from lostmotion.inference.candidates import term_of
 from lostmotion.inference.course import Visit
-from lostmotion.inference.selection import related
+from lostmotion.inference.prices import related
 from lostmotion.likelihood.system import key_of
 from lostmotion.quantities import unit_of
 from lostmotion.report.words import sentence, spoken
