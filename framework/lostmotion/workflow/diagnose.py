@@ -69,6 +69,7 @@ def run_diagnosis(
     diagnosis, prepared, rng = _diagnosed(prepared, registry, seed, jobs=jobs, say=say)
     say("held-out predictions")
     outcome = upheld(diagnosis, prepared, rng, say)
+    outcome = replace(outcome, unconfirmed=unconfirmed(outcome, prepared))
     diagnosis = outcome.diagnosis
     motions = motions_of(diagnosis)
     say("attractors")
@@ -148,7 +149,7 @@ def upheld(diagnosis: Diagnosis, prepared: Prepared, rng: np.random.Generator, s
             break
         say(f"held-out predictions without {less.withdrawn[-1]}")
         outcome = judged(less, prepared, rng)
-    return replace(outcome, unconfirmed=unconfirmed(outcome, prepared))
+    return outcome
 
 
 def unconfirmed(outcome: Outcome, prepared: Prepared) -> dict[str, str]:

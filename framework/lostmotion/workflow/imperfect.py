@@ -227,29 +227,27 @@ def moved_roughly(rig: Rig, hidden: tuple[Hidden, Meddling], world: World, rng: 
 
 
 def _timed(world: World, rig: Rig, t: Array) -> Array:
-    """Return the smooth forces (samples,) over phase and time at the times `t` (s).
-
-    Those over time have no mean before `FITTED` of the recording, nor after it: a constant force has a name.
-    """
+    """Return the smooth forces (samples,) over phase and time at the times `t` (s)."""
     total, duration = np.zeros(len(t)), rig.samples / rig.rate
     for blemish in world.smooth:
-        if blemish.over in ("phase", "time"):
-            pace = rig.signal.omega if blemish.over == "phase" else math.pi / duration
+        if blemish.over == "phase":
             size = math.sqrt(0.5 * sum(a * a + b * b for a, b in blemish.waves))
-            force = _function(blemish.waves, pace * t)
-            if blemish.over == "time":
-                force = force - _level(blemish.waves, t / duration)
-            total += blemish.rms / max(size, 1e-300) * force
+            total += blemish.rms / max(size, 1e-300) * _function(blemish.waves, rig.signal.omega * t)
+        if blemish.over == "time":
+            size = float(np.std(_over_time(blemish.waves, np.linspace(0.0, 1.0, 2001))))
+            total += blemish.rms / max(size, 1e-300) * _over_time(blemish.waves, t / duration)
     return total
 
 
-def _level(waves: Curve, share: Array) -> Array:
-    """Return the straight line over shares of a recording that has the means of a random function in both its parts."""
+def _over_time(waves: Curve, share: Array) -> Array:
+    """Return a random function at shares of a recording, without a mean in the part that is fitted nor behind it.
+
+    A straight line with these means is taken out: a constant force has a name.
+    """
     parts = ((0.0, FITTED), (FITTED, 1.0))
     means = [float(np.mean(_function(waves, math.pi * np.linspace(a, b, 2001)))) for a, b in parts]
-    middles = [0.5 * (a + b) for a, b in parts]
-    slope = (means[1] - means[0]) / (middles[1] - middles[0])
-    return np.asarray(means[0] + slope * (share - middles[0]))
+    slope = 2.0 * (means[1] - means[0])
+    return np.asarray(_function(waves, math.pi * share) - means[0] - slope * (share - 0.5 * FITTED))
 
 
 def recorded_roughly(rig: Rig, truth: Array, world: World, rng: np.random.Generator) -> tuple[Array, float]:
