@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from lostmotion.stages.compare import worsened
+from lostmotion.stages.compare import CHANCE, PARTS, confirmed, worsened
 from lostmotion.workflow import diagnose as ways
 from lostmotion.workflow.findings import shown
 from lostmotion.workflow.states import LATE, doubts_of, holds, open_of, unsteady
@@ -131,3 +131,19 @@ def test_what_makes_predictions_worse_is_taken_back_until_they_are_not(monkeypat
     outcome = ways.upheld(start, None, np.random.default_rng(0))
     assert outcome.diagnosis.found == ("a",)
     assert outcome.diagnosis.withdrawn == ("curve", "b")
+
+
+def test_equal_models_are_confirmed_as_seldom_as_the_test_says():
+    """One-sided, so half of `CHANCE`: 2.5 % of 4000 pairs of equal errors, within four standard errors. Seeded."""
+    rng = np.random.default_rng(5)
+    told = [confirmed(*np.exp(0.3 * rng.standard_normal((2, PARTS)))) for _ in range(4000)]
+    assert np.mean(told) == pytest.approx(0.5 * CHANCE, abs=4.0 * np.sqrt(0.025 * 0.975 / 4000))
+
+
+def test_errors_that_fall_in_each_part_are_confirmed_and_the_same_errors_are_not():
+    errors = np.linspace(0.01, 0.5, PARTS)
+    without = errors * np.linspace(1.1, 1.3, PARTS)
+    assert confirmed(errors, without)
+    assert not confirmed(without, errors)
+    assert not confirmed(errors, errors)
+    assert not confirmed(np.full(PARTS, np.nan), errors)

@@ -1,17 +1,21 @@
 """The rival of every name: its evidence against quadrature, and machines whose flaws must not get a name."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from sensed import case_of, model_of, moved, multisine, noisy
 
 from lostmotion.inference.candidates import fit_with, screen, slopes_of
 from lostmotion.inference.course import Selection, Visit
-from lostmotion.inference.rival import evidence_of, expanded, fitted
+from lostmotion.inference.rival import USUAL, evidence_of, expanded, fitted, righted
 from lostmotion.inference.selection import DECISIVE, Selector
 from lostmotion.inference.setup import problem_of, search, split
 from lostmotion.likelihood.system import System
 from lostmotion.registry import Registry
+from lostmotion.stages.compare import horizon_for, pieces_of
 from lostmotion.stages.diagnose import fitted_keys
+from lostmotion.workflow.diagnose import unconfirmed
 from lostmotion.workflow.prepare import prepare
 
 VALUES = {"m": 1.2, "c": 0.8, "k": 300.0}
@@ -28,20 +32,28 @@ def oscillator(force, extra):
     return moved(rates, T, [0.0, 0.0])[:, 0]
 
 
-def nominal_of(folder, extra, *, seed=0, stated=1.0):
-    """Return the nominal fit of a recording under a multisine of 10 N, and what it was made of."""
+def nominal_of(folder, extra, *, seed=0, stated=1.0, shown=lambda x: x):
+    """Return the nominal fit of a recording under a multisine of 10 N, and what it was made of.
+
+    The sensor has `shown` of the position.
+    """
+    prepared, system = made_of(folder, extra, seed=seed, stated=stated, shown=shown)
+    train, _ = split(prepared.observations)
+    return search(problem_of(system, prepared.case, train, jobs=1), np.random.default_rng(seed)), system
+
+
+def made_of(folder, extra, *, seed=0, stated=1.0, shown=lambda x: x):
+    """Return the case of such a recording, prepared, and the system of all terms."""
     force = multisine(10.0, 0.5, 5.0, seed)
     x = oscillator(force, extra)
-    columns = {"t": T, "F": force(T), "x": noisy(x, 0.003, seed)}
+    columns = {"t": T, "F": force(T), "x": noisy(shown(x), 0.003, seed)}
     recording = {
         "excitation": {"column": "F", "quantity": "force", "unit": "N"},
         "response": {"column": "x", "quantity": "position", "unit": "m"},
     }
     model = model_of("linear_oscillator", {**VALUES, "m": stated * VALUES["m"]}, ("c", "k"))
     prepared = prepare(case_of(folder, columns, recording, model), Registry.discover())
-    system = System(prepared.model, prepared.terms)
-    train, _ = split(prepared.observations)
-    return search(problem_of(system, prepared.case, train, jobs=1), np.random.default_rng(seed)), system
+    return prepared, System(prepared.model, prepared.terms)
 
 
 def chosen_of(nominal, system):
@@ -138,3 +150,56 @@ def test_a_promise_is_also_looked_for_from_what_would_stand_in_for_the_terms(tmp
     assert beside.gain >= stand_in.gain, "a set with the term is worth at least what it is worth without"
     assert expansion.promise().gain == max(expansion.gain(), beside.gain)
     assert expansion.best((), expansion.worse) is expansion.best((), expansion.worse)
+
+
+def bent(x):
+    """Return what a sensor shows that is bent by 0.8 % of its range, evenly."""
+    return x + 0.008 * np.abs(x).max() * (x / np.abs(x).max()) ** 2
+
+
+def test_a_bent_sensor_is_put_right_and_wins_what_slopes_promise(tmp_path):
+    """The flaw has 1.6 times its usual width; what is won counts the change of the density of readings."""
+    nominal, _ = nominal_of(tmp_path, lambda x, v, t: 0.0, shown=bent)
+    with_known, _ = fitted(expanded(nominal))
+    expansion = expanded(with_known)
+    promised = expansion.bare(expansion.worse)
+    once = righted(expansion)
+    twice = righted(expanded(once.fit), once)
+    for right in (once, twice):
+        won = right.fit.log_evidence + right.wider - with_known.log_evidence - right.price
+        assert won > 0.7 * promised > 35.0
+    square = 1  # scale, square and cube of the sensor come first
+    assert twice.sizes[square] == pytest.approx(-0.008, rel=0.1)
+    assert np.all(np.abs(np.delete(twice.sizes, square)) < 0.01)
+
+
+def test_a_channel_is_put_right_as_far_as_flaws_are_usual(tmp_path):
+    nominal, _ = nominal_of(tmp_path, lambda x, v, t: 0.0, shown=lambda x: 1.3 * x)
+    expansion = expanded(nominal)
+    once = righted(expansion)
+    twice = righted(expanded(once.fit), once)
+    widths = expansion.widths[-len(once.sizes) :]
+    for right in (once, twice):
+        assert np.all(np.abs(right.sizes) <= USUAL * widths * (1.0 + 1e-12))
+    assert np.any(np.abs(twice.sizes) > 0.99 * USUAL * widths)
+
+
+@pytest.mark.parametrize(
+    ("key", "extra", "doubted"),
+    [
+        ("coulomb_friction", bend(0.4), True),
+        ("coulomb_friction", lambda x, v, t: bend(0.2)(x, v, t) - 1.0 * np.tanh(v / 1e-3), False),
+    ],
+)
+def test_a_term_is_doubted_where_no_model_is_right_and_predictions_do_without_it(tmp_path, key, extra, doubted):
+    prepared, system = made_of(tmp_path, extra)
+    train, held = split(prepared.observations)
+    nominal = search(problem_of(system, prepared.case, train, jobs=1), np.random.default_rng(0))
+    more = fit_with(nominal, screen(nominal, slopes_of(nominal), key))
+    course = Selection(nominal, more)
+    for fit in (nominal, more):
+        course.visits[fit.problem.active] = Visit(fit.problem.active, fit, fit.log_evidence)
+    horizon = horizon_for(more, pieces_of(prepared.observations, held), float("nan"))
+    outcome = SimpleNamespace(diagnosis=SimpleNamespace(selection=course, held=held, named=(key,)), horizon=horizon)
+    told = unconfirmed(outcome, prepared)
+    assert set(told) == ({key} if doubted else set())

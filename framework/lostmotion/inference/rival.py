@@ -40,8 +40,9 @@ NUDGE, STEP = 3e-4, 1e-3
 """Finite-difference steps of a coefficient in units of the drive, and of the logarithm of a known value."""
 SHARES = (1.0, 0.5, 0.2, 0.0)
 """Fits with smooth forces begin with these shares of what was promised."""
-SETTLED, ALONE = 3, 20
-"""Rounds of such a fit, which begins at what slopes promise; and of one with known values alone: these cost less."""
+SETTLED, RIGHTING, ALONE = 3, 8, 20
+"""Rounds of such a fit, which begins at what slopes promise; of one with channels put right; and of one with known
+values alone: these cost less."""
 USUAL = 3.0
 """Flaws of channels are put right as far as they are usual: up to so many of their widths."""
 SWEEPS = 3
@@ -132,6 +133,11 @@ class Expansion:
         """Return the information (gauges, gauges) on the flaws of channels, own coordinates moving along."""
         first = len(self.widths) - len(self.gauges)
         return np.asarray(self._about((), 1.0)[0][first:, first:])
+
+    def moved_by(self, sizes: Array) -> Array:
+        """Return the own coordinates (own,) where channels have flaws of these `sizes` (gauges,), by slopes."""
+        cross = self.information[: self.own, len(self.gradient) - len(self.gauges) :]
+        return np.asarray(self.fit.theta - solved(self.information[: self.own, : self.own], cross @ sizes))
 
     def _best(self, dropped: Sequence[int], worse: float, begin: list[int]) -> Discrepancy:
         h, g, more = self._about(dropped, worse)
@@ -347,7 +353,9 @@ def righted(expansion: Expansion, before: Righted | None = None) -> Righted | No
     for gauge, size in zip(expansion.gauges, sizes - already, strict=True):
         observations = tuple(gauge.change(o, float(size)) for o in observations)
         wider += gauge.stretch * float(size)
-    better = maximise(restarted(fit).on(observations), rounds=SETTLED, tolerance=0.3)
+    problem = restarted(fit).on(observations)
+    begin = problem.clip(expansion.moved_by(sizes - already))
+    better = maximise(problem, begin, rounds=RIGHTING, tolerance=0.3)
     inner = np.eye(count) + expansion.told_by_gauges() * np.outer(widths, widths)
     price = 0.5 * float(np.sum((sizes / widths) ** 2)) + 0.5 * float(np.linalg.slogdet(inner)[1])
     return Righted(better, sizes, wider, price)
