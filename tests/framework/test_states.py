@@ -7,6 +7,7 @@ import pytest
 
 from lostmotion.stages.compare import CHANCE, PARTS, confirmed, worsened
 from lostmotion.workflow import diagnose as ways
+from lostmotion.workflow.confirming import usual
 from lostmotion.workflow.findings import shown
 from lostmotion.workflow.states import LATE, doubts_of, holds, open_of, unsteady
 from lostmotion_plugins.terms.drive import ExcitationDelay
@@ -51,6 +52,7 @@ def _slots(monkeypatch):
         return system.terms[system.keys.index(key)], system.own[key]
 
     monkeypatch.setattr("lostmotion.workflow.states.term_of", term_of)
+    monkeypatch.setattr("lostmotion.workflow.confirming.term_of", term_of)
 
 
 def test_a_sure_term_is_named_and_one_with_rivals_is_not():
@@ -147,3 +149,10 @@ def test_errors_that_fall_in_each_part_are_confirmed_and_the_same_errors_are_not
     assert not confirmed(without, errors)
     assert not confirmed(errors, errors)
     assert not confirmed(np.full(PARTS, np.nan), errors)
+
+
+@pytest.mark.parametrize(("delay", "told"), [(0.004, True), (0.006, False)])
+def test_a_delay_of_less_than_half_a_sample_is_usual(delay, told):
+    fit = fit_of({f"{DELAY}.delay": delay}, {DELAY})
+    d = SimpleNamespace(after=fit, shown=SimpleNamespace(dt=0.01), values=fit.values)
+    assert bool(usual(d, DELAY)) == told

@@ -15,7 +15,7 @@ from lostmotion.likelihood.system import System
 from lostmotion.registry import Registry
 from lostmotion.stages.compare import horizon_for, pieces_of
 from lostmotion.stages.diagnose import fitted_keys
-from lostmotion.workflow.diagnose import unconfirmed
+from lostmotion.workflow.confirming import unconfirmed
 from lostmotion.workflow.prepare import prepare
 
 VALUES = {"m": 1.2, "c": 0.8, "k": 300.0}
@@ -200,6 +200,9 @@ def test_a_term_is_doubted_where_no_model_is_right_and_predictions_do_without_it
     for fit in (nominal, more):
         course.visits[fit.problem.active] = Visit(fit.problem.active, fit, fit.log_evidence)
     horizon = horizon_for(more, pieces_of(prepared.observations, held), float("nan"))
-    outcome = SimpleNamespace(diagnosis=SimpleNamespace(selection=course, held=held, named=(key,)), horizon=horizon)
-    told = unconfirmed(outcome, prepared)
+    outcome = SimpleNamespace(
+        diagnosis=SimpleNamespace(selection=course, held=held, named=(key,), after=more, unexplained=False),
+        horizon=horizon,
+    )
+    told = unconfirmed(outcome, prepared.observations)
     assert set(told) == ({key} if doubted else set())

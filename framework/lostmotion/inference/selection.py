@@ -105,12 +105,11 @@ class Selector:
         return self.course
 
     def _ahead(self, tested: set[frozenset[str]]) -> Visit | None:
-        """Return the set that leads the chosen one by most beside the smooth force, of those not `tested` yet."""
-        here = self.course.visits[self.course.chosen.problem.active]
-        known = [self.course.visits[terms] for terms in self.course.rivals if terms not in tested]
-        known = [v for v in known if not v.terms & self.course.declined and v.terms != here.terms]
-        best = min(known, key=lambda v: self.course.lead(here, v), default=None)
-        return best if best and self.course.lead(here, best) < 0.0 else None
+        """Return the most probable set, if that is not the chosen one, of those that were not `tested` yet."""
+        shares = {terms: p for terms, p in self.course.probabilities().items() if terms not in tested}
+        best = max(shares, key=lambda terms: shares[terms], default=frozenset())
+        least = self.course.probabilities()[self.course.chosen.problem.active]
+        return self.course.visits[best] if shares.get(best, 0.0) > least else None
 
     def _challenge(self, visit: Visit) -> None:
         """Put a set in place of the chosen one if it leads still after terms are dropped that it can do without.

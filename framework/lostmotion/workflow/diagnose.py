@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -11,26 +10,24 @@ from typing import Any
 import numpy as np
 
 from lostmotion.errors import ContractError
-from lostmotion.inference.course import RICH
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.system import System, key_of
 from lostmotion.provenance import provenance
 from lostmotion.registry import Registry
 from lostmotion.report import write_report
 from lostmotion.stages.compare import (
-    confirmed,
     exponent_of,
     horizon_for,
     pieces_of,
     predict,
     rates_of,
-    run_errors,
     worsened,
 )
 from lostmotion.stages.diagnose import Diagnosis, diagnose, simpler
 from lostmotion.storage import folder_for, save_arrays, save_json
 from lostmotion.workflow.arrays import arrays_of
 from lostmotion.workflow.attractors import motions_of
+from lostmotion.workflow.confirming import unconfirmed
 from lostmotion.workflow.decays import decay_in
 from lostmotion.workflow.disagreements import disagreement_in
 from lostmotion.workflow.evidences import evidence_of
@@ -69,7 +66,7 @@ def run_diagnosis(
     diagnosis, prepared, rng = _diagnosed(prepared, registry, seed, jobs=jobs, say=say)
     say("held-out predictions")
     outcome = upheld(diagnosis, prepared, rng, say)
-    outcome = replace(outcome, unconfirmed=unconfirmed(outcome, prepared))
+    outcome = replace(outcome, unconfirmed=unconfirmed(outcome, prepared.observations))
     diagnosis = outcome.diagnosis
     motions = motions_of(diagnosis)
     say("attractors")
@@ -150,32 +147,6 @@ def upheld(diagnosis: Diagnosis, prepared: Prepared, rng: np.random.Generator, s
         say(f"held-out predictions without {less.withdrawn[-1]}")
         outcome = judged(less, prepared, rng)
     return outcome
-
-
-def unconfirmed(outcome: Outcome, prepared: Prepared) -> dict[str, str]:
-    """Return a sentence on each found term that free runs over held-out data do without as well.
-
-    Asked where the model is not right in other ways too: where smooth forces, or flaws of channels, promise much beside
-    what was found. There evidence grows with every sample, whatever the term; a prediction does not.
-    """
-    selection, d = outcome.diagnosis.selection, outcome.diagnosis
-    here = selection.visits.get(selection.chosen.problem.active)
-    if here is None or not here.terms or not selection.expansion(here).promise().gain > RICH:
-        return {}
-    pieces, told = pieces_of(prepared.observations, d.held), {}
-    errors = run_errors(here.fit, pieces, outcome.horizon)
-    for key in d.named:
-        less = selection.visits.get(here.terms - {key})
-        if less is None or key not in here.terms:
-            continue
-        without = run_errors(less.fit, pieces, outcome.horizon)
-        if not confirmed(errors, without):
-            told[key] = (
-                "The model is not right in other ways too, and free runs over held-out data err by"
-                f" {math.sqrt(np.mean(errors**2)):.2%} of the response with it and by"
-                f" {math.sqrt(np.mean(without**2)):.2%} without it: the difference is within chance."
-            )
-    return told
 
 
 def _background(prepared: Prepared, outcome: Outcome, seed: int) -> dict[str, Any]:
