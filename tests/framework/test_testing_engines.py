@@ -13,7 +13,15 @@ from lostmotion.testing import check, rules_for
 AGREES = "filter_agrees_with_matrices"
 
 
-@pytest.mark.parametrize("engine", [Lanes(), Lanes(compiled=False), Reference()], ids=["lanes", "twin", "reference"])
+@pytest.mark.parametrize(
+    "engine",
+    [
+        Lanes(),
+        pytest.param(Lanes(compiled=False), marks=pytest.mark.slow),
+        pytest.param(Reference(), marks=pytest.mark.slow),
+    ],
+    ids=["lanes", "twin", "reference"],
+)
 def test_the_engines_of_the_house_break_no_rule(engine):
     assert [str(f) for f in check(engine) if not f.ok] == []
 
@@ -126,7 +134,8 @@ WRONG = [
 
 @pytest.mark.parametrize(("engine", "broken"), WRONG, ids=[engine.__name__ for engine, _ in WRONG])
 def test_a_wrong_engine_breaks_its_rule(engine, broken):
-    assert broken in {f.rule for f in check(engine()) if not f.ok}
+    (rule,) = (rule for rule in rules_for("engine") if rule.name == broken)
+    assert not rule(engine()).ok
 
 
 def test_every_rule_of_behaviour_is_broken_by_some_wrong_engine():
