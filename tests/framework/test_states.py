@@ -9,7 +9,19 @@ from lostmotion.stages.compare import CHANCE, PARTS, confirmed, worsened
 from lostmotion.workflow import diagnose as ways
 from lostmotion.workflow.confirming import usual
 from lostmotion.workflow.findings import shown
-from lostmotion.workflow.states import LATE, doubts_of, holds, open_of, unsteady
+from lostmotion.workflow.states import (
+    LATE,
+    LIKELY,
+    NAMED,
+    OPEN,
+    SURE,
+    doubted,
+    doubts_of,
+    holds,
+    in_order,
+    open_of,
+    unsteady,
+)
 from lostmotion_plugins.terms.drive import ExcitationDelay
 from lostmotion_plugins.terms.friction import CoulombFriction
 
@@ -156,3 +168,15 @@ def test_a_delay_of_less_than_half_a_sample_is_usual(delay, told):
     fit = fit_of({f"{DELAY}.delay": delay}, {DELAY})
     d = SimpleNamespace(after=fit, shown=SimpleNamespace(dt=0.01), values=fit.values)
     assert bool(usual(d, DELAY)) == told
+
+
+def test_what_is_doubted_is_likely_and_comes_behind_what_is_named():
+    entries = [
+        {"mechanism": "unknown", "state": OPEN, "probability": 1.0},
+        {"mechanism": "offset_force", "state": NAMED, "probability": 0.999, "doubts": ["why"]},
+        {"mechanism": "coulomb_friction", "state": NAMED, "probability": 0.97, "doubts": []},
+    ]
+    told = in_order([doubted(entry) for entry in entries])
+    assert [entry["mechanism"] for entry in told] == ["coulomb_friction", "offset_force", "unknown"]
+    assert [entry["state"] for entry in told] == [NAMED, LIKELY, OPEN]
+    assert [entry["probability"] for entry in told] == [0.97, SURE, 1.0]

@@ -43,9 +43,9 @@ def unconfirmed(outcome: Outcome, observations: Sequence[Observation]) -> dict[s
             told[key] = sentence
         elif without is not None and not confirmed(errors, without):
             told[key] = (
-                "The model is not right in other ways too, and free runs over held-out data err by"
-                f" {_whole(errors):.2%} of the response with it and by {_whole(without):.2%} without it: the difference"
-                " is within chance."
+                "The model is not right in other ways too, and free runs over held-out data are better with it in"
+                f" {int(np.sum(errors < without))} of {len(errors)} parts only (they err by {_whole(errors):.2%} of the"
+                f" response with it and by {_whole(without):.2%} without it), which is within chance."
             )
     return told
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 from lostmotion.inference.candidates import term_of
@@ -106,8 +106,16 @@ def _unusual(d: Diagnosis, key: str) -> Iterator[str]:
 
 
 def doubted(entry: dict[str, Any]) -> dict[str, Any]:
-    """Return an entry of what was found: one that was named and is doubted since is likely."""
-    return {**entry, "state": LIKELY} if entry.get("doubts") and entry.get("state") == NAMED else entry
+    """Return an entry of what was found: with a doubt it is likely, with a probability of `SURE` at most."""
+    if not entry.get("doubts") or entry.get("state") not in (NAMED, LIKELY):
+        return entry
+    return {**entry, "state": LIKELY, "probability": min(entry["probability"], SURE)}
+
+
+def in_order(found: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
+    """Return the entries of what was found, what is named first and what is open last."""
+    order = (NAMED, LIKELY, OPEN)
+    return sorted(found, key=lambda entry: order.index(entry["state"]))
 
 
 def open_of(d: Diagnosis) -> list[dict[str, Any]]:

@@ -27,7 +27,7 @@ from lostmotion.workflow.findings import (
 )
 from lostmotion.workflow.notes import drowned
 from lostmotion.workflow.sharings import shared_in
-from lostmotion.workflow.states import LIKELY, doubted, open_of
+from lostmotion.workflow.states import LIKELY, doubted, in_order, open_of
 from lostmotion.workflow.unknowns import unknown_odds, where
 
 WORTH_NAMING = 0.01
@@ -40,14 +40,14 @@ def verdict(outcome: Outcome) -> dict[str, Any]:
     d = outcome.diagnosis
     found, why, rest = found_in(outcome), why_withheld(outcome), open_of(d)
     shared = shared_in(d, found)
-    found = [doubted(entry) for entry in shared.pop("found", found)]
+    found = in_order([doubted(entry) for entry in shared.pop("found", found)])
     return {
         "schema": "lostmotion.diagnosis/1",
         "verdict": "mismatch" if found else "adequate",
         "says": says(outcome, found, rest),
         "found": found,
         "open": rest,
-        "ranking": _ranking(d, failed=bool(why)),
+        "ranking": _ranking(d, found, failed=bool(why)),
         "confused_with": _confused(d),
         "unexplained": _unexplained(d, after=True),
         "unexplained_before": _unexplained(d, after=False),
@@ -154,26 +154,27 @@ def told(fit: Fit, draws: Array) -> dict[str, dict[str, Any]]:
     return {key: interval.as_dict() for key, interval in intervals(fit, draws).items()}
 
 
-def _ranking(d: Diagnosis, *, failed: bool) -> list[dict[str, Any]]:
+def _ranking(d: Diagnosis, found: Sequence[dict[str, Any]], *, failed: bool) -> list[dict[str, Any]]:
     """Return every candidate with its evidence and probability, and beside them "nothing missing" and "unknown".
 
-    Where the model has `failed` on held-out data, something is missing, whatever the evidence says.
-
-    "Unknown" is what the library does not explain: curves that were learned, or, when nothing was found, a force beyond
-    the usual.
+    A term that was found has the probability that is told of it. Where the model has `failed` on held-out data,
+    something is missing, whatever the evidence says. "Unknown" is what the library does not explain: curves that were
+    learned, or, when nothing was found, a force beyond the usual.
     """
     selection = d.selection
     unknown, gain = unknown_odds(d)
     unknown = 1.0 if failed and not d.found else unknown
+    told = {(entry["mechanism"], entry["at"]): entry["probability"] for entry in found if "at" in entry}
     rows = []
     for term in selection.nominal.problem.system.terms:
         key = key_of(term)
+        p = told[term.name, term.at] if key in d.named else selection.inclusion(key) * (1.0 - unknown)
         rows.append(
             {
                 "mechanism": term.name,
                 "at": term.at,
                 "log_evidence_gain": selection.gain(key),
-                "probability": selection.inclusion(key) * (1.0 if key in d.named else 1.0 - unknown),
+                "probability": p,
                 "fitted": frozenset({key}) in selection.visits,
             }
         )
