@@ -104,7 +104,7 @@ def table(content: Mapping[str, Any], further: Mapping[str, float]) -> str:
         for key, unit in units.items()
     ]
     rows += [
-        (f"named: {entry['mechanism']} {place_of(entry)}".rstrip(), "", f"{entry['probability']:.3f}")
+        (f"{entry['state']}: {entry['mechanism']} {place_of(entry)}".rstrip(), "", f"{entry['probability']:.3f}")
         for entry in content["found"]
     ]
     rows.append(("force left unexplained, rms (" + content["unexplained"]["unit"] + ")",
