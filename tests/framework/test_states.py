@@ -130,6 +130,14 @@ def test_held_out_data_speak_against_what_predicts_worse():
     assert worsened(prediction(0.30, flat), prediction(float("nan"), flat))
 
 
+def test_a_score_that_falls_within_a_wide_scatter_speaks_against_a_model_that_predicts_hardly_better():
+    flat = np.zeros(20)
+    outlier = np.where(np.arange(20) == 7, -50.0, 0.5)
+    assert not worsened(prediction(1.0, flat), prediction(0.4, outlier))
+    assert worsened(prediction(1.0, flat), prediction(0.9, outlier))
+    assert not worsened(prediction(1.0, flat), prediction(0.9, flat - 0.005 * np.cos(np.arange(20) * np.pi) - 0.0005))
+
+
 def test_what_makes_predictions_worse_is_taken_back_until_they_are_not(monkeypatch):
     errors = {("a", "b", "curve"): 0.5, ("a", "b"): 0.4, ("a",): 0.1, (): 0.3}
 

@@ -33,6 +33,9 @@ SEGMENT = 3.0
 RISE = 0.01
 """A held-out error that rises by a smaller share than this has not changed."""
 
+FALL, MUCH = 0.01, 0.5
+"""A log score that falls by more than this per sample speaks against a model, unless its free runs err by less than
+this share of before."""
 PARTS = 10
 """Free runs are held against those of another model over so many successive parts of what was held out."""
 CHANCE = 0.05
@@ -159,13 +162,19 @@ def _nrmse(runs: FreeRuns, horizon: Horizon, scale: float) -> float:
 def worsened(before: Prediction, after: Prediction) -> bool:
     """Return whether held-out data speak against a model: free runs err more after than before, or it scores less.
 
-    A rise of the error by less than `RISE` of it is none, and the log score of one-step predictions may fall by its
-    standard error, from the scatter over blocks of time.
+    A rise of the error by less than `RISE` of it is none. The log score of one-step predictions may not fall by its
+    standard error, from the scatter over blocks of time, and not by `FALL` either unless the error of free runs falls
+    to `MUCH` of what it was: a few large one-step errors make the scatter wide.
     """
     if after.nrmse > (1.0 + RISE) * before.nrmse or not math.isfinite(after.nrmse):
         return True
     more = after.scores - before.scores
-    return len(more) > 1 and float(np.mean(more)) < -float(np.std(more, ddof=1)) / math.sqrt(len(more))
+    if len(more) < 2:
+        return False
+    fall = -float(np.mean(more))
+    if fall > float(np.std(more, ddof=1)) / math.sqrt(len(more)):
+        return True
+    return fall > FALL and after.nrmse > MUCH * before.nrmse
 
 
 def run_errors(fit: Fit, pieces: Sequence[Piece], horizon: Horizon) -> Array:

@@ -119,11 +119,14 @@ def in_order(found: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
 
 
 def open_of(d: Diagnosis) -> list[dict[str, Any]]:
-    """Return the terms that stay open: they would raise the likelihood, and something speaks against a name."""
+    """Return the terms that stay open: they would raise the likelihood, and something speaks against a name.
+
+    What was found and taken back comes first: it came closest.
+    """
     reasons = [
+        (set(d.withdrawn), "held-out data are predicted worse with it"),
         (d.selection.unbeaten, "a small smooth force that nobody has named explains as much"),
         (d.selection.declined, "what is left over has a memory, so that this gain is not believed"),
-        (set(d.withdrawn), "held-out data are predicted worse with it"),
     ]
     rows: dict[str, dict[str, Any]] = {}
     for keys, why in reasons:
