@@ -83,7 +83,7 @@ def drawn(name: str, pilot: Pilot, rng: np.random.Generator) -> Effect:
     at = str(rng.choice(mechanism.spots(pilot.rig)))
     draft = mechanism.plan(pilot, at, rng)
     wanted = math.exp(rng.uniform(math.log(GAIN[0]), math.log(GAIN[1])))
-    size = math.sqrt(wanted / max(pilot.gain(draft.felt), 1e-300))
+    size = math.sqrt(wanted / max(pilot.gain(draft), 1e-300))
     loud = size * float(np.std(draft.felt)) / pilot.inertial
     size *= min(1.0, LARGEST / max(loud, 1e-300)) * (rng.choice([-1.0, 1.0]) if mechanism.signed else 1.0)
     parameters = draft.parameters(float(size))

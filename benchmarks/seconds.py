@@ -61,7 +61,7 @@ def recording(hidden: Hidden, samples: int, seed: int = 900) -> dict[str, np.nda
         count = min(piece, samples + SETTLING - first) * EVERY
         middle = (first * EVERY + np.arange(count) + 0.5) * STEP
         force = FORCE * np.cos(OMEGA * middle)
-        parts.append(move(force, np.zeros((3, count)), BODY, hidden, state, (first * EVERY * STEP, STEP), EVERY))
+        parts.append(move(force, np.zeros((3, count)), BODY, hidden, state, (first * EVERY * STEP, STEP), EVERY)[:, 0])
     x = np.concatenate(parts)[SETTLING:]
     t = np.arange(samples) * EVERY * STEP
     seen = x + NOISE * x.std() * rng.standard_normal(samples)

@@ -15,6 +15,7 @@ import numpy as np
 
 from lostmotion.errors import ContractError, nearest
 from lostmotion.parts import Array, Group, Interface, Param
+from lostmotion.quantities import Dimension
 from lostmotion.results import Embedding, Estimate
 from lostmotion.subjects import Data, Flow, Orbit, Series
 
@@ -33,11 +34,18 @@ Values = tuple[float, ...]
 """What a term is handed for its parameters and states: numbers to be indexed, nothing to be written."""
 Drive = tuple[float, float, float]
 Motion = Literal["translation", "rotation"]
-PSEUDO_NEEDS = ("step", "mobility", "omega", "amplitude", "stiffness", "play")
-"""What a term may need that is no parameter of that name: the integration `step` (s), and `mobility`, step / inertia:
+PSEUDO_NEEDS = (
+    "step", "finest", "mobility", "inertia", "omega", "amplitude", "stiffness", "play", "contact", "acceleration",
+    "force_input", "shake_input",
+)  # fmt: skip
+"""What a term may need that is no parameter of that name: the integration `step` (s), which may be shorter or longer
+from one to the next, the `finest` of these, and `mobility`, step / inertia:
 the velocity that a unit force gives the body in a step. A law that jumps at zero velocity is as wide as `force *
 mobility`, so that it sticks without turning the integration stiff. `omega` is the angular frequency of the drive
-(rad/s), `amplitude` sqrt(2) of its rms; `stiffness` and `play` those of the contact at the place, 0 where none."""
+(rad/s), `amplitude` sqrt(2) of its rms; `stiffness` and `play` those of the spring at the place. `contact` is the
+stiffness of a contact with play at the place, 0 where there is none. `inertia` is what a force at the place moves,
+`acceleration` what all other forces give the body there; `force_input` and `shake_input` say which entry of `u` is the
+force on that body and the acceleration of the base: -1 where none is."""
 
 
 class Model(ABC):
@@ -97,7 +105,8 @@ class Term(ABC):
     `force` returns the generalised force on the body in positive direction (friction is negative for v > 0), with
     `x`, `v` the relative motion at the interface `at`, `p` the own `params` followed by `needs`, `s` the own states.
     `physics` is a sentence with the parameters in braces; `formula` the law in plain text. `resembles` names terms that
-    tell a similar story, `equals` those that no recording of a machine that does not age can tell from it. One that
+    tell a similar story, `equals` those that no recording of a machine that does not age can tell from it. `begins` are
+    the dimensions of those states that may be anything of natural size at first; all others begin at zero. One that
     does the same `anywhere` is tried at the ground alone. `force` and `rate` are static, or methods that read numbers
     among the fields of the term. `unlikely` is the log odds by which an engineer looks for other causes first.
     """
@@ -110,6 +119,7 @@ class Term(ABC):
     paper: ClassVar[str]
     params: ClassVar[tuple[Param, ...]]
     states: ClassVar[tuple[str, ...]] = ()
+    begins: ClassVar[tuple[Dimension, ...]] = ()
     needs: ClassVar[tuple[str, ...]] = ()
     motions: ClassVar[tuple[str, ...]] = ("translation", "rotation")
     further: ClassVar[tuple[Param, ...]] = ()
@@ -180,11 +190,13 @@ class DriveTerm(_Beside):
 class SensorTerm(_Beside):
     """Something between the motion and its recording: no force.
 
-    It shows `gain(p)` times what is there and `offset(p)` more, `delay(p)` s late, `rounded`. What leaves `marks` in
-    values is not fitted. One that is `relative` is tried where there are several sensors.
+    It shows `gain(p)` times what is there and `offset(p)` more, `delay(p)` s late, `bent` and `rounded`. One with
+    states shows the first of them: `rate` is told what the `channel`, a field of its own, shows in place of `x`. What
+    leaves `marks` in values is not fitted. One that is `relative` is tried where there are several sensors.
     """
 
     acts = "sensor"
+    channel: str = "position"
     relative: ClassVar[bool] = False
 
     @staticmethod
@@ -201,6 +213,11 @@ class SensorTerm(_Beside):
     def delay(p: Values) -> float:
         """Return how late it shows it, in s."""
         return 0.0
+
+    @staticmethod
+    def bent(x: Array, p: Values) -> Array:
+        """Return what the sensor shows where it should show `x`, of any shape; it grows with x."""
+        return x
 
     @staticmethod
     def rounded(z: Array, p: Values) -> Array:

@@ -87,7 +87,7 @@ def _exact(system: System, values: Mapping[str, float], beat: Harmonic, start: A
     """Return the flow that the model knows in closed form, if it does; a term is more than the model knows."""
     if system.terms:
         return None
-    full = dict(zip((slot.key for slot in system.slots), _full(system, values).tolist(), strict=True))
+    full = dict(zip(system.index, _full(system, values).tolist(), strict=True))
     return system.model.exact(full, (beat.amplitude, beat.omega, beat.phase), _begun(system, start))
 
 

@@ -22,6 +22,8 @@ class Param:
     Of a term: `null` is where all of it does nothing; `typical` the prior width in natural scales (drive force, rms
     position and velocity; if `lasting`, the time is that of the whole recording); `choices` are tried in turn and held;
     `far` lists multiples of `typical` tried as well. With `scale="log"` it is positive, known by order of magnitude.
+    `scan` are the least and the largest multiple of `typical` between which a recording is searched for it; for an
+    amplitude that a response is far from linear in, too.
     """
 
     name: str
@@ -36,6 +38,7 @@ class Param:
     choices: tuple[float, ...] = ()
     lasting: bool = False
     far: tuple[float, ...] = ()
+    scan: tuple[float, float] | None = None
 
 
 @dataclass(frozen=True)

@@ -30,11 +30,13 @@ ANGULAR = {
 }
 ROTATES = dict.fromkeys(SI.values(), "translation") | dict.fromkeys(ANGULAR.values(), "rotation")
 """What motion a unit of a channel or an input belongs to."""
-_NAMED = {
+_NAMED: dict[tuple[str, float, float, float], str] = {
     ("translation", 1, -1, 2): "kg",
     ("rotation", 1, -1, 2): "kg m^2",
     ("translation", 0, 0, 0): "1",
     ("rotation", 0, 0, 0): "1",
+    ("translation", 0, 0, -1): "Hz",
+    ("rotation", 0, 0, -1): "Hz",
 }
 
 
@@ -71,9 +73,9 @@ def unit_of(name: str, motion: str) -> str:
 class Dimension(NamedTuple):
     """Powers of generalised force, length and time: `Dimension(1, -1, 1)` is a damping coefficient."""
 
-    force: int = 0
-    length: int = 0
-    time: int = 0
+    force: float = 0
+    length: float = 0
+    time: float = 0
 
     def unit(self, motion: str) -> str:
         """Return the SI unit, for instance `N s/m` in translation and `N m s/rad` in rotation."""
@@ -91,8 +93,8 @@ class Dimension(NamedTuple):
         return float(force**self.force * length**self.length * time**self.time)
 
 
-def _power(symbol: str, power: int) -> str:
-    return symbol if power == 1 else f"{symbol}^{power}"
+def _power(symbol: str, power: float) -> str:
+    return symbol if power == 1 else f"{symbol}^{power:g}"
 
 
 FORCE = Dimension(1, 0, 0)
@@ -103,6 +105,7 @@ INERTIA = Dimension(1, -1, 2)
 DAMPING = Dimension(1, -1, 1)
 STIFFNESS = Dimension(1, -1, 0)
 NUMBER = Dimension(0, 0, 0)
+FREQUENCY = Dimension(0, 0, -1)
 
 
 _NEWTON_METRE = re.compile(r"(?<![^\W\d_])([kmM]?N)m(?!\w)")

@@ -30,7 +30,7 @@ from pathlib import Path
 sys.path.insert(0, {here!r})
 from toy_campaign import campaign
 if __name__ == "__main__":
-    campaign(pause=0.5).run(Path({out!r}), {jobs})
+    campaign(gate=Path({gate!r})).run(Path({out!r}), {jobs})
 """
 PATIENCE = 240.0
 """Seconds that a busy machine may take to begin or to end a few processes."""
@@ -51,7 +51,8 @@ def whole(tmp_path_factory):
 def began(tmp_path, jobs):
     """Return a campaign in a process of its own that has finished a few trials."""
     script = tmp_path / "toy.py"
-    script.write_text(TOY.format(here=str(Path(__file__).parent), out=str(tmp_path / "out"), jobs=jobs))
+    told = {"here": str(Path(__file__).parent), "out": str(tmp_path / "out"), "gate": str(tmp_path / "gate")}
+    script.write_text(TOY.format(**told, jobs=jobs))
     process = subprocess.Popen([sys.executable, str(script)], env=os.environ, start_new_session=True)
     soon(lambda: len(list((tmp_path / "out" / "trials").glob("0*.json"))) >= 2)
     return process
@@ -78,6 +79,7 @@ def gone(group):
 def test_a_killed_campaign_goes_on_with_the_same_bytes(tmp_path, whole, jobs, how):
     process, out = began(tmp_path, jobs), tmp_path / "out"
     os.kill(process.pid, how)
+    (tmp_path / "gate").touch()
     process.wait(PATIENCE)
     soon(lambda: gone(process.pid))
     left = [name for name in files(out) if not name.startswith(".")]

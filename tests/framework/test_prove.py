@@ -16,6 +16,7 @@ from lostmotion.workflow.campaign import Campaign
 from lostmotion.workflow.hiding import hidden_in
 from lostmotion.workflow.mechanisms import NAMES, UNKNOWN, Pilot
 from lostmotion.workflow.oracle import spelled
+from lostmotion.workflow.pilot import Draft
 from lostmotion.workflow.prove import Diagnoser
 from lostmotion.workflow.sealing import VARIANTS, Blind, concealed, label, publish, unsealed
 from lostmotion.workflow.zoo import Meddling, draw_rig, moved
@@ -133,7 +134,7 @@ def test_sizes_span_what_can_and_cannot_be_seen():
         rng = np.random.default_rng(seed)
         rig = draw_rig(rng, 500)
         pilot = Pilot(rig, moved(rig, hidden_in(rig, ())[0], Meddling(), rng))
-        gains.append(pilot.gain(1e-3 * pilot.inertial * np.sign(pilot.v)))
+        gains.append(pilot.gain(Draft(1e-3 * pilot.inertial * np.sign(pilot.v), dict)))
     assert np.all(np.array(gains) > 0.0)
 
 

@@ -32,16 +32,16 @@ def wave(x, pitch):
 
 
 @dataclass(frozen=True)
-class Cogging(Term):
+class Ratchet(Term):
     """A force that pulls a motor from pole to pole."""
 
     at: str = "ground"
-    name = "cogging"
-    physics = "Cogging of {force}, from pole to pole over {pitch}, acts"
+    name = "ratchet"
+    physics = "Ratchet of {force}, from pole to pole over {pitch}, acts"
     formula = "-force * sin(2 pi x / pitch)"
     paper = "Zhu, Howe, IEEE Trans. Energy Conversion 15 (2000) 407-412"
     params = (
-        Param("force", "largest cogging force", FORCE, null=0.0),
+        Param("force", "largest ratchet force", FORCE, null=0.0),
         Param("pitch", "travel from pole to pole", LENGTH, low=0.0, scale="log"),
     )
 
@@ -53,7 +53,7 @@ class Cogging(Term):
 if __name__ == "__main__":
     import told
 
-    told.told(Cogging)
+    told.told(Ratchet)
 '''
 TOLD = """
 import json
@@ -64,15 +64,15 @@ from lostmotion_plugins.models.basic import RigidDrive
 
 def told(term):
     system = System(RigidDrive(), (term(),))
-    full = system.vector({"m": 2.0, "c": 10.0, "cogging.force": 3.0, "cogging.pitch": 0.15})
+    full = system.vector({"m": 2.0, "c": 10.0, "ratchet.force": 3.0, "ratchet.pitch": 0.15})
     drive = Drive.smooth([lambda t: 20.0 * np.cos(8.0 * t)], 0.005, 200)
     states = system.simulate(full, system.everything, np.array([0.01, 0.0]), drive, 4).states
     print(json.dumps([term.__module__, states[-1].tolist()]))
 """
 WAYS = {
     "a plugin file": "from lostmotion.registry import Registry; import told; from pathlib import Path; "
-    "told.told(type(Registry.discover().add_file(Path('my_terms.py')).make('term', 'cogging')))",
-    "an import": "import told, my_terms; told.told(my_terms.Cogging)",
+    "told.told(type(Registry.discover().add_file(Path('my_terms.py')).make('term', 'ratchet')))",
+    "an import": "import told, my_terms; told.told(my_terms.Ratchet)",
     "a program": "import runpy; runpy.run_path('my_terms.py', run_name='__main__')",
 }
 

@@ -13,9 +13,18 @@ from lostmotion.workflow.campaign import Campaign
 COUNT = 12
 
 
-def toy(pause, number):
-    """Return a trial: a truth from N(0, 1), and where it lies in the posterior of one noisy look at it."""
-    time.sleep(pause)
+HELD, SLOW = 4, 0.2
+"""From this trial on each one waits to be let go, and then takes so many seconds."""
+
+
+def toy(gate, number):
+    """Return a trial: a truth from N(0, 1), and where it lies in the posterior of one noisy look at it.
+
+    With a `gate` trials from `HELD` on wait until that file is there, so that a test can be sure to come in between.
+    """
+    while gate and number >= HELD and not gate.exists():
+        time.sleep(0.02)
+    time.sleep(SLOW if gate else 0.0)
     rng = np.random.default_rng([3, number])
     truth = rng.standard_normal()
     seen = truth + rng.standard_normal()
@@ -48,5 +57,5 @@ def placed(number, truth, chain):
     return {"machine": number, "status": "ok", "says": "", "parameters": {"a": place}}
 
 
-def campaign(*, count=COUNT, pause=0.0, identity=None):
-    return Campaign(partial(toy, pause), count, identity or {"settings": {"noise": 1.0}, "seed": 3})
+def campaign(*, count=COUNT, gate=None, identity=None):
+    return Campaign(partial(toy, gate), count, identity or {"settings": {"noise": 1.0}, "seed": 3})

@@ -86,7 +86,7 @@ def test_no_address_of_an_index_and_no_path_of_a_machine(name):
 def test_term_of_the_readme_keeps_every_rule(tmp_path):
     (code,) = (block for block in blocks("python") if "(Term)" in block)
     (tmp_path / "my_terms.py").write_text(code, encoding="utf-8")
-    command = ("-m", "lostmotion", "--plugin", "my_terms.py", "plugins", "check", "cogging")
+    command = ("-m", "lostmotion", "--plugin", "my_terms.py", "plugins", "check", "magnet")
     done = subprocess.run([sys.executable, *command], cwd=tmp_path, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stdout + done.stderr
     assert done.stdout.rstrip().endswith("0 broken")

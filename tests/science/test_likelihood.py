@@ -11,8 +11,9 @@ from scipy.linalg import expm
 from scipy.stats import chi2
 from truths import FORCE, FRICTION, TRUE, observation_of, problem_for, system_of
 
-from lostmotion.inference.candidates import fit_with, frees_of, screen, slopes_of, term_of
+from lostmotion.inference.candidates import fit_with, screen, slopes_of
 from lostmotion.inference.fit import maximise
+from lostmotion.inference.natural import frees_of, term_of
 from lostmotion.likelihood.latent import missing_force
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import NOISE, RANDOM, Free, Problem, Scales

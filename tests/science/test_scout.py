@@ -22,11 +22,11 @@ PITCH = 0.002
 
 
 @dataclass(frozen=True)
-class Cogging(Term):
+class Ratchet(Term):
     """The example of the README: a force that pulls a motor from pole to pole."""
 
     at: str = "ground"
-    name = "cogging"
+    name = "ratchet"
     physics = "Cogging of {force}, from pole to pole over {pitch}, acts"
     formula = "-force * sin(2 pi x / pitch)"
     paper = "Zhu, Howe, IEEE Trans. Energy Conversion 15 (2000) 407-412"
@@ -40,31 +40,31 @@ class Cogging(Term):
         return -p[0] * math.sin(2.0 * math.pi * x / p[1])
 
 
-def with_cogging(fit, *more):
+def with_ratchet(fit, *more):
     """Return a fit of the nominal model in a system that has cogging too."""
     model, registry = fit.problem.system.model, default()
-    system = System(model, candidates_of(model, [Cogging, *(registry.load("term", name) for name in more)]))
+    system = System(model, candidates_of(model, [Ratchet, *(registry.load("term", name) for name in more)]))
     known = system.vector({q.name: fit.problem.known[i] for i, q in enumerate(model.params)})
     return replace(fit, problem=replace(fit.problem, system=system, known=known))
 
 
 def test_a_pitch_far_shorter_than_the_travel_is_scouted():
-    found = scouted(with_cogging(fitted(RIPPLE)))
-    assert list(found) == ["cogging"]
-    assert found["cogging"][0]["cogging.pitch"] == pytest.approx(PITCH, rel=0.03)
+    found = scouted(with_ratchet(fitted(RIPPLE)))
+    assert list(found) == ["ratchet"]
+    assert found["ratchet"][0]["ratchet.pitch"] == pytest.approx(PITCH, rel=0.03)
 
 
 def test_where_nothing_is_missing_nothing_is_scouted():
-    assert scouted(with_cogging(fitted(CLEAN))) == {}
+    assert scouted(with_ratchet(fitted(CLEAN))) == {}
 
 
 @pytest.mark.slow
 def test_a_short_pitch_is_named_with_its_size():
     """1 N with thirteen periods over the travel, hidden by an integrator of its own; it was learned as a curve."""
-    fit = with_cogging(fitted(RIPPLE), "coulomb_friction", "cubic_stiffness", "linear_stiffness", "quadratic_damping")
+    fit = with_ratchet(fitted(RIPPLE), "coulomb_friction", "cubic_stiffness", "linear_stiffness", "quadratic_damping")
     found = diagnose(case_of(("c", "x0")), fit.problem.observations, fit.problem.system, rng=np.random.default_rng(0))
-    assert found.named == ("cogging",)
+    assert found.named == ("ratchet",)
     assert found.learned is None
     values = found.after.values
-    assert values["cogging.force"] == pytest.approx(-1.0, abs=0.1)
-    assert values["cogging.pitch"] == pytest.approx(PITCH, rel=0.01)
+    assert values["ratchet.force"] == pytest.approx(-1.0, abs=0.1)
+    assert values["ratchet.pitch"] == pytest.approx(PITCH, rel=0.01)

@@ -1,12 +1,13 @@
 """The integrator of the blind trial against one that shares nothing with it, and what dry friction must do."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from lostmotion.kernels.independent_zoo import BOUC_WEN, DAHL, LUGRE, Body, Hidden, move
+from lostmotion.kernels.independent_zoo import BOUC_WEN, DAHL, LUGRE, Body, Hidden, _levels, move
 from lostmotion.workflow.zoo import Meddling, Rig, Signal, moved
 
 BODY = Body(m=2.0, c=3.0, k=0.0, k0=800.0, x0=0.02)
@@ -20,8 +21,8 @@ def force(t):
 
 def ours(hidden, body=BODY, start=(0.03, 0.0)):
     middle = (np.arange(SAMPLES * EVERY) + 0.5) * STEP
-    state = np.array([*start, 0.0, 0.0])
-    return move(force(middle), np.zeros((3, len(middle))), body, hidden, state, (0.0, STEP), EVERY)
+    state = np.array([*start, 0.0, 0.0, start[0], start[1]])
+    return move(force(middle), np.zeros((3, len(middle))), body, hidden, state, (0.0, STEP), EVERY)[:, 0]
 
 
 def theirs(extra, rate=lambda t, x, v, z: 0.0, body=BODY, start=(0.03, 0.0)):
@@ -48,6 +49,11 @@ def outside(x, half=BODY.x0):
 
 def dahl(t, x, v, z):
     return v * 4.0 / 0.01 - abs(v) * z / 0.01
+
+
+def beyond(x, travel, side):
+    """Return how far a body is beyond a stop at one side, or at both if that is 0."""
+    return max(x - travel, 0.0) * (side >= 0.0) - max(-travel - x, 0.0) * (side <= 0.0)
 
 
 def lugre(t, x, v, z):
@@ -86,6 +92,36 @@ CASES = {
         lambda t, x, v, z: 2.0 * math.sin(2.0 * math.pi * x / 0.03),
         lambda *_: 0.0,
     ),
+    "a stop at both ends": (
+        Hidden(stop=3000.0, stop_travel=0.03),
+        lambda t, x, v, z: -3000.0 * beyond(x, 0.03, 0.0),
+        lambda *_: 0.0,
+    ),
+    "a stop at the lower end": (
+        Hidden(stop=3000.0, stop_travel=0.03, stop_side=-1.0),
+        lambda t, x, v, z: -3000.0 * beyond(x, 0.03, -1.0),
+        lambda *_: 0.0,
+    ),
+    "a contact that is crushed": (
+        Hidden(crush=600.0, hertz=2000.0),
+        lambda t, x, v, z: -600.0 * abs(outside(x)) * v - math.copysign(2000.0 * abs(outside(x)) ** 1.5, x),
+        lambda *_: 0.0,
+    ),
+    "what is larger one way": (
+        Hidden(fold=90.0, bow=2000.0, slant=2.0),
+        lambda t, x, v, z: -90.0 * abs(x) - 2000.0 * x * x - 2.0 * abs(v),
+        lambda *_: 0.0,
+    ),
+    "a drag that grows": (
+        Hidden(aging=1.5),
+        lambda t, x, v, z: -1.5 * t * v,
+        lambda *_: 0.0,
+    ),
+    "a wave that narrows": (
+        Hidden(ripple=2.0, ripple_length=0.03, ripple_phase=0.8, ripple_chirp=0.2),
+        lambda t, x, v, z: 2.0 * math.sin(2.0 * math.pi * x / 0.03 * (1.0 + 0.2 * x / 0.03) + 0.8),
+        lambda *_: 0.0,
+    ),
     "dahl": (
         Hidden(memory=DAHL, memory_force=4.0, memory_travel=0.01),
         lambda t, x, v, z: -z,
@@ -118,19 +154,71 @@ def test_hidden_things_show():
             assert np.max(np.abs(ours(hidden) - plain)) > 5e-3 * np.ptp(plain), name
 
 
+def test_play_takes_the_spring_off():
+    body = Body(m=2.0, c=3.0, k=500.0, k0=0.0, x0=0.0)
+    other = theirs(lambda t, x, v, z: 500.0 * min(max(x, -0.02), 0.02), body=body)
+    assert np.max(np.abs(ours(Hidden(play=0.02), body) - other)) < 3e-4 * np.ptp(other)
+
+
+def test_hidden_mass_rides_on_the_body_and_another_is_added():
+    """The twin has both masses in its equations of motion; the added one joins at 1.2 s."""
+    mass, stiff, drag = 0.3, 40.0, 0.2
+
+    def slope(t, y):
+        x, v, z, w = y
+        between = stiff * (z - x) + drag * (w - v)
+        contact = BODY.k0 * math.copysign(max(abs(x) - BODY.x0, 0.0), x)
+        pull = force(t) - BODY.c * v - contact + between
+        return [v, pull / (BODY.m + (0.7 if t >= 1.2 else 0.0)), w, -between / mass]
+
+    times = np.arange(SAMPLES) * STEP * EVERY
+    start = [0.03, 0.0, 0.03, 0.0]
+    done = solve_ivp(slope, (0.0, times[-1]), start, t_eval=times, rtol=1e-9, atol=1e-11, max_step=2e-3)
+    hidden = Hidden(mode_mass=mass, mode_stiffness=stiff, mode_drag=drag, added=0.7, added_from=1.2)
+    assert np.max(np.abs(ours(hidden) - done.y[0])) < 3e-4 * np.ptp(done.y[0])
+
+
+def test_nothing_acts_before_its_onset():
+    late, always, never = (ours(Hidden(spring=200.0, **more)) for more in ({"onset": 1.5}, {}, {"onset": 99.0}))
+    cut = round(1.5 / (STEP * EVERY))
+    assert np.array_equal(late[: cut + 1], ours(Hidden())[: cut + 1])
+    assert np.abs(late - always).max() > 0.01 * np.ptp(always)
+    assert np.array_equal(never, ours(Hidden()))
+
+
+@pytest.mark.parametrize(
+    ("hidden", "ahead", "back"),
+    [
+        (Hidden(friction=4.0), 4.0, 4.0),
+        (Hidden(friction=4.0, friction_back=1.5), 4.0, 1.5),
+        (
+            Hidden(friction=4.0, wave=2.0, wave_length=0.1, wave_phase=0.5),
+            4.0 + 2.0 * math.cos(0.4 * math.pi + 0.5),
+            None,
+        ),
+        (Hidden(friction=4.0, warm=-3.0, warm_time=2.0), 4.0 - 3.0 * (1.0 - math.exp(-1.5)), None),
+        (Hidden(friction=4.0, load=0.1), 4.0 + 0.1 * 25.0, None),
+        (Hidden(friction=1.0, warm=-3.0, warm_time=2.0), 0.0, None),
+    ],
+)
+def test_friction_has_the_level_of_its_law(hidden, ahead, back):
+    """At 3 s, 0.02 m and a load of 25 N."""
+    assert _levels(3.0, 0.4, 0.02, 25.0, hidden) == pytest.approx((ahead, ahead if back is None else back))
+
+
 def test_friction_stops_a_sliding_body_where_it_should():
     """A body of 2 kg at 0.5 m/s against 4 N slides for 0.25 s and 62.5 mm, and then does not move at all."""
-    state = np.array([0.0, 0.5, 0.0, 0.0])
+    state = np.array([0.0, 0.5, 0.0, 0.0, 0.0, 0.0])
     free = Body(2.0, 0.0, 0.0, 0.0, 0.0)
     steps = 20_000
-    seen = move(np.zeros(steps), np.zeros((3, steps)), free, Hidden(friction=4.0), state, (0.0, STEP), 100)
+    seen = move(np.zeros(steps), np.zeros((3, steps)), free, Hidden(friction=4.0), state, (0.0, STEP), 100)[:, 0]
     assert seen[-1] == pytest.approx(0.0625, abs=1e-5)
     assert state[1] == 0.0
     assert np.ptp(seen[len(seen) // 2 + 30 :]) < 1e-9
 
 
 def test_body_sticks_below_its_breakaway_force():
-    state = np.zeros(4)
+    state = np.zeros(6)
     push = np.full(10_000, 5.0)
     hidden = Hidden(friction=4.0, excess=1.5, velocity=0.01)
     seen = move(push, np.zeros((3, len(push))), Body(2.0, 0.0, 0.0, 0.0, 0.0), hidden, state, (0.0, STEP), 100)
@@ -141,9 +229,9 @@ def test_body_sticks_to_a_moving_base():
     times = np.arange(1, 10_001) * STEP
     middle = times - 0.5 * STEP
     base = np.stack([0.1 * np.sin(middle), 0.1 * np.cos(middle), 0.1 * np.cos(times)])
-    state = np.array([0.0, 0.1, 0.0, 0.0])
+    state = np.array([0.0, 0.1, 0.0, 0.0, 0.0, 0.0])
     body, hidden = Body(2.0, 0.0, 0.0, 0.0, 0.0), Hidden(friction=4.0, friction_place=1.0)
-    seen = move(np.zeros(len(times)), base, body, hidden, state, (0.0, STEP), 100)
+    seen = move(np.zeros(len(times)), base, body, hidden, state, (0.0, STEP), 100)[:, 0]
     assert np.allclose(seen, 0.1 * np.sin(np.arange(len(seen)) * 100 * STEP), atol=1e-6)
 
 
@@ -181,6 +269,37 @@ def test_harmonic_of_the_drive_acts_and_is_not_recorded():
     seen = moved(machine, Hidden(), Meddling(harmonic=(6.0, 2.0 * OMEGA, 0.7)), np.random.default_rng(0))
     wanted = sum(answer(machine.time, *tone) for tone in (*machine.signal.tones, (6.0, 2.0 * OMEGA, 0.7)))
     assert np.max(np.abs(seen - wanted)) < 1e-4 * np.ptp(wanted)
+
+
+def test_lags_are_those_of_the_linear_answer():
+    """A lag of actuator or sensor multiplies each tone by 1 / (1 + i omega time)."""
+    machine, time = rig(), 0.02
+    wanted = sum(
+        np.real(a / (800.0 - 2.0 * w**2 + 8.0j * w) / (1.0 + 1.0j * w * time) * np.exp(1j * (w * machine.time + p)))
+        for a, w, p in machine.signal.tones
+    )
+    for meddling in (Meddling(actuator_time=time), Meddling(sensor_time=time)):
+        seen = moved(machine, Hidden(), meddling, np.random.default_rng(0))
+        assert np.max(np.abs(seen - wanted)) < 1e-3 * np.ptp(wanted)
+
+
+def test_sensor_can_show_velocity_and_acceleration():
+    machine = rig()
+    for order, channel in enumerate(("position", "velocity", "acceleration")):
+        seen = moved(replace(machine, channel=channel), Hidden(), Meddling(), np.random.default_rng(0))
+        wanted = sum(
+            np.real((1j * w) ** order * a / (800.0 - 2.0 * w**2 + 8.0j * w) * np.exp(1j * (w * machine.time + p)))
+            for a, w, p in machine.signal.tones
+        )
+        assert np.max(np.abs(seen - wanted)) < 1e-3 * np.ptp(wanted)
+
+
+def test_drive_is_cut_above_its_limit_and_in_its_dead_zone():
+    signal, t = Signal(((10.0, 5.0, 0.0),)), np.linspace(0.0, 3.0, 3001)
+    value, slope = Meddling(limit=6.0, dead=2.0).drive(signal, t)
+    assert np.abs(value).max() == pytest.approx(4.0)
+    assert (value == 0.0).mean() == pytest.approx(2.0 / math.pi * math.asin(0.2), abs=0.01)
+    assert not slope[(value == 0.0) | (np.abs(value) == np.abs(value).max())].any()
 
 
 def test_swept_drive_is_the_integral_of_its_slope():

@@ -8,14 +8,15 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from lostmotion.contracts import Array, Param, Term, Values, place_of
+from lostmotion.contracts import Array, Term, Values, place_of
 from lostmotion.errors import ContractError
 from lostmotion.inference.fit import Fit, Sensitivity, maximise, restarted, sensitivity, solved, warmed
+from lostmotion.inference.natural import SCANNED, frees_of, size_of, sorted_slots, star, term_of, tried_of
 from lostmotion.likelihood.compose import handed
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.problem import LATEST, NOISE, RANDOM, Free, Problem, Scales
+from lostmotion.likelihood.problem import LATEST, NOISE, RANDOM, Free, Problem
 from lostmotion.likelihood.system import Slot
-from lostmotion.quantities import FORCE, LENGTH, SPEED, TIME, Dimension, quantity_of
+from lostmotion.quantities import FORCE, TIME
 
 CREEP, FINEST = 0.02, 32
 SHORT, CLEAR = 1500, 8.0
@@ -36,8 +37,6 @@ MUTE = 1e-6
 """An amplitude of typical size that carries less information than this says nothing while the others are zero."""
 FARTHEST = 4
 """So many of the values far off are refitted: those at which the likelihood is highest to begin with."""
-SHAPES = (0.3, 1.0, 3.0)
-"""Where a shape parameter is tried, in units of its typical value."""
 
 
 Shapes = Mapping[str, Sequence[Mapping[str, float]]]
@@ -52,50 +51,6 @@ class Hint:
     gain: float
     start: Mapping[str, float]
     distinct: float
-
-
-def size_of(param: Param, scales: Scales) -> float:
-    """Return the typical size of a term's parameter in the natural scales of the recording."""
-    time = scales.span if param.lasting else scales.time
-    return param.typical * param.dimension.scale(scales.force, scales.length, time)
-
-
-def frees_of(slots: list[Slot], scales: Scales, start: Mapping[str, float]) -> tuple[Free, ...]:
-    """Return the free parameters of a term: amplitudes normal about zero (half-normal if signed), shapes log-normal."""
-    open_ = [slot for slot in slots if not slot.param.choices]
-    return tuple(_free(slot, size_of(slot.param, scales), start.get(slot.key)) for slot in open_)
-
-
-def _free(slot: Slot, size: float, start: float | None) -> Free:
-    if slot.param.scale == "log":
-        middle = math.log(size)
-        begin = middle if start is None else math.log(start)
-        return Free(slot.key, slot.unit, begin, middle - 4.0, middle + 4.0, log=True, mean=middle, sd=1.5)
-    low = max(slot.param.low, -30.0 * size)
-    return Free(slot.key, slot.unit, start or 0.0, low, min(slot.param.high, 30.0 * size), mean=0.0, sd=size)
-
-
-def term_of(problem: Problem, key: str) -> tuple[Term, list[Slot]]:
-    """Return a term of the problem's system and the slots of its parameters."""
-    i = problem.system.keys.index(key)
-    term, slots = problem.system.terms[i], [s for s in problem.system.slots if s.term == i]
-    return term, [_shown(problem, term, slot) for slot in slots] if term.acts == "sensor" else slots
-
-
-def _shown(problem: Problem, term: Term, slot: Slot) -> Slot:
-    """Return a parameter of a sensor, of which a length stands for what its channel shows."""
-    channel = next((s.channel for s in problem.observations[0].sensors if s.place == term.at), "position")
-    if slot.param.dimension != LENGTH or quantity_of(channel) == "position":
-        return slot
-    dimension = {"velocity": SPEED, "acceleration": Dimension(0, 1, -2), "force": FORCE}[quantity_of(channel)]
-    unit = dimension.unit(problem.system.model.motion)
-    return replace(slot, param=replace(slot.param, dimension=dimension), unit=unit)
-
-
-def sorted_slots(problem: Problem, key: str) -> tuple[list[Slot], list[Slot]]:
-    """Return the slots of the amplitudes of a term, and those of its shapes."""
-    _, slots = term_of(problem, key)
-    return [s for s in slots if s.param.null is not None], [s for s in slots if s.param.null is None]
 
 
 def slopes_of(fit: Fit) -> Sensitivity:
@@ -117,6 +72,8 @@ def screen(fit: Fit, slopes: Sensitivity, key: str, more: Sequence[Mapping[str, 
     late = bounded and amplitudes[0].param.dimension == TIME
     if len(amplitudes) == 1 and amplitudes[0].param.far and not problem.active and not late:
         hints.append(_afar(fit, amplitudes[0], key, hints[0].distinct))
+    if len(amplitudes) == 1 and amplitudes[0].param.scan:
+        hints += _stretched(fit, slopes, key, amplitudes[0])
     return max(hints, key=lambda h: h.gain)
 
 
@@ -141,16 +98,39 @@ def _afar(fit: Fit, slot: Slot, key: str, distinct: float) -> Hint:
     return Hint(key, gain if gain > CLEAR else 0.0, {slot.key: best}, distinct)
 
 
-def star(grids: Sequence[Sequence[float]]) -> list[tuple[float, ...]]:
-    """Return the points at which shapes are tried: each over its grid while the others stay in the middle of theirs."""
-    middle = tuple(grid[len(grid) // 2] for grid in grids)
-    points = [(*middle[:i], value, *middle[i + 1 :]) for i, grid in enumerate(grids) for value in grid]
-    return list(dict.fromkeys(points)) or [()]
+def _stretched(fit: Fit, slopes: Sensitivity, key: str, slot: Slot) -> list[Hint]:
+    """Return what a term promises whose response is far from linear in its amplitude, at amplitudes of a scan.
 
-
-def tried_of(param: Param, scales: Scales) -> tuple[float, ...]:
-    """Return the values at which a shape parameter is tried."""
-    return param.choices or tuple(f * size_of(param, scales) for f in SHAPES)
+    In place of the slope at zero stands that of the secant to each amplitude, and no more of it is believed than half
+    or one and a half times this amplitude.
+    """
+    problem = fit.problem
+    size = size_of(slot.param, problem.scales)
+    low, high = slot.param.scan or (1.0, 1.0)
+    reached = size * np.geomspace(low, high, SCANNED)
+    wider = problem.extended((_held(slot),), {key})
+    here, seen = slopes.here, wider.many(np.vstack([np.append(slopes.theta, a) for a in reached]))
+    hints = []
+    for i, amplitude in enumerate(reached):
+        if not seen.finite[i]:
+            continue
+        de = (seen.errors[i] - here.errors) / amplitude
+        dv = (seen.variances[i] - here.variances) / amplitude
+        joint = Sensitivity(
+            np.append(slopes.theta, 0.0),
+            here,
+            np.vstack([slopes.errors, de]),
+            np.vstack([slopes.variances, dv]),
+            np.append(slopes.steps, amplitude),
+        )
+        hint = _hint(fit, key, [slot], {}, joint)
+        start = hint.start.get(slot.key, 0.0)
+        if not start > 0.0:
+            continue
+        kept = min(max(start, 0.5 * amplitude), 1.5 * amplitude)
+        slack = 1.0 - (kept / start - 1.0) ** 2
+        hints.append(replace(hint, gain=hint.gain * slack, start={slot.key: kept}))
+    return hints
 
 
 def with_term(problem: Problem, hint: Hint, start: Mapping[str, float]) -> Problem:

@@ -23,6 +23,8 @@ cost about so much where they explain nothing."""
 RICH = 20.0
 """A discrepancy that promises to add so much to the log evidence is fitted before a name is given."""
 
+AGAIN, NEWS = 2, 6.0
+"""So often smooth forces are added to a fit with some of them, where they promise so much more log evidence."""
 RIGHTED = 3
 """So often the channels of a recording are put right where their flaws promise more than `RICH`."""
 
@@ -46,6 +48,11 @@ class Won(NamedTuple):
     price: float
     beside: float
 
+    @property
+    def open(self) -> float:
+        """What known values and channels that are left open cost at the most, as far as it was measured."""
+        return max(FLOOR, min(self.beside, 0.0))
+
     def over(self, worse: float) -> float:
         """Return the log evidence that was won, where likelihoods count by one over `worse`."""
         return self.evidence / worse - self.price + self.beside
@@ -55,8 +62,8 @@ def _won_by(found: tuple[Fit, float] | None, fit: Fit) -> Won | None:
     """Return what a fit with smooth forces has won over the one without; None where there is none."""
     if found is None or found[0].status == "diverged":
         return None
-    best, price = found
-    rest, right = expanded(best), None
+    best, price, rest = _settled(*found)
+    right = None
     won = _with_rest(best.log_evidence - fit.log_evidence, price, rest)
     for _ in range(RIGHTED):
         if not rest.bare(rest.worse) > RICH:
@@ -70,6 +77,23 @@ def _won_by(found: tuple[Fit, float] | None, fit: Fit) -> Won | None:
             break
         won = more
     return won
+
+
+def _settled(best: Fit, price: float) -> tuple[Fit, float, Expansion]:
+    """Return a fit with smooth forces, and with more of them as long as these promise news and it comes true.
+
+    With it its log price, and the expansion about it.
+    """
+    rest = expanded(best)
+    for _ in range(AGAIN):
+        if not rest.promise().gain - rest.bare(rest.worse) > NEWS:
+            break
+        more = fitted(rest)
+        if more is None or more[0].status == "diverged" or more[0].log_evidence - more[1] < best.log_evidence:
+            break
+        best, price = more[0], price + more[1]
+        rest = expanded(best)
+    return best, price, rest
 
 
 def _with_rest(evidence: float, price: float, rest: Expansion) -> Won:
@@ -199,7 +223,7 @@ class Selection:
         promised, won = expansion.promise(worse).gain, self._won(visit)
         if won is None:
             return promised
-        return min(promised, max(won.over(worse), min(expansion.bare(worse), FLOOR)))
+        return min(promised, max(won.over(worse), min(expansion.bare(worse), won.open)))
 
     def feared(self, visit: Visit, worse: float) -> float:
         """Return the log evidence that a discrepancy may add to a part of a set: promised or fitted, whichever is more.
@@ -231,7 +255,7 @@ class Selection:
         """Return the lead of a set over a part of it by what smooth forces promise or win beside either."""
         here, worse = self.expansion(visit), self.expansion(visit).worse
         won = self._won(visit) if self._won(over) and worse < LONG else None
-        own = max(won.over(worse), min(here.bare(worse), FLOOR)) if won else self.worth(visit, worse)
+        own = max(won.over(worse), min(here.bare(worse), won.open)) if won else self.worth(visit, worse)
         behind = (over.fit.log_evidence - visit.fit.log_evidence) / worse
         return own - behind - self.feared(over, worse) - self._prices(visit, over)
 

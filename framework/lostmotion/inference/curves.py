@@ -14,9 +14,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from lostmotion.contracts import Array, Interface, place_of
-from lostmotion.inference.candidates import term_of
 from lostmotion.inference.fit import Fit, Sensitivity, maximise, restarted, robust_covariance, solved
 from lostmotion.inference.learned import Learned, curves_for, spread
+from lostmotion.inference.natural import term_of
 from lostmotion.likelihood.problem import Free, Problem
 from lostmotion.likelihood.system import System, key_of
 

@@ -19,11 +19,12 @@ import numpy as np
 from scipy.linalg.lapack import dpotrf, dtrtrs
 
 from lostmotion.contracts import Array, Interface, place_of
-from lostmotion.inference.candidates import slopes_of, term_of
+from lostmotion.inference.candidates import slopes_of
 from lostmotion.inference.curves import Motions, motions_of, size_of, transplanted, with_curve
 from lostmotion.inference.fit import BLOCKS, Fit, Sensitivity, maximise, restarted, solved
 from lostmotion.inference.gauges import Gauge, gauges_of
 from lostmotion.inference.learned import Learned, OverPhase, OverPosition, OverTime, OverVelocity, spread
+from lostmotion.inference.natural import term_of
 from lostmotion.likelihood.problem import Free, Problem
 from lostmotion.likelihood.system import key_of
 

@@ -1,7 +1,7 @@
-"""Shapes far from the usual, such as a pitch that is a tenth of the travel: looked for along the recording at once.
+"""Shapes such as a pitch, a stop or a time: looked for along the recording over their whole range at once.
 
 A score test costs filter runs, and a wave over position is seen only by who tries its pitch to a few per cent. A law
-without states can be held against the gradient of the log-likelihood itself, at hundreds of shapes in a moment; one
+without states can be held against the gradient of the log-likelihood itself, at a hundred shapes in a moment; one
 that goes with it is then tried by the filter like any other.
 """
 
@@ -9,22 +9,26 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import dataclass
 
 import numpy as np
 
 from lostmotion.contracts import Array, place_of
-from lostmotion.inference.candidates import screen, size_of, slopes_of, sorted_slots, term_of, tried_of
+from lostmotion.inference.candidates import screen, slopes_of
 from lostmotion.inference.fit import Fit
+from lostmotion.inference.natural import size_of, sorted_slots, term_of, tried_of
 from lostmotion.inference.setup import stepped
-from lostmotion.likelihood.compose import handed
 from lostmotion.likelihood.latent import expected_force
+from lostmotion.likelihood.motion import derivatives
 from lostmotion.likelihood.problem import Problem
 from lostmotion.likelihood.system import Slot
 
-REACH, COUNT = 3.9, 240
-"""Shapes are looked at up to this logarithm from the typical value, as far as a prior reaches, and so many: 3 % apart,
-which tells a wave with fifteen periods over the travel."""
-MOST_SAMPLES = 6000
+REACH = 3.9
+"""Shapes without a scan are looked at up to this logarithm from the typical value, as far as a prior reaches."""
+APART, FEWEST = 0.033, 30
+"""How far shapes are apart, in logarithms, and how many there are at least: a wave with fifteen periods over the travel
+is told by this."""
+MOST_SAMPLES = 3000
 BLOCKS = 40
 STEADY = 3.0
 """A law is looked at more closely when it goes with the gradient in all parts of the recording: its mean over `BLOCKS`
@@ -33,19 +37,55 @@ CLEAR = 8.0
 """It is told of when a score test then promises this gain in log-likelihood, and more than at any usual shape."""
 
 
+@dataclass(frozen=True)
+class Track:
+    """A recorded motion: `states` (samples, n) as the filter sees them, and the gradient `lean` (samples,) there.
+
+    `lean` is that of the log-likelihood by a force on the first body.
+    """
+
+    problem: Problem
+    theta: Array
+    states: Array
+    lean: Array
+
+    def law(self, key: str, values: Mapping[str, float]) -> Array:
+        """Return the acceleration (samples,) that a term with these parameters gives the body at its place."""
+        problem, observation = self.problem, self.problem.observations[0]
+        system, row = problem.system, place_of(problem.system.model, term_of(problem, key)[0]).row
+        full = problem.full(self.theta)
+        full[[system.index[name] for name in values]] = list(values.values())
+        packed = system.pack(full[None], observation.dt / problem.nsub, observation.tone)
+        told = (packed, self.states, observation.inputs, observation.time)
+        with_term, without = (derivatives(system, frozenset(on), *told)[0][:, row] for on in ({key}, set[str]()))
+        return with_term - without
+
+    def steady(self, key: str, shape: Mapping[str, float]) -> float:
+        """Return by how many standard errors a law of a shape goes with the gradient, all amplitudes together."""
+        amplitudes, _ = sorted_slots(self.problem, key)
+        edges, square = np.linspace(0, len(self.lean), BLOCKS + 1).astype(int)[:-1], 0.0
+        for one in amplitudes:
+            others = {s.key: float(s.param.null or 0.0) for s in amplitudes if s is not one}
+            law = self.law(key, {**shape, **others, one.key: size_of(one.param, self.problem.scales)})
+            if not np.all(np.isfinite(law)):
+                return 0.0
+            parts = np.add.reduceat((law - law.mean()) * self.lean, edges)
+            error = float(parts.std(ddof=1)) / math.sqrt(BLOCKS)
+            square += (float(parts.mean()) / error) ** 2 if error > 0.0 else 0.0
+        return math.sqrt(square)
+
+
 def scouted(fit: Fit) -> dict[str, list[dict[str, float]]]:
-    """Return for each law without states the far shape to which the recording leans, where there is one."""
+    """Return for each law without states the shape to which the recording leans, where there is one that is clear."""
     keys, whole = scoutable(fit.problem), fit.problem.observations[0]
     if not keys:
         return {}
     problem = stepped(fit.problem, fit.theta).on((whole.part(0, min(whole.samples, MOST_SAMPLES)),))
-    observation = problem.observations[0]
     states, lean = expected_force(problem, fit.theta)
+    track = Track(problem, fit.theta, np.ascontiguousarray(states[:, : len(problem.system.model.states)]), lean)
     slopes, found = None, {}
     for key in keys:
-        place = place_of(problem.system.model, term_of(problem, key)[0])
-        x, v = observation.motion_at(place, states, problem.system.lever(problem.full(fit.theta), place))
-        if best := _best(problem, key, np.stack([observation.time, x, v]), lean):
+        if best := _best(track, key):
             slopes = slopes or slopes_of(fit)
             hint = screen(fit, slopes, key, [best])
             if hint.gain > CLEAR and best.items() <= hint.start.items():
@@ -54,9 +94,9 @@ def scouted(fit: Fit) -> dict[str, list[dict[str, float]]]:
 
 
 def scoutable(problem: Problem) -> list[str]:
-    """Return the keys of forces without states that need nothing but their own numbers, one of them a free shape."""
+    """Return the keys of forces without states that have a free shape, and that are not at work yet."""
     idle = [(key, term_of(problem, key)[0]) for key in problem.system.keys if key not in problem.active]
-    plain = [key for key, term in idle if term.acts == "motion" and not term.states and not term.needs]
+    plain = [key for key, term in idle if term.acts == "motion" and not term.states]
     return [key for key in plain if _free_shapes(problem, key)]
 
 
@@ -64,34 +104,26 @@ def _free_shapes(problem: Problem, key: str) -> list[Slot]:
     return [s for s in sorted_slots(problem, key)[1] if s.param.scale == "log" and not s.param.choices]
 
 
-def _best(problem: Problem, key: str, seen: Array, lean: Array) -> dict[str, float] | None:
+def _best(track: Track, key: str) -> dict[str, float] | None:
     """Return the shape that goes with the gradient best, and better than the usual ones, or None."""
+    problem = track.problem
     _, shapes = sorted_slots(problem, key)
     usual = {s.key: tried_of(s.param, problem.scales) for s in shapes}
     middle = {name: grid[len(grid) // 2] for name, grid in usual.items()}
-    spread = np.exp(np.linspace(-REACH, REACH, COUNT))
-    far = {s.key: size_of(s.param, problem.scales) * spread for s in _free_shapes(problem, key)}
+    far = {s.key: _grid(s, problem) for s in _free_shapes(problem, key)}
+    chosen = {s.key: s.param.choices for s in shapes if s.param.choices}
 
     def steadiest(grids: Mapping[str, Array | tuple[float, ...]]) -> tuple[float, dict[str, float]]:
         tried = [{**middle, name: float(value)} for name, grid in grids.items() for value in grid]
-        return max(((_steady(problem, key, shape, seen, lean), shape) for shape in tried), key=lambda pair: pair[0])
+        tried += [{**shape, name: value} for shape in tried for name, choices in chosen.items() for value in choices]
+        return max(((track.steady(key, shape), shape) for shape in tried), key=lambda pair: pair[0])
 
     top, best = steadiest(far)
     return best if top > max(STEADY, steadiest(usual)[0]) else None
 
 
-def _steady(problem: Problem, key: str, shape: Mapping[str, float], seen: Array, lean: Array) -> float:
-    """Return by how many standard errors a law goes with the gradient, the best of its amplitudes alone."""
-    term, slots = term_of(problem, key)
-    amplitudes, _ = sorted_slots(problem, key)
-    edges, u = np.linspace(0, len(lean), BLOCKS + 1).astype(int)[:-1], np.zeros(2)
-    most = 0.0
-    for one in amplitudes:
-        p = handed(term, [shape.get(s.key, float(s.key == one.key)) for s in slots])
-        law = np.array([term.force(t, x, v, u, p, ()) for t, x, v in seen.T.tolist()])
-        if not np.all(np.isfinite(law)):
-            return 0.0
-        parts = np.add.reduceat((law - law.mean()) * lean, edges)
-        error = float(parts.std(ddof=1)) / math.sqrt(BLOCKS)
-        most = max(most, abs(float(parts.mean())) / error if error > 0.0 else 0.0)
-    return most
+def _grid(slot: Slot, problem: Problem) -> Array:
+    """Return the values of a shape that are looked at."""
+    low, high = slot.param.scan or (math.exp(-REACH), math.exp(REACH))
+    count = max(round(math.log(high / low) / APART), FEWEST)
+    return np.asarray(size_of(slot.param, problem.scales) * np.geomspace(low, high, count))

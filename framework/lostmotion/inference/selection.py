@@ -18,11 +18,11 @@ from lostmotion.inference.candidates import (
     large,
     screen,
     slopes_of,
-    term_of,
     with_term,
 )
 from lostmotion.inference.course import BEAM, CLOSE, Selection, Visit
 from lostmotion.inference.fit import MANY, Fit, alone, maximise, restarted, together, warmed
+from lostmotion.inference.natural import term_of
 from lostmotion.inference.prices import price_of, related
 from lostmotion.inference.standing import CERTAIN, standing
 from lostmotion.kernels.threads import each

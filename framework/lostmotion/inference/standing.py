@@ -8,8 +8,8 @@ import numpy as np
 from scipy.special import chdtri, ndtr
 
 from lostmotion.contracts import Array
-from lostmotion.inference.candidates import sorted_slots
 from lostmotion.inference.fit import Fit, robust_covariance
+from lostmotion.inference.natural import sorted_slots
 from lostmotion.likelihood.problem import Problem
 
 CERTAIN = 3.0

@@ -7,13 +7,12 @@ sees. With none of these it is the same motion as that of `independent_zoo.move`
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
 
 import numba
 import numpy as np
 
-from lostmotion.kernels.independent_zoo import BOUC_WEN, _drags, _remembered, _springs
+from lostmotion.kernels.independent_zoo import BOUC_WEN, Hidden, _drags, _levels, _pressing, _remembered, _springs
 
 CELLS = 400
 REACH = 3.0
@@ -44,25 +43,37 @@ def _read(table, z):  # type: ignore[no-untyped-def]
     return table[cell] + (at - cell) * (table[cell + 1] - table[cell])
 
 
-@numba.njit(cache=True, nogil=True)
 def move_rough(force, base, body, hidden, flaws, curves, state, clock, every):  # type: ignore[no-untyped-def]
-    """Return what a sensor at the body shows (samples,) before every `every` steps; `state` moves on to the end.
+    """Return what a sensor at the body shows (samples, 1) before every `every` steps; `state` moves on to the end.
 
     As `independent_zoo.move`, with `curves` (3, CELLS + 1): force (N) over position, force (N) over velocity, and the
     level of friction over the speed, in shares of its usual one. `state` holds position, velocity, acceleration, what
-    is remembered, the way of the foot, and place and velocity of the far mode.
+    is remembered, the way of the foot, place and velocity of the far mode, and those of a hidden mass.
     """
+    return _moved(force, base, body, hidden, Hidden(), flaws, curves, state, clock, every)
+
+
+@numba.njit(cache=True, nogil=True)
+def _moved(force, base, body, hidden, nothing, flaws, curves, state, clock, every):  # type: ignore[no-untyped-def]
+    """Return what `move_rough` does; before its onset `nothing` stands for what is hidden."""
     begin, step = clock
-    x, v, a, z, sunk, far, fast_far = state
-    h, m = hidden, body.m
-    loss = 0.5 * step * body.c / m
-    seen = np.zeros(len(force) // every)
+    x, v, a, z, sunk, far, fast_far, own, fast_own = state
+    seen = np.zeros((len(force) // every, 1))
     for k in range(len(seen) * every):
         if k % every == 0:
-            seen[k // every] = x + far
+            seen[k // every, 0] = x + far
+        now = begin + (k + 0.5) * step
+        h = hidden if now >= hidden.onset else nothing
+        m = body.m + (h.added if now >= h.added_from else 0.0)
+        loss = 0.5 * step * body.c / m
         middle, fast = x + 0.5 * step * v, v + 0.5 * step * a
         gap, slide = middle - base[0, k] - sunk, fast - base[1, k]
-        inner = _springs(begin + (k + 0.5) * step, middle, gap, body, h) + _drags(middle, fast, gap, slide, body, h)
+        inner = _springs(now, middle, gap, body, h) + _drags(now, middle, fast, gap, slide, body, h)
+        if h.mode_mass > 0.0:
+            between = h.mode_stiffness * (own + 0.5 * step * fast_own - middle) + h.mode_drag * (fast_own - fast)
+            fast_own -= step * between / h.mode_mass
+            own += step * fast_own
+            inner += between
         inner += _read(curves[0], middle / flaws.position) + _read(curves[1], fast / flaws.velocity)
         pull = force[k] + inner
         if flaws.foot > 0.0:
@@ -74,12 +85,11 @@ def move_rough(force, base, body, hidden, flaws, curves, state, clock, every):  
             z = new
         rub = slide if h.friction_place == 1.0 else fast
         place = gap if h.friction_place == 1.0 else middle
-        level = h.friction + h.excess * math.exp(-((rub / h.velocity) ** 2)) + h.rough * (place / h.rough_length) ** 2
-        level *= _read(curves[2], abs(rub) / flaws.velocity)
+        ahead, back = _levels(now, rub, place, _pressing(force[k], gap, body), h)
+        shape = _read(curves[2], abs(rub) / flaws.velocity)
         still = base[2, k] * h.friction_place
         slip = (v * (1.0 - loss) + step * pull / m + 2.0 * loss * base[1, k]) / (1.0 + loss) - still
-        bound = step * level / m
-        after = still + slip - min(max(slip, -bound), bound)
+        after = still + slip - min(max(slip, -step * shape * back / m), step * shape * ahead / m)
         a, v = (after - v) / step, after
         x = middle + 0.5 * step * v
         if flaws.far_pace > 0.0:
@@ -87,5 +97,5 @@ def move_rough(force, base, body, hidden, flaws, curves, state, clock, every):  
             fast_far += step * (flaws.far_pace**2 * push - 2.0 * flaws.far_loss * flaws.far_pace * fast_far)
             far += step * fast_far
     state[0], state[1], state[2], state[3] = x, v, a, z
-    state[4], state[5], state[6] = sunk, far, fast_far
+    state[4], state[5], state[6], state[7], state[8] = sunk, far, fast_far, own, fast_own
     return seen

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,10 +22,10 @@ def realigned(found: Innovations, late: Sequence[int]) -> Innovations:
     return replace(found, errors=errors, variances=variances)
 
 
-def grouped(rows: NDArray[np.intp], late: Sequence[tuple[int, ...]]) -> list[NDArray[np.intp]]:
-    """Return the rows in groups of which the sensors are late by the same whole samples."""
-    groups: dict[tuple[int, ...], list[int]] = {}
-    for row, shift in zip(rows.tolist(), late, strict=True):
+def grouped(rows: NDArray[np.intp], views: Sequence[tuple[Any, ...]]) -> list[NDArray[np.intp]]:
+    """Return the rows in groups that see the readings alike: moved by the same whole samples, and put right alike."""
+    groups: dict[tuple[Any, ...], list[int]] = {}
+    for row, shift in zip(rows.tolist(), views, strict=True):
         groups.setdefault(shift, []).append(row)
     return [np.array(some, dtype=np.intp) for some in groups.values()]
 

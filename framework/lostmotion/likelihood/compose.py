@@ -48,7 +48,8 @@ class Law:
 
     `steps` are those of its own numbers that are the step of the integration. `fields` are the numbers of the term
     itself, handed to functions that are methods and not static ones. The numbers of a law that is `prepared` may be
-    many: it is handed a window on them.
+    many: it is handed a window on them. `felt` are those of its own numbers that are the acceleration of the body. One
+    of a sensor is no force, and is told what its `channel` shows.
     """
 
     place: int
@@ -59,13 +60,15 @@ class Law:
     steps: tuple[int, ...] = ()
     fields: tuple[Any, ...] | None = None
     prepared: bool = False
+    felt: tuple[int, ...] = ()
+    channel: int | None = None
 
 
 class Rows(NamedTuple):
     """Where in the block of a model its quantities begin.
 
-    `own` are the parameters of the laws, `pace` how fast latent forces fade, `step` is that of the integration (s), and
-    `inverse` one over each inertia.
+    `own` are the parameters of the laws, `onset` the times (s) from which on each law acts, `pace` how fast latent
+    forces fade, `step` is that of the integration (s), and `inverse` one over each inertia.
     """
 
     time: int
@@ -75,6 +78,7 @@ class Rows(NamedTuple):
     channels: int
     params: int
     own: int
+    onset: int
     pace: int
     step: int
     inverse: int
@@ -110,8 +114,8 @@ class Blueprint:
         """Where the quantities stand in a block; there is room for the states of all laws and a force on each body."""
         states = self.states + sum(law.states for law in self.laws) + len(self.bodies)
         width = sum(law.width for law in self.laws)
-        sizes = (1, states, states, self.inputs, self.channels, self.params, width, 1, 1, len(self.inertias))
-        starts = np.cumsum([0, *sizes])
+        sizes = [1, states, states, self.inputs, self.channels, self.params, width, len(self.laws), 1, 1]
+        starts = np.cumsum([0, *sizes, len(self.inertias)])
         return Rows(*(int(start) for start in starts))
 
     def inverse(self, inertia: int) -> int:
@@ -119,8 +123,8 @@ class Blueprint:
         return self.rows.inverse + self.inertias.index(inertia)
 
 
-def law_of(term: Term, place: int) -> Law:
-    """Return a term as a law at a place of the model.
+def law_of(term: Term, place: int, channel: int | None = None) -> Law:
+    """Return a term as a law at a place of the model, or one of a sensor with its channel.
 
     Where its functions are methods and not static ones, they are handed the numbers among the fields of the term.
     """
@@ -132,12 +136,17 @@ def law_of(term: Term, place: int) -> Law:
         raise ContractError(
             f"{term.name} takes its own fields in {own[0]}, and has none that are numbers: make it static"
         )
-    steps = tuple(len(term.params) + i for i, need in enumerate(term.needs) if need == "step")
+    steps, felt = (
+        tuple(len(term.params) + i for i, need in enumerate(term.needs) if need == name)
+        for name in ("step", "acceleration")
+    )
     prepared = cls.prepared is not Term.prepared
-    if prepared and steps:
-        raise ContractError(f"{term.name} prepares its numbers and needs `step`, which changes: let it do one of both")
+    if prepared and (steps or felt):
+        raise ContractError(
+            f"{term.name} prepares its numbers and needs `step` or `acceleration`, which change: let it do one of both"
+        )
     width = term.prepared(np.ones((1, len(term.params) + len(term.needs)))).shape[1]
-    return Law(place, width, len(term.states), cls.force, cls.rate, steps, made, prepared)
+    return Law(place, width, len(term.states), cls.force, cls.rate, steps, made, prepared, felt, channel)
 
 
 def handed(term: Term, own: Sequence[float] | Array) -> Values:
@@ -187,6 +196,8 @@ def _law_lines(index: int, plan: Blueprint, start: int) -> list[str]:
     law, rows = plan.laws[index], plan.rows
     place, at = plan.places[law.place], FIRST + len(plan.laws) + index
     places = [rows.step if a in law.steps else rows.own + start + a for a in range(law.width)]
+    for a in law.felt:
+        places[a] = rows.derivatives + place.row
     own = "(" + "".join(f"value(block, {row}, l), " for row in places) + ")"
     if law.prepared:
         own = f"column(block, {rows.own + start}, l, {law.width})"
@@ -201,7 +212,9 @@ def _law_lines(index: int, plan: Blueprint, start: int) -> list[str]:
         "        for l in range(lanes):",
         f"            u = column(block, {rows.inputs}, l, {plan.inputs})",
         f"            x, v = motion_{law.place}({moved})",
-        f"            push = force_{index}({told})",
+        f"            since = value(block, 0, l) - value(block, {rows.onset + index}, l)",
+        f"            begun = min(max(0.5 + 0.5 * since / value(block, {rows.step}, l), 0.0), 1.0)",
+        f"            push = begun * force_{index}({told})",
         _pushed(plan, place.row, place.inertia, "push"),
     ]
     if place.against:
@@ -209,6 +222,38 @@ def _law_lines(index: int, plan: Blueprint, start: int) -> list[str]:
     if law.states:
         lines.append(f"            rate_{index}({told}, column(block, {rows.derivatives} + at, l, {law.states}))")
     return lines
+
+
+def _sensor_lines(index: int, plan: Blueprint, start: int) -> list[str]:
+    """Return the lines that move the states of one sensor on, once all forces have acted."""
+    law, rows, at = plan.laws[index], plan.rows, FIRST + len(plan.laws) + index
+    own = "".join(
+        f"value(block, {rows.step if a in law.steps else rows.own + start + a}, l), " for a in range(law.width)
+    )
+    states = "".join(f"value(block, {rows.states + a} + at, l), " for a in range(law.states))
+    told = (
+        f"{'fields_' + str(index) + ', ' if law.fields else ''}value(block, 0, l), shown, 0.0, u, ({own}), ({states})"
+    )
+    slopes = f"column(block, {rows.derivatives}, l, {plan.states})"
+    return [
+        f"    if wires[{FIRST + index}] != 0:",
+        f"        at = wires[{at}]",
+        "        for l in range(lanes):",
+        f"            u = column(block, {rows.inputs}, l, {plan.inputs})",
+        f"            seen = column(block, {rows.channels}, l, {plan.channels})",
+        f"            model_observe({_told(plan, slopes + ', ')}, seen)",
+        f"            shown = value(block, {rows.channels + (law.channel or 0)}, l)",
+        f"            rate_{index}({told}, column(block, {rows.derivatives} + at, l, {law.states}))",
+    ]
+
+
+def _told(plan: Blueprint, dydt: str) -> str:
+    """Return what the functions of a model are told, with `dydt` behind the states."""
+    rows = plan.rows
+    return (
+        f"value(block, 0, l), column(block, {rows.states}, l, {plan.states}), {dydt}"
+        f"column(block, {rows.inputs}, l, {plan.inputs}), column(block, {rows.params}, l, {plan.params})"
+    )
 
 
 def _latent_lines(index: int, plan: Blueprint) -> list[str]:
@@ -229,10 +274,7 @@ def _lane_text(plan: Blueprint) -> str:
     """Return the source of a model and its terms for many points at once."""
     rows = plan.rows
     starts = [sum(law.width for law in plan.laws[:i]) for i in range(len(plan.laws))]
-    told = (
-        f"value(block, 0, l), column(block, {rows.states}, l, {plan.states}), {{dydt}}"
-        f"column(block, {rows.inputs}, l, {plan.inputs}), column(block, {rows.params}, l, {plan.params})"
-    )
+    forces, sensors = ([i for i, law in enumerate(plan.laws) if (law.channel is None) == own] for own in (True, False))
     slopes = f"column(block, {rows.derivatives}, l, {plan.states})"
     lines = [
         '"""Written by lostmotion.likelihood.compose: a model and its terms, at many points at once."""',
@@ -240,15 +282,16 @@ def _lane_text(plan: Blueprint) -> str:
         "@kernel",
         "def derive(block, wires, lanes):",
         "    for l in range(lanes):",
-        f"        model_rhs({told.format(dydt='')}, {slopes})",
-        *(line for i, start in enumerate(starts) for line in _law_lines(i, plan, start)),
+        f"        model_rhs({_told(plan, '')}, {slopes})",
+        *(line for i in forces for line in _law_lines(i, plan, starts[i])),
         *(line for i in range(len(plan.bodies)) for line in _latent_lines(i, plan)),
+        *(line for i in sensors for line in _sensor_lines(i, plan, starts[i])),
         "",
         "@kernel",
         "def observe(block, wires, lanes):",
         "    for l in range(lanes):",
         f"        seen = column(block, {rows.channels}, l, {plan.channels})",
-        f"        model_observe({told.format(dydt=slopes + ', ')}, seen)",
+        f"        model_observe({_told(plan, slopes + ', ')}, seen)",
     ]
     return "\n".join(lines) + "\n"
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from lostmotion.contracts import Array
+from lostmotion.contracts import Array, SensorTerm
 from lostmotion.likelihood.observation import Observation, static_equilibrium
 
 if TYPE_CHECKING:
@@ -25,6 +25,7 @@ def initial(problem: Problem, fulls: Array, gain: Array, offset: Array, index: i
     mean, cov = np.zeros((len(fulls), n)), np.zeros((n, n))
     for i, name in enumerate(model.states):
         cov[i, i] = (scales.velocity if i == 1 or "velocity" in name else scales.length) ** 2
+    _begin_terms(problem, (mean, cov), gain, offset, index)
     if observation.begun is not None:
         known = slice(0, len(model.states))
         mean[:, known], cov[known, known] = observation.begun
@@ -36,6 +37,23 @@ def initial(problem: Problem, fulls: Array, gain: Array, offset: Array, index: i
         if "position" in sensor.channel and state >= 0 and not np.isnan(observation.first[number][0]):
             _at_reading(observation, number, (state, scales.length), (mean, cov), gain[:, number], offset[:, number])
     return mean, np.tile(cov, (len(fulls), 1, 1))
+
+
+def _begin_terms(problem: Problem, begun: tuple[Array, Array], gain: Array, offset: Array, index: int) -> None:
+    """Let states of terms begin: what may be anything at its natural size, and a sensor at its first reading."""
+    (mean, cov), scales, system = begun, problem.scales, problem.system
+    observation = problem.observations[index]
+    places = {sensor.place: i for i, sensor in enumerate(observation.sensors)}
+    for (key, term), first in zip(system.forces, system.wiring(problem.active)[1], strict=True):
+        if key not in problem.active:
+            continue
+        for i, dimension in enumerate(term.begins):
+            cov[first + i, first + i] = dimension.scale(scales.force, scales.length, scales.time) ** 2
+        if isinstance(term, SensorTerm) and (number := places.get(term.at)) is not None:
+            seen = observation.first[number][0]
+            size = observation.amplitude_of(observation.sensors[number].label)
+            mean[:, first] = 0.0 if np.isnan(seen) else (seen - offset[:, number]) / gain[:, number]
+            cov[first, first] = (10.0 * observation.noises[number]) ** 2 + (1e-2 * size) ** 2
 
 
 def placed(observation: Observation) -> bool:

@@ -165,7 +165,7 @@ def _numbers_of(observation: Observation, dynamics: Dynamics, points: Points) ->
     for number, sensor in enumerate(observation.sensors):
         slow += sensor.noise.kind == "ar1"
         own, late = slow if sensor.noise.kind == "ar1" else -1, bool(points.lag[0, number])
-        rows.append((*dynamics.system.channel(sensor.channel), own, late))
+        rows.append((*dynamics.system.shown(sensor, dynamics.active), own, late))
     return np.array(rows, dtype=np.int64)
 
 

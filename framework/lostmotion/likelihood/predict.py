@@ -132,7 +132,7 @@ def observed(problem: Problem, theta: Array, states: Array, where: tuple[int, in
     """Return what a sensor would show of the `states` (steps, n), from sample `where[0]` of a recording."""
     system, (start, index) = problem.system, where
     observation, (gain, offset, lag) = problem.observations[index], problem.gauge(theta, index, sensor)
-    channel, direct = system.channel(observation.sensors[sensor].channel)
+    channel, direct = system.shown(observation.sensors[sensor], problem.active)
     if direct >= 0:
         shown = states[:, direct]
     else:
@@ -144,6 +144,8 @@ def observed(problem: Problem, theta: Array, states: Array, where: tuple[int, in
     if lag:
         at = np.arange(len(shown)) - lag / observation.dt
         shown = np.interp(at, np.arange(len(shown)), shown, left=shown[0])
+    for term, p in system.at_sensor(problem.full(theta, index), problem.active, observation.sensors[sensor].place):
+        shown = term.bent(shown, p)
     return np.asarray(gain * shown + offset)
 
 

@@ -11,9 +11,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from lostmotion.contracts import Array, Engine
+from lostmotion.contracts import Array, Engine, SensorTerm
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.batches import distinct, grouped, joined, realigned
+from lostmotion.likelihood.bends import Bend, stretched, unbent
 from lostmotion.likelihood.drive import Drive, widened
 from lostmotion.likelihood.engine import Dynamics, Innovations, Points, Random, Smoothed
 from lostmotion.likelihood.initial import initial
@@ -206,7 +207,7 @@ class Problem:
             rows, inverse = distinct(thetas[:, route.used])
             places.append(inverse)
             share = min(lanes_for(-(-len(rows) // self.jobs)), TOGETHER)
-            alike = grouped(rows, self.late(thetas[rows], index))
+            alike = grouped(rows, self._views_of(thetas[rows], index))
             tasks += [(index, some[k : k + share]) for some in alike for k in range(0, len(some), share)]
             if len(alike) > 1:  # the order of the tasks is another than that of the rows
                 place = np.empty(len(thetas), dtype=np.intp)
@@ -231,11 +232,33 @@ class Problem:
     def _each(self, tasks: Sequence[tuple[int, NDArray[np.intp]]], thetas: Array) -> list[Innovations]:
         def work(task: tuple[int, NDArray[np.intp]]) -> Innovations:
             index, rows = task
-            late = self.late(thetas[rows[:1]], index)[0]
-            found = self.engine.filter(self.dynamics, self._seen(index, late), self.points(thetas[rows], index))
+            late, bends = self.late(thetas[rows[:1]], index)[0], self._bends(thetas[rows[0]], index)
+            seen, slopes = unbent(self._seen(index, late), bends)
+            found = self.engine.filter(self.dynamics, seen, self.points(thetas[rows], index))
+            found = stretched(found, slopes) if bends else found
             return realigned(found, late) if any(late) else found
 
         return each(work, tasks, self.jobs)
+
+    def _views_of(self, thetas: Array, index: int) -> list[tuple[Any, ...]]:
+        """Return for each of some coordinates (points, n) what makes readings another view: delays, and what bends."""
+        late = self.late(thetas, index)
+        if not any(key in self.active for key in self.system.bending):
+            return list(late)
+        bends = [tuple((s, p) for s, _, p in self._bends(theta, index)) for theta in thetas]
+        return list(zip(late, bends, strict=True))
+
+    def _bends(self, theta: Array, index: int) -> list[Bend]:
+        """Return which sensors of a recording are bent at some coordinates, by which term and with which numbers."""
+        if not any(key in self.active for key in self.system.bending):
+            return []
+        full, sensors = self.full(theta, index), self.observations[index].sensors
+        return [
+            (s, term, p)
+            for s, sensor in enumerate(sensors)
+            for term, p in self.system.at_sensor(full, self.active, sensor.place)
+            if type(term).bent is not SensorTerm.bent
+        ]
 
     def points(self, thetas: Array, index: int = 0) -> Points:
         """Return coordinates (points, n) as an engine takes them, for one recording."""
@@ -337,7 +360,7 @@ class Problem:
 
     def smooth(self, theta: Array, index: int = 0) -> Smoothed:
         """Return the filtered and the smoothed states of a recording at the coordinates `theta`."""
-        seen = self._seen(index, self.late(theta[None], index)[0])
+        seen, _ = unbent(self._seen(index, self.late(theta[None], index)[0]), self._bends(theta, index))
         return self.engine.smooth(self.dynamics, seen, self.points(theta[None], index))
 
     def extended(self, more: Iterable[Free], active: Iterable[str]) -> Problem:

@@ -117,14 +117,22 @@ class _Machine:
         system.model.rhs(t, y, u, self.packed, dydt)
         on, at = system.wiring(self.dynamics.active)
         first = len(system.model.params)
+        onsets = self.packed[plan.rows.onset - plan.rows.params :]
+        step, sensing = self.packed[plan.rows.step - plan.rows.params], []
         for i, (law, (_, term)) in enumerate(zip(plan.laws, system.forces, strict=True)):
-            own, first = tuple(self.packed[first : first + law.width].tolist()), first + law.width
+            numbers, first = self.packed[first : first + law.width].copy(), first + law.width
             if on[i]:
                 place = plan.places[law.place]
+                numbers[list(law.felt)] = dydt[place.row]
+                own = tuple(numbers.tolist())
+                if law.channel is not None:
+                    sensing.append((law, term, own, slice(at[i], at[i] + law.states)))
+                    continue
                 lever = () if place.lever is None else (self.packed[place.lever],)
                 x, v = place.motion(y, u, *lever)
                 states = slice(at[i], at[i] + law.states)
                 push = term.force(t, x, v, u, own, tuple(y[states]))
+                push *= min(max(0.5 + 0.5 * (t - onsets[i]) / step, 0.0), 1.0)
                 dydt[place.row] += push / self.packed[place.inertia]
                 if place.against:
                     dydt[place.against[0]] -= push * math.prod(lever) / self.packed[place.against[1]]
@@ -134,6 +142,10 @@ class _Machine:
             force = self.dynamics.states + i
             dydt[body.row] += y[force] / self.packed[body.inertia]
             dydt[force] = -self.pace * y[force]
+        for law, term, own, states in sensing:
+            shown = np.zeros(len(system.model.channels))
+            system.model.observe(t, y, dydt, u, self.packed, shown)
+            term.rate(t, float(shown[law.channel]), 0.0, u, own, tuple(y[states]), dydt[states])
         return dydt
 
     def seen(self, y: Array, u: Array, t: float, channel: int) -> float:
@@ -231,7 +243,8 @@ class _Run:
 
     def _expected(self, k: int, sensor: int) -> tuple[float, Array, float]:
         """Return what a sensor should show of its channel, its slopes over the states, and the variance of bends."""
-        channel, direct = self.machine.system.channel(self.observation.sensors[sensor].channel)
+        shown = self.observation.sensors[sensor]
+        channel, direct = self.machine.system.shown(shown, self.machine.dynamics.active)
         lag = float(self.points.lag[0, sensor])
         if direct >= 0 and not lag:
             return float(self.y[direct]), np.eye(len(self.y))[direct], 0.0

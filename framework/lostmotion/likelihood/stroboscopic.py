@@ -20,7 +20,10 @@ def _law_lines(index: int, plan: Blueprint, start: int) -> list[str]:
     """Return the lines that add one law to `dydt`, behind its switch."""
     law, i = plan.laws[index], index
     place = plan.places[law.place]
-    own = "(" + "".join(f"w[{start + a}], " for a in range(law.width)) + ")"
+    if law.channel is not None:  # a sensor is no part of the flow
+        return []
+    numbers = (f"dydt[{place.row}]" if a in law.felt else f"w[{start + a}]" for a in range(law.width))
+    own = "(" + "".join(f"{number}, " for number in numbers) + ")"
     if law.prepared:
         own = f"view(w, {start}, {law.width})"
     states = "".join(f"y[at[{i}] + {a}], " for a in range(law.states))

@@ -20,9 +20,13 @@ from lostmotion.likelihood.acting import Column, Recorded, of_order, through
 from lostmotion.likelihood.compose import Blueprint, Functions, Place, functions, law_of
 from lostmotion.likelihood.drive import SILENT, Drive, Tone
 from lostmotion.likelihood.motion import derivatives, run
+from lostmotion.likelihood.sensors import Sensor
+from lostmotion.quantities import TIME
 
 PIECE = 200_000
 """Steps of a long motion that are computed at a time."""
+ALWAYS = -1e9
+ONSET = Param("since", "time from which on it acts", TIME, null=ALWAYS)
 NUMB = -1
 """The index of an observed channel that is no state and has to be linearised."""
 
@@ -92,13 +96,18 @@ class System:
         return tuple(own)
 
     @cached_property
+    def onsets(self) -> tuple[Slot, ...]:
+        """The time from which on each force acts: `key.since`. They stand behind all parameters in the full vector."""
+        return tuple(Slot(f"{key}.since", ONSET, "s", self.keys.index(key)) for key, _ in self.forces)
+
+    @cached_property
     def index(self) -> Mapping[str, int]:
         """The position of each parameter key in the full vector."""
-        return {slot.key: i for i, slot in enumerate(self.slots)}
+        return {slot.key: i for i, slot in enumerate((*self.slots, *self.onsets))}
 
     def slot(self, name: str) -> Slot:
         """Return the parameter called `name` or one of its aliases, or raise `ContractError` naming the nearest."""
-        for slot in self.slots:
+        for slot in (*self.slots, *self.onsets):
             if name == slot.key or (slot.term is None and name in slot.param.aliases):
                 return slot
         known = [slot.key for slot in self.slots if slot.term is None]
@@ -108,7 +117,7 @@ class System:
 
     def vector(self, values: Mapping[str, float]) -> Array:
         """Return the full parameter vector; what is not given is `null`, or one for a shape parameter, or zero."""
-        full = np.array([_default(slot) for slot in self.slots])
+        full = np.array([_default(slot) for slot in (*self.slots, *self.onsets)])
         for name, value in values.items():
             full[self.index[self.slot(name).key]] = value
         return full
@@ -140,7 +149,12 @@ class System:
             for i in model.interfaces
         )
         names = [i.name for i in model.interfaces]
-        laws = tuple(law_of(t, names.index(place_of(model, t).name)) for _, t in self.forces)
+        laws = tuple(
+            law_of(t, 0, model.channels.index(t.channel))
+            if isinstance(t, SensorTerm)
+            else law_of(t, names.index(place_of(model, t).name))
+            for _, t in self.forces
+        )
         sizes = (len(model.states), len(model.inputs), len(model.channels), len(model.params))
         return Blueprint(*sizes, model.rhs, model.observe, places, laws)
 
@@ -178,31 +192,42 @@ class System:
 
         `fulls` is (points, parameters); `step` is that of the integration (s), of which a law that jumps at rest takes
         `line` to pass its steep line. Behind the parameters of the model and of the forces stand the pace of a latent
-        force, the step, and one over each inertia.
+        force, the step, and one over each inertia; before these the onset of each force.
         """
         base = fulls[:, : len(self.model.params)]
-        more = {"step": step, "omega": tone.omega, "amplitude": tone.amplitude, "none": 0.0}
+        onsets = fulls[:, len(self.slots) :]
+        more = {"step": step, "finest": step, "omega": tone.omega, "amplitude": tone.amplitude}
         columns = []
         for key, term in self.forces:
             own = np.empty((len(fulls), len(self._sources[key])))
             for column, (kind, i) in enumerate(self._sources[key]):
-                if kind == "mobility":
-                    own[:, column] = line * step / self.inertia(fulls, self.model.interfaces[i])
+                if kind in ("mobility", "inertia"):
+                    moved = self.inertia(fulls, self.model.interfaces[i])
+                    own[:, column] = moved if kind == "inertia" else line * step / moved
+                elif kind == "number":
+                    own[:, column] = i
                 else:
                     own[:, column] = fulls[:, i] if kind == "own" else more[kind]
             columns.append(term.prepared(own))
         with np.errstate(divide="ignore"):
             inverse = [1.0 / fulls[:, i] for i in self.blueprint.inertias]
-        return np.column_stack([base, *columns, np.zeros(len(fulls)), np.full(len(fulls), step), *inverse])
+        silent, steps = np.zeros(len(fulls)), np.full(len(fulls), step)
+        return np.column_stack([base, *columns, onsets, silent, steps, *inverse])
 
     def values(self, full: Array, key: str, tone: Tone) -> tuple[float, ...]:
-        """Return `p` of a term beside the machine: its own parameters, and behind them what it needs."""
-        return tuple(float(full[i] if kind == "own" else getattr(tone, kind)) for kind, i in self._sources[key])
+        """Return `p` of a term beside the machine: its own parameters, and behind them what it needs of the drive."""
+        known = {"omega": tone.omega, "amplitude": tone.amplitude}
+        return tuple(float(full[i] if kind == "own" else known.get(kind, 0.0)) for kind, i in self._sources[key])
 
     @cached_property
     def forces(self) -> tuple[tuple[str, Term], ...]:
-        """The terms that act on the motion, with their keys, in the order of the kernel."""
-        return tuple((k, t) for k, t in zip(self.keys, self.terms, strict=True) if t.acts == "motion")
+        """The terms that the kernel knows, with their keys, in its order: forces, and sensors that have states.
+
+        Those that feel the acceleration come behind all other forces, which make it.
+        """
+        pairs = list(zip(self.keys, self.terms, strict=True))
+        own = [(k, t) for k, t in pairs if t.acts == "motion" or (t.acts == "sensor" and t.states)]
+        return tuple(sorted(own, key=lambda pair: (pair[1].acts == "sensor", "acceleration" in pair[1].needs)))
 
     @cached_property
     def beside(self) -> Mapping[str, DriveTerm | SensorTerm]:
@@ -283,15 +308,30 @@ class System:
     def _entries(self, key: str, term: Term) -> Iterable[tuple[str, int]]:
         place = place_of(self.model, term)
         contact = {"stiffness": place.stiffness, "play": place.play}
+        contact["contact"] = place.stiffness if place.play else None
         yield from (("own", self.index[f"{key}.{q.name}"]) for q in term.params)
         for need in term.needs:
-            if need in ("step", "omega", "amplitude"):
+            if need in ("step", "finest", "omega", "amplitude"):
                 yield need, NUMB
-            elif need == "mobility":
+            elif need in ("mobility", "inertia"):
                 yield need, self.model.interfaces.index(place)
+            elif need in ("acceleration", "force_input", "shake_input"):
+                yield "number", self._input_of(need, place)
             else:
                 name = contact.get(need, need)
-                yield ("own", self.index[name]) if name else ("none", NUMB)
+                yield ("own", self.index[name]) if name else ("number", 0)
+
+    def _input_of(self, need: str, place: Interface) -> int:
+        """Return which input is the force on the body at a place, or the acceleration of the base; -1 where none is."""
+        inputs, first = self.model.inputs, self.model.interfaces[0].row
+        name = "base_acceleration" if need == "shake_input" else "force" if place.row == first else "second_force"
+        return inputs.index(name) if name in inputs and need != "acceleration" else NUMB
+
+    @cached_property
+    def bending(self) -> tuple[str, ...]:
+        """The keys of the terms that bend what a sensor shows."""
+        bent = SensorTerm.bent
+        return tuple(k for k, t in self.beside.items() if isinstance(t, SensorTerm) and type(t).bent is not bent)
 
     def gauging(self, active: Iterable[str]) -> bool:
         """Return whether any sensor term is active."""
@@ -327,6 +367,17 @@ class System:
             )
         direct = self.model.states.index(name) if name in self.model.states else NUMB
         return self.model.channels.index(name), direct
+
+    def shown(self, sensor: Sensor, active: Iterable[str]) -> tuple[int, int]:
+        """Return the index of the channel of a sensor, and that of the state it shows directly (-1 when it is none).
+
+        One with a state of its own shows that.
+        """
+        chosen = set(active)
+        for (key, term), at in zip(self.forces, self.wiring(chosen)[1], strict=True):
+            if key in chosen and isinstance(term, SensorTerm) and term.at == sensor.place:
+                return self.channel(sensor.channel)[0], int(at)
+        return self.channel(sensor.channel)
 
     def simulate(self, full: Array, active: Iterable[str], y0: Array, drive: Drive, nsub: int = 1) -> Motion:
         """Return the free motion by RK4, `nsub` steps to a sample, from the state `y0` under `drive`.

@@ -10,11 +10,11 @@ import numpy as np
 from lostmotion.case import Case
 from lostmotion.contracts import Array, Interface, Model, SensorTerm, Term, Values, place_of
 from lostmotion.errors import DataError
-from lostmotion.inference.candidates import term_of
 from lostmotion.inference.course import RICH, Selection, Visit
 from lostmotion.inference.fit import Fit, maximise
 from lostmotion.inference.learned import Learned, OverTime
 from lostmotion.inference.locate import Curve, covariates, curve, edges_of, further, summary
+from lostmotion.inference.natural import term_of
 from lostmotion.inference.odds import Ratio, likely, log_odds
 from lostmotion.inference.prices import price_of
 from lostmotion.inference.scout import scoutable, scouted
@@ -144,7 +144,7 @@ def candidates_of(
         if term.acts == "motion" and (not term.anywhere or place.name == "ground" or len(model.interfaces) == 1)
     ]
     tried += [
-        term(at=at)  # type: ignore[call-arg]
+        term(at=at, **_channel_of(term, at, observations))  # type: ignore[call-arg]
         for term in terms
         if term.acts != "motion"
         for at in _beside(term, observations)
@@ -154,6 +154,13 @@ def candidates_of(
     names = [term.name for term in tried]
     several = any(len(observation.sensors) > 1 for observation in observations)
     return tuple(t for i, t in enumerate(tried) if several or not set(t.equals) & set(names[:i]))
+
+
+def _channel_of(term: type[Term], at: str, observations: Sequence[Observation]) -> dict[str, str]:
+    """Return the channel of the sensor at which a term acts that has such a field."""
+    if not term.states or term.acts != "sensor" or not observations:
+        return {}
+    return {"channel": next(sensor.channel for sensor in observations[0].sensors if sensor.place == at)}
 
 
 def _beside(term: type[Term], observations: Sequence[Observation]) -> tuple[str, ...]:
@@ -182,11 +189,15 @@ def diagnose(
     say("fit of the nominal model")
     nominal = search(problem_of(system, case, train, jobs=jobs), rng)
     curves = Curves(len(system.keys), say)
-    selection = sought(nominal, fitted_keys(system), say, promise=curves.promise)
-    if scoutable(selection.chosen.problem) and significant_random_force(selection.chosen) > SIGNIFICANT:
-        say("shapes far from the usual")
-        if shapes := scouted(selection.chosen):
-            selection = sought(nominal, fitted_keys(system), say, shapes, curves.promise)
+    shapes = {}
+    if scoutable(nominal.problem) and significant_random_force(nominal) > SIGNIFICANT:
+        say("shapes: pitches, stops, times")
+        shapes = scouted(nominal)
+    selection = sought(nominal, fitted_keys(system), say, shapes, curves.promise)
+    if selection.chosen.problem.active and significant_random_force(selection.chosen) > SIGNIFICANT:
+        say("shapes beside what was found")
+        if more := {key: found for key, found in scouted(selection.chosen).items() if key not in shapes}:
+            selection = sought(nominal, fitted_keys(system), say, {**shapes, **more}, curves.promise)
     say("final estimates")
     before = polish(selection.nominal)
     after = polish(selection.chosen) if selection.chosen.problem.active else before

@@ -15,7 +15,7 @@ from lostmotion.contracts import Array, Model, Param, Term
 DRAWS = 12
 STEP = 1e-3
 """The integration step (s) of a term that has states or asks for `step`."""
-_NEEDED = {"step": STEP, "mobility": STEP}
+_NEEDED = {"step": STEP, "finest": STEP, "mobility": STEP, "force_input": 0.0, "shake_input": -1.0}
 
 
 @dataclass(frozen=True)

@@ -228,7 +228,19 @@ def sensor_is_true_at_null(term: Term) -> str:
 def _true(term: SensorTerm, p: tuple[float, ...]) -> bool:
     """Return whether a sensor shows what is there, at once."""
     exact = (term.gain(p), term.offset(p), term.delay(p)) == (1.0, 0.0, 0.0)
-    return exact and bool(np.array_equal(term.rounded(_TIMES, p), _TIMES))
+    same = (np.array_equal(shown(_TIMES, p), _TIMES) for shown in (term.rounded, term.bent))
+    return exact and all(same) and not _lags(term, p)
+
+
+def _lags(term: SensorTerm, p: tuple[float, ...]) -> bool:
+    """Return whether a sensor with states does not reach within a few steps what is there."""
+    if not term.states:
+        return False
+    point = next(of_term(term))
+    shown = Point(0.0, np.zeros(len(term.states)), point.u, np.array(p), 1.0, 0.0)
+    for _ in range(_STEPS):
+        shown.y[:] += STEP * pace(term, shown)
+    return bool(abs(shown.y[0] - 1.0) > 1e-6)
 
 
 @rule("term")

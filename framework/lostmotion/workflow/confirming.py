@@ -12,9 +12,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from lostmotion.contracts import Array
-from lostmotion.inference.candidates import term_of
 from lostmotion.inference.course import RICH
 from lostmotion.inference.gauges import APART
+from lostmotion.inference.natural import term_of
 from lostmotion.likelihood.observation import Observation
 from lostmotion.quantities import TIME
 from lostmotion.stages.compare import confirmed, pieces_of, run_errors

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lostmotion.contracts import Array
-from lostmotion.inference.candidates import term_of
 from lostmotion.inference.fit import Fit
+from lostmotion.inference.natural import term_of
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.predict import free_run, observed
 from lostmotion.quantities import quantity_of, unit_of

@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 
 from lostmotion.contracts import Array, Model, SensorTerm, Term
-from lostmotion.inference.candidates import term_of
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.mixture import draws
+from lostmotion.inference.natural import term_of
 from lostmotion.likelihood.predict import Horizon
 from lostmotion.quantities import unit_of
 from lostmotion.results import Interval

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
@@ -37,10 +38,40 @@ _INSIDE: Mapping[str, Callable[[Numbers, float, float], dict[str, float]]] = {
     "linear_stiffness": lambda p, place, _w: {"spring": p["coefficient"], "spring_place": place},
     "cubic_stiffness": lambda p, place, _w: {"cube": p["coefficient"], "cube_place": place},
     "asymmetric_gap": lambda p, _place, _w: {"shift": p["shift"]},
+    "backlash": lambda p, _place, _w: {"play": p["gap"]},
+    "end_stop": lambda p, _place, _w: {"stop": p["stiffness"], "stop_travel": p["travel"], "stop_side": p["side"]},
+    "hunt_crossley_contact": lambda p, _place, _w: {"crush": p["coefficient"]},
+    "hertz_contact": lambda p, _place, _w: {"hertz": p["coefficient"]},
+    "bilinear_stiffness": lambda p, _place, _w: {"fold": 0.5 * p["difference"]},
+    "quadratic_stiffness": lambda p, _place, _w: {"bow": p["coefficient"]},
+    "hidden_mode": lambda p, _place, _w: {
+        "mode_mass": p["mass"],
+        "mode_stiffness": p["mass"] * (2.0 * math.pi * p["frequency"]) ** 2,
+        "mode_drag": 4.0 * math.pi * p["mass"] * p["damping"] * p["frequency"],
+    },
+    "directional_friction": lambda p, place, _w: {
+        "friction": p["forward"], "friction_back": p["backward"], "friction_place": place,
+    },
+    "position_dependent_friction": lambda p, place, _w: {
+        "friction": p["force"], "wave": p["wave"], "wave_length": p["pitch"], "wave_phase": p["phase"],
+        "friction_place": place,
+    },
+    "load_dependent_friction": lambda p, place, _w: {"load": p["coefficient"], "friction_place": place},
+    "friction_drift": lambda p, place, _w: {
+        "friction": p["force"], "warm": p["change"], "warm_time": p["time"], "friction_place": place,
+    },
+    "directional_damping": lambda p, _place, _w: {"slant": 0.5 * p["difference"]},
+    "damping_drift": lambda p, _place, _w: {"aging": p["rate"]},
+    "cogging": lambda p, _place, _w: {
+        "ripple": p["force"], "ripple_length": p["pitch"], "ripple_phase": p["phase"],
+    },
+    "inertia_change": lambda p, _place, _w: {"added": p["change"], "added_from": p["time"]},
     "gap_drift": lambda p, _place, _w: {"drift": p["rate"]},
     "offset_force": lambda p, _place, _w: {"push": p["force"]},
     "parametric_stiffness": lambda p, _place, w: {"depth": p["depth"], "pace": p["ratio"] * w, "phase": p["phase"]},
-    "ripple over position": lambda p, _place, _w: {"ripple": p["force"], "ripple_length": p["length"]},
+    "wave over position that narrows": lambda p, _place, _w: {
+        "ripple": p["force"], "ripple_length": p["length"], "ripple_chirp": p["chirp"],
+    },
     "friction that depends on position": lambda p, place, _w: {
         "rough": p["force"], "rough_length": p["length"], "friction_place": place,
     },
@@ -53,6 +84,11 @@ _OUTSIDE: Mapping[str, Callable[[Numbers, float], dict[str, Any]]] = {
     "excitation_harmonic": lambda p, w: {"harmonic": (p["amplitude"], p["ratio"] * w, p["phase"])},
     "excitation_delay": lambda p, _w: {"excitation_delay": p["delay"]},
     "excitation_gain": lambda p, _w: {"excitation_gain": p["error"]},
+    "actuator_lag": lambda p, _w: {"actuator_time": p["time"]},
+    "sensor_lag": lambda p, _w: {"sensor_time": p["time"]},
+    "position_ripple": lambda p, _w: {"ripple": (p["size"], p["pitch"], p["phase"])},
+    "drive_saturation": lambda p, _w: {"limit": p["limit"]},
+    "drive_dead_zone": lambda p, _w: {"dead": p["width"]},
     "sensor_delay": lambda p, _w: {"sensor_delay": p["delay"]},
     "sensor_gain": lambda p, _w: {"sensor_gain": p["error"]},
     "sensor_quantisation": lambda p, _w: {"step": p["step"]},

@@ -216,11 +216,12 @@ def moved_roughly(rig: Rig, hidden: tuple[Hidden, Meddling], world: World, rng: 
     """Return what the sensor shows (samples,) before its noise, after the machine has settled."""
     inside, meddling = hidden
     curves = np.array([world.curves[name] for name in ("position", "velocity", "friction")])
-    flaws, state = Flaws(**world.flaws), np.zeros(7)
+    flaws, state = Flaws(**world.flaws), np.zeros(9)
     state[0] = foot_of(rig)
 
     def follow(force: Array, base: Array, clock: tuple[float, float], every: int) -> Array:
-        return np.asarray(move_rough(force, base, rig.body, inside, flaws, curves, state, clock, every))
+        told = (force, base, rig.body, inside, flaws, curves, state, clock, every)
+        return np.asarray(move_rough(*told)[:, 0])  # type: ignore[no-untyped-call]
 
     fastest = max(pace_of(rig), 0.4 * world.flaws["far_pace"])
     return followed(rig, meddling, rng, fastest / FINE, follow, partial(_timed, world, rig))

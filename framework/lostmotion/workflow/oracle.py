@@ -13,8 +13,9 @@ from typing import Any
 
 import numpy as np
 
-from lostmotion.inference.candidates import joined, term_of
+from lostmotion.inference.candidates import joined
 from lostmotion.inference.fit import Fit, maximise, restarted, warmed
+from lostmotion.inference.natural import term_of
 from lostmotion.inference.selection import significant_random_force
 from lostmotion.inference.setup import polish, problem_of, split, stepped
 from lostmotion.likelihood.predict import Horizon

@@ -10,8 +10,8 @@ import numpy as np
 
 from lostmotion.case import Experiment
 from lostmotion.contracts import Term
-from lostmotion.inference.candidates import term_of
 from lostmotion.inference.course import Visit
+from lostmotion.inference.natural import term_of
 from lostmotion.inference.prices import related
 from lostmotion.likelihood.system import key_of
 from lostmotion.quantities import unit_of

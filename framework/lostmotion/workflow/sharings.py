@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from lostmotion.inference.candidates import term_of
+from lostmotion.inference.natural import term_of
 from lostmotion.inference.sharing import Shared, Sharing, sharing_of
 from lostmotion.likelihood.problem import Problem
 from lostmotion.quantities import unit_of

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from lostmotion.inference.candidates import term_of
+from lostmotion.inference.natural import term_of
 from lostmotion.quantities import TIME
 from lostmotion.report.words import spoken
 from lostmotion.stages.compare import Prediction

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from lostmotion.contracts import Array
-from lostmotion.inference.candidates import term_of
 from lostmotion.inference.fit import Fit
+from lostmotion.inference.natural import term_of
 from lostmotion.likelihood.system import key_of
 from lostmotion.quantities import quantity_of, unit_of
 from lostmotion.report.words import chance, span, spoken

@@ -8,6 +8,8 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
+from scipy.interpolate import CubicSpline
+from scipy.signal import lfilter
 
 from lostmotion.contracts import Array
 from lostmotion.errors import DataError
@@ -27,6 +29,9 @@ ACROSS = 12.0
 USUAL = 1e-3
 """Noise of the measured excitation over its amplitude."""
 GAPPED = ("lin_backlash", "robot_joint")
+CHANNELS = ("position", "velocity", "acceleration")
+LAG_STEPS = 20
+"""Steps to a sample of a sensor that lags."""
 
 
 @dataclass(frozen=True)
@@ -105,13 +110,41 @@ class Meddling:
     sensor_gain: float = 0.0
     step: float = 0.0
     rms: float = 0.0
+    limit: float = math.inf
+    dead: float = 0.0
+    actuator_time: float = 0.0
+    sensor_time: float = 0.0
+    ripple: tuple[float, float, float] = (0.0, 1.0, 0.0)
 
     def drive(self, signal: Signal, t: Array) -> tuple[Array, Array]:
-        """Return the true drive and its slope at the times `t` (s) where the recording will show `signal`."""
+        """Return the true drive and its slope at the times `t` (s) where the recording will show `signal`.
+
+        An actuator that lags is not part of it.
+        """
         amplitude, pace, phase = self.harmonic
         late, gain = t - self.excitation_delay, 1.0 + self.excitation_gain
         value = gain * signal.value(late) + amplitude * np.cos(pace * t + phase)
-        return value, gain * signal.slope(late) - amplitude * pace * np.sin(pace * t + phase)
+        slope = gain * signal.slope(late) - amplitude * pace * np.sin(pace * t + phase)
+        acts = (np.abs(value) < self.limit) & (np.abs(value) > self.dead)
+        value = np.clip(value, -self.limit, self.limit) - np.clip(value, -self.dead, self.dead)
+        return value, slope * acts
+
+    def shown(self, seen: Array, rate: float) -> Array:
+        """Return what a sensor shows (samples,) that lags and has a ripple over what it shows."""
+        if self.sensor_time > 0.0:
+            seen = _behind(seen, rate, self.sensor_time)
+        size, pitch, phase = self.ripple
+        return np.asarray(seen + size * np.cos(2.0 * math.pi * seen / pitch + phase))
+
+
+def _behind(seen: Array, rate: float, time: float) -> Array:
+    """Return samples behind a lag of first order with a time constant (s), by Euler's rule on a fine spline."""
+    fine = np.arange(len(seen) * LAG_STEPS) / LAG_STEPS
+    between = CubicSpline(np.arange(len(seen)), seen)(fine)
+    share = -math.expm1(-1.0 / (rate * LAG_STEPS * time))
+    middle = 0.5 * (between[1:] + between[:-1])
+    lagged, _ = lfilter([share], [1.0, share - 1.0], middle, zi=[(1.0 - share) * between[0]])
+    return np.asarray(np.concatenate([between[:1], lagged])[::LAG_STEPS])
 
 
 @dataclass(frozen=True)
@@ -129,6 +162,7 @@ class Rig:
     samples: int
     noise: float
     priors: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
+    channel: str = "position"
 
     @property
     def body(self) -> Body:
@@ -153,12 +187,13 @@ class Rig:
 
 
 def moved(rig: Rig, hidden: Hidden, meddling: Meddling, rng: np.random.Generator) -> Array:
-    """Return the true position (samples,) that a sensor without noise shows, after the machine has settled."""
-    state = np.zeros(4)
+    """Return what a sensor without noise shows (samples,), after the machine has settled."""
+    state = np.zeros(6)
     state[0] = foot_of(rig)
 
     def follow(force: Array, base: Array, clock: tuple[float, float], every: int) -> Array:
-        return np.asarray(move(force, base, rig.body, hidden, state, clock, every))
+        seen = np.asarray(move(force, base, rig.body, hidden, state, clock, every))  # type: ignore[no-untyped-call]
+        return np.asarray(seen[:, CHANNELS.index(rig.channel)])
 
     return followed(rig, meddling, rng, pace_of(rig) / FINE, follow)
 
@@ -175,8 +210,8 @@ def foot_of(rig: Rig) -> float:
 
 Follow = Callable[[Array, Array, tuple[float, float], int], Array]
 """Moves a machine on under a force (steps,) and the motion of its base (3, steps): position, velocity in the middle of
-steps, velocity at their ends. Told when it begins and the step (s), and how many steps make a sample; returns the
-position at samples."""
+steps, velocity at their ends. Told when it begins and the step (s), and how many steps make a sample; returns what a
+sensor shows at samples."""
 
 
 def followed(
@@ -187,7 +222,7 @@ def followed(
     follow: Follow,
     beside: Callable[[Array], Array | float] = lambda _middles: 0.0,
 ) -> Array:
-    """Return the position (samples,) that a sensor without noise shows, piece by piece, after the machine has settled.
+    """Return what a sensor without noise shows (samples,), piece by piece, after the machine has settled.
 
     At least `pace` steps are made in a second. `beside` is a further force (N) at times (s). Raises `DataError` when
     the motion leaves all bounds.
@@ -196,6 +231,7 @@ def followed(
     settle = rig.signal.settling(rig.rate)
     step = 1.0 / (rig.rate * every)
     kicks, seen = meddling.rms * rng.standard_normal(settle + rig.samples), []
+    behind = 0.0
     for first in range(-settle, rig.samples, PIECE):
         count = min(PIECE, rig.samples - first)
         begin = first / rig.rate - meddling.sensor_delay
@@ -206,11 +242,18 @@ def followed(
         base = np.zeros((3, len(value)))
         if rig.based:
             base[0], base[1], base[2] = value, slope, meddling.drive(rig.signal, edges[1:])[1]
+        if meddling.actuator_time > 0.0:
+            share = -math.expm1(-step / meddling.actuator_time)
+            lagged, left = lfilter([share], [1.0, share - 1.0], value, zi=[behind])
+            rates, behind, value = (value - lagged) / meddling.actuator_time, float(left[0]), lagged
+            if rig.based:
+                base[0], base[1] = lagged, rates
+                base[2] = np.append(0.5 * (rates[1:] + rates[:-1]), rates[-1])
         seen.append(follow(force if rig.based else force + value, base, (begin, step), every))
-    position = np.concatenate(seen)[settle:]
-    if not np.isfinite(position).all():
+    whole = np.concatenate(seen)
+    if not np.isfinite(whole).all():
         raise DataError("the simulated motion left all bounds")
-    return (1.0 + meddling.sensor_gain) * position
+    return (1.0 + meddling.sensor_gain) * meddling.shown(whole, rig.rate)[settle:]
 
 
 def draw_rig(rng: np.random.Generator, most: int) -> Rig:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import ClassVar
 
 from lostmotion.contracts import Array, Param, Term, Values
-from lostmotion.quantities import DAMPING, LENGTH
+from lostmotion.quantities import DAMPING, LENGTH, Dimension
 
 
 @dataclass(frozen=True)
@@ -20,6 +21,7 @@ class ContactDamping(Term):
     paper: ClassVar[str] = "Gilardi, Sharf, Mechanism and Machine Theory 37 (2002) 1213-1239, section 4.1"
     params = (Param("coefficient", "damping in contact", DAMPING, low=0.0, null=0.0),)
     needs = ("x0",)
+    resembles = ("hunt_crossley_contact",)
 
     @staticmethod
     def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
@@ -46,3 +48,42 @@ class AsymmetricGap(Term):
         old = k0 * (x - x0) if x > x0 else (k0 * (x + x0) if x < -x0 else 0.0)
         new = k0 * (y - x0) if y > x0 else (k0 * (y + x0) if y < -x0 else 0.0)
         return old - new
+
+
+@dataclass(frozen=True)
+class HuntCrossleyContact(Term):
+    """A drag in the contact that grows with how far the parts are pressed into each other: no jump where they meet."""
+
+    at: str = "ground"
+    name: ClassVar[str] = "hunt_crossley_contact"
+    physics: ClassVar[str] = "The contact dissipates the more the further it is pressed: {coefficient} of its depth"
+    formula: ClassVar[str] = "-coefficient * d * v, d = |x| - x0 where that is positive, else 0"
+    paper: ClassVar[str] = "Hunt, Crossley, J. Applied Mechanics 42 (1975) 440-445, eq. (9) with n = 1"
+    params = (
+        Param("coefficient", "damping over depth of the contact", Dimension(1, -2, 1), low=0.0, null=0.0, typical=3.0),
+    )
+    needs = ("x0",)
+    resembles = ("contact_damping",)
+
+    @staticmethod
+    def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
+        return -p[0] * max(abs(x) - p[1], 0.0) * v
+
+
+@dataclass(frozen=True)
+class HertzContact(Term):
+    """A contact of curved bodies beside the straight one: its stiffness grows with the root of its depth."""
+
+    at: str = "ground"
+    name: ClassVar[str] = "hertz_contact"
+    physics: ClassVar[str] = "The contact stiffens as it is pressed: {coefficient} times its depth to the power of 3/2"
+    formula: ClassVar[str] = "-coefficient * d^(3/2) * sign(x), d = |x| - x0 where that is positive, else 0"
+    paper: ClassVar[str] = "Hertz, J. reine angewandte Mathematik 92 (1882) 156-171; Johnson, Contact Mechanics (1985)"
+    params = (Param("coefficient", "Hertzian stiffness", Dimension(1, -1.5, 0), null=0.0, typical=3.0),)
+    needs = ("x0",)
+
+    @staticmethod
+    def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
+        depth = max(abs(x) - p[1], 0.0)
+        push = p[0] * depth * math.sqrt(depth)
+        return -push if x > 0.0 else push

@@ -9,7 +9,7 @@ from typing import ClassVar
 import numpy as np
 
 from lostmotion.contracts import Array, DriveTerm, Input, Param, Values
-from lostmotion.quantities import NUMBER, TIME
+from lostmotion.quantities import FORCE, NUMBER, TIME
 from lostmotion_plugins.terms.changing import ParametricStiffness
 
 FAR = (-2.0, -1.0, -0.5, -0.2, 0.2, 0.5, 1.0, 1.5, 2.0, 2.8, 4.0, 5.5)
@@ -84,3 +84,59 @@ class ExcitationDelay(DriveTerm):
     @staticmethod
     def true(u: Input, t: Array, p: Values, order: int) -> Array:
         return u(t - p[0], order)
+
+
+@dataclass(frozen=True)
+class DriveSaturation(DriveTerm):
+    """A drive that cannot do all that was asked of it: beyond a limit a share of it is lost; all of it, if that is 1.
+
+    The limit is of the dimension of the input.
+    """
+
+    at: str = "drive"
+    name: ClassVar[str] = "drive_saturation"
+    physics: ClassVar[str] = "Of what the drive is asked beyond {limit}, the share {share} is lost"
+    formula: ClassVar[str] = "u - share * (u - clip(u, -limit, limit))"
+    paper: ClassVar[str] = (
+        "Tao, Kokotovic, Adaptive Control of Systems with Actuator Nonlinearities (1996), section 2.1"
+    )
+    params = (
+        Param("share", "share of the excess that is lost", NUMBER, low=0.0, high=1.0, null=0.0),
+        Param("limit", "largest drive", FORCE, low=0.0, scale="log", typical=0.7, scan=(0.15, 4.0)),
+    )
+    resembles = ("excitation_gain",)
+
+    @staticmethod
+    def true(u: Input, t: Array, p: Values, order: int) -> Array:
+        asked = u(t, 0)
+        if order == 0:
+            return np.asarray(asked - p[0] * (asked - np.clip(asked, -p[1], p[1])))
+        return np.asarray(u(t, order) * (1.0 - p[0] * (np.abs(asked) > p[1])))
+
+
+@dataclass(frozen=True)
+class DriveDeadZone(DriveTerm):
+    """A drive that does nothing, or less, until so much is asked of it: a valve with overlap, a motor that sticks.
+
+    The width is of the dimension of the input.
+    """
+
+    at: str = "drive"
+    name: ClassVar[str] = "drive_dead_zone"
+    physics: ClassVar[str] = "Of the first {width} that the drive is asked, the share {share} is lost"
+    formula: ClassVar[str] = "u - share * clip(u, -width, width)"
+    paper: ClassVar[str] = (
+        "Tao, Kokotovic, Adaptive Control of Systems with Actuator Nonlinearities (1996), section 2.2"
+    )
+    params = (
+        Param("share", "share of it that is lost", NUMBER, low=0.0, high=1.0, null=0.0),
+        Param("width", "half width of the zone", FORCE, low=0.0, scale="log", typical=0.2, scan=(0.1, 10.0)),
+    )
+    resembles = ("excitation_gain",)
+
+    @staticmethod
+    def true(u: Input, t: Array, p: Values, order: int) -> Array:
+        asked = u(t, 0)
+        if order == 0:
+            return np.asarray(asked - p[0] * np.clip(asked, -p[1], p[1]))
+        return np.asarray(u(t, order) * (1.0 - p[0] * (np.abs(asked) < p[1])))

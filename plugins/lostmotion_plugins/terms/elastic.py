@@ -43,6 +43,40 @@ class CubicStiffness(Term):
 
 
 @dataclass(frozen=True)
+class QuadraticStiffness(Term):
+    """A spring force with the square of travel: a spring that is curved at rest, as that of a buckled beam."""
+
+    at: str = "ground"
+    name: ClassVar[str] = "quadratic_stiffness"
+    physics: ClassVar[str] = "A spring force of {coefficient} times the square of position acts"
+    formula: ClassVar[str] = "-coefficient * x^2"
+    paper: ClassVar[str] = "Nayfeh, Mook, Nonlinear Oscillations (1979), section 4.4"
+    params = (Param("coefficient", "quadratic stiffness", Dimension(1, -2, 0), null=0.0),)
+    resembles = ("bilinear_stiffness",)
+
+    @staticmethod
+    def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
+        return -p[0] * x * x
+
+
+@dataclass(frozen=True)
+class BilinearStiffness(Term):
+    """A spring that is stiffer in one direction than in the other, as a crack that opens and closes."""
+
+    at: str = "ground"
+    name: ClassVar[str] = "bilinear_stiffness"
+    physics: ClassVar[str] = "The spring is stiffer by {difference} on the positive side than on the negative one"
+    formula: ClassVar[str] = "-difference/2 * |x|"
+    paper: ClassVar[str] = "Shaw, Holmes, J. Sound and Vibration 90 (1983) 129-155, section 2"
+    params = (Param("difference", "stiffness for x > 0 less that for x < 0", STIFFNESS, null=0.0),)
+    resembles = ("quadratic_stiffness",)
+
+    @staticmethod
+    def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
+        return -0.5 * p[0] * abs(x)
+
+
+@dataclass(frozen=True)
 class OffsetForce(Term):
     """A constant force: a bias of the drive, a weight, a preload."""
 

@@ -78,6 +78,38 @@ class SensorDelay(SensorTerm):
 
 
 @dataclass(frozen=True)
+class PositionRipple(SensorTerm):
+    """A sensor with an error that repeats over what it shows: a disc off its middle, lines of an encoder, a bent screw.
+
+    The parameters are of the dimension of the channel.
+    """
+
+    at: str = "sensor"
+    name: ClassVar[str] = "position_ripple"
+    physics: ClassVar[str] = (
+        "The sensor has an error that repeats with every {pitch}: {cosine} as a cosine and {sine} as a sine"
+    )
+    formula: ClassVar[str] = "x + cosine * cos(2 pi x / pitch) + sine * sin(2 pi x / pitch)"
+    paper: ClassVar[str] = "Heydemann, Applied Optics 20 (1981) 3382-3384: cyclic errors of encoders"
+    params = (
+        Param("cosine", "error as cos(2 pi x / pitch)", LENGTH, null=0.0, typical=0.02),
+        Param("sine", "error as sin(2 pi x / pitch)", LENGTH, null=0.0, typical=0.02),
+        Param("pitch", "way after which it repeats", LENGTH, low=0.0, scale="log", scan=(0.1, 6.0)),
+    )
+    further = (Param("size", "amplitude of the error", LENGTH), Param("phase", "phase in rad", NUMBER))
+    resembles = ("cogging",)
+
+    @staticmethod
+    def bent(x: Array, p: Values) -> Array:
+        angle = 2.0 * math.pi * x / p[2]
+        return np.asarray(x + p[0] * np.cos(angle) + p[1] * np.sin(angle))
+
+    @staticmethod
+    def derived(p: Values) -> Values:
+        return math.hypot(p[0], p[1]), math.atan2(-p[1], p[0])
+
+
+@dataclass(frozen=True)
 class SensorQuantisation(SensorTerm):
     """A sensor that shows whole steps only; the stored values themselves tell."""
 

@@ -39,3 +39,35 @@ class QuadraticDamping(Term):
     @staticmethod
     def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
         return -p[0] * v * abs(v)
+
+
+@dataclass(frozen=True)
+class DirectionalDamping(Term):
+    """A drag that is larger one way than the other, as that of a shock absorber with a check valve."""
+
+    at: str = "ground"
+    name: ClassVar[str] = "directional_damping"
+    physics: ClassVar[str] = "The damping is larger by {difference} in positive direction than in negative direction"
+    formula: ClassVar[str] = "-difference/2 * |v|"
+    paper: ClassVar[str] = "Surace, Worden, Tomlinson, Proc. IMechE D 206 (1992) 157-167"
+    params = (Param("difference", "damping for v > 0 less that for v < 0", DAMPING, null=0.0),)
+
+    @staticmethod
+    def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
+        return -0.5 * p[0] * abs(v)
+
+
+@dataclass(frozen=True)
+class DampingDrift(Term):
+    """A drag that grows or shrinks steadily while the machine runs: oil that warms up."""
+
+    at: str = "ground"
+    name: ClassVar[str] = "damping_drift"
+    physics: ClassVar[str] = "The damping changes by {rate} while the machine runs"
+    formula: ClassVar[str] = "-rate * t * v"
+    paper: ClassVar[str] = "Isermann, Fault-Diagnosis Systems (2006), section 5.1: parameters that drift"
+    params = (Param("rate", "growth of the damping", Dimension(1, -1, 0), null=0.0, typical=0.3),)
+
+    @staticmethod
+    def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
+        return -p[0] * t * v

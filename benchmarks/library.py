@@ -1,0 +1,212 @@
+"""How well the terms of the library are named: `python benchmarks/library.py [table|confusion] [options]`.
+
+Each term is hidden in a machine by an integrator that shares nothing with the framework (`independent_zoo.move`), under
+a multisine, a sweep or a harmonic, seen by a sensor of position, velocity or acceleration, at a size that is to gain a
+given log-likelihood. Every diagnosis is kept as a row in `OUT/rows.jsonl`, so that a run can be stopped and resumed.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+import os
+import tempfile
+import time
+from concurrent.futures import ProcessPoolExecutor
+from pathlib import Path
+
+import numpy as np
+
+from lostmotion.case import dump_case
+from lostmotion.kernels.independent_zoo import Hidden
+from lostmotion.storage import save_table
+from lostmotion.workflow.hiding import hidden_in
+from lostmotion.workflow.mechanisms import NOISY, TABLE, Effect
+from lostmotion.workflow.pilot import Pilot
+from lostmotion.workflow.zoo import USUAL, Meddling, Rig, Signal, drawn_log, moved, sized, wide_prior
+
+SENSORS = ("position", "velocity", "acceleration")
+DRIVES = ("multisine", "sweep", "harmonic")
+NOISE = float(os.environ.get("NOISE", "0.03"))
+UNITS = {"position": "m", "velocity": "m/s", "acceleration": "m/s^2"}
+ANGULAR = {"position": "rad", "velocity": "rad/s", "acceleration": "rad/s^2"}
+ESTIMATED = {"linear_oscillator": ("c", "k"), "rigid_drive": ("m", "c")}
+
+
+def signal(kind, size, omega, duration, rng):
+    """Return a drive whose strongest frequencies lie about `omega` (rad/s)."""
+    turn = float(rng.uniform(0.0, 2.0 * math.pi))
+    if kind == "harmonic":
+        return Signal(((size, omega, turn),))
+    if kind == "sweep":
+        return Signal(((size, 0.4 * omega, turn),), 1.4 * omega / duration)
+    lines = np.unique(np.round(np.linspace(0.25, 1.8, 14) * omega * duration / (2.0 * math.pi)))
+    phases = rng.uniform(0.0, 2.0 * math.pi, len(lines))
+    each = size * math.sqrt(2.0 / len(lines))
+    pairs = zip(lines, phases, strict=True)
+    return Signal(tuple((each, float(n) * 2.0 * math.pi / duration, float(p)) for n, p in pairs))
+
+
+def rig_of(name, kind, rng, samples):
+    """Return a machine in which a mechanism can act."""
+    able = [m for m in ("linear_oscillator", "lin_backlash", "robot_joint", "rigid_drive") if m in TABLE[name].models]
+    model = able[int(rng.integers(len(able)))]
+    natural, mass = drawn_log(rng, 5.0, 100.0), drawn_log(rng, 0.2, 20.0)
+    values, amplitude = sized(model, mass, natural, rng)
+    ratio = drawn_log(rng, *((0.15, 0.4) if model == "robot_joint" else (0.5, 1.1)))
+    rate = 40.0 * max(ratio, 0.4) * natural / (2.0 * math.pi)
+    drive = signal(kind, amplitude, ratio * natural, samples / rate, rng)
+    estimated = ESTIMATED.get(model, ("c", "x0"))
+    return Rig(
+        model, values, estimated, drive, rate, samples, NOISE, {n: wide_prior(values[n], rng) for n in estimated}
+    )
+
+
+def sized_effect(name, pilot, gain, rng):
+    """Return a mechanism at the size that is to gain this log-likelihood."""
+    mechanism = TABLE[name]
+    at = str(rng.choice(mechanism.spots(pilot.rig)))
+    draft = mechanism.plan(pilot, at, rng)
+    if name in NOISY:
+        return Effect(name, at, draft.parameters(NOISY[name](pilot, 0.5)))
+    size = math.sqrt(gain / max(pilot.gain(draft), 1e-300))
+    size *= rng.choice([-1.0, 1.0]) if mechanism.signed else 1.0
+    return Effect(name, at, draft.parameters(float(size)))
+
+
+def concealed(task, folder):
+    """Write the case of a task, and return what was hidden and the machine."""
+    name, channel, kind, seed, gain, samples = task
+    order = [*sorted(TABLE), "clean"].index(name)
+    for attempt in range(200):
+        rng = np.random.default_rng([seed, order, SENSORS.index(channel), DRIVES.index(kind), attempt])
+        rig = rig_of(name if name != "clean" else "coulomb_friction", kind, rng, samples)
+        if name != "clean" and not TABLE[name].fits(rig):
+            continue
+        try:
+            pilot = Pilot(rig, moved(rig, Hidden(), Meddling(), rng))
+            if "x0" in rig.values and not 0.1 < float(np.mean(np.abs(pilot.touching))) < 0.95:
+                continue
+            effects = () if name == "clean" else (sized_effect(name, pilot, gain, rng),)
+            seen = Rig(**{**rig.__dict__, "channel": channel})
+            hidden = hidden_in(rig, effects)
+            truth = moved(seen, *hidden, np.random.default_rng([seed, attempt]))
+            own = moved(rig, *hidden, np.random.default_rng([seed, attempt]))
+        except ValueError:
+            continue
+        if float(np.std(own)) > 3.0 * float(np.std(pilot.q)) or (
+            "x0" in rig.values
+            and not (0.05 < float(np.mean(np.abs(own - pilot.u * rig.based) > rig.values["x0"])) < 0.98)
+        ):
+            continue
+        break
+    clean = rig.signal.value(rig.time)
+    noise = NOISE * float(np.std(truth - clean if rig.based and channel == "position" else truth))
+    shown = truth + noise * rng.standard_normal(samples)
+    if hidden[1].step:
+        shown = hidden[1].step * np.round(shown / hidden[1].step)
+    drive = clean + USUAL * rig.signal.amplitude * rng.standard_normal(samples)
+    save_table(folder / "recording.csv", {"time": rig.time, "drive": drive, "shown": shown}, {}, {})
+    units = ("rad", ANGULAR[channel]) if rig.based else ("N", UNITS[channel])
+    recording = {
+        "file": "recording.csv",
+        "time": "time",
+        "excitation": {"column": "drive", "quantity": "base_position" if rig.based else "force", "unit": units[0]},
+        "response": {"column": "shown", "quantity": channel, "unit": units[1]},
+    }
+    known = {n: v for n, v in rig.values.items() if n not in rig.estimated}
+    model = {"name": rig.model, "known": known, "estimate": dict(rig.priors)}
+    dump_case(
+        {"title": f"{name} {channel} {kind} {seed}", "recordings": [recording], "model": model}, folder / "case.toml"
+    )
+    return effects, rig
+
+
+def work(task):
+    """Return the row of one diagnosis."""
+    from lostmotion.cli import main as run
+
+    name, channel, kind, seed, gain, _ = task
+    row = {"name": name, "sensor": channel, "drive": kind, "seed": seed, "gain": gain}
+    with tempfile.TemporaryDirectory() as place:
+        folder = Path(place)
+        try:
+            effects, rig = concealed(task, folder)
+        except (ValueError, ArithmeticError) as err:
+            return {**row, "status": f"not made: {err}"}
+        begin = time.process_time()
+        told = ["diagnose", str(folder / "case.toml"), "--out", str(folder / "out"), "--quiet", "--jobs", "1"]
+        try:
+            code = run.main(args=told, standalone_mode=False) or 0
+        except SystemExit as end:
+            code = end.code
+        row |= {"model": rig.model, "seconds": time.process_time() - begin, "status": code}
+        if code:
+            return row
+        told = json.loads((folder / "out" / "diagnosis.json").read_text())
+        row["truth"] = [{"name": e.mechanism, "at": e.at, **e.parameters} for e in effects]
+        row["found"] = told["found"]
+        row["verdict"] = told["verdict"]
+        row["headline"] = told.get("headline", "")
+        row["ranking"] = told["ranking"][:6]
+        row["nrmse"] = [told["fit"][k]["heldout_nrmse"] for k in ("before", "after")]
+    return row
+
+
+def parsed():
+    """Return the options."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("what", nargs="?", default="table", choices=("table", "confusion", "clean"))
+    parser.add_argument("--terms", default="", help="names, separated by commas (all)")
+    parser.add_argument("--sensors", default=",".join(SENSORS))
+    parser.add_argument("--drives", default=",".join(DRIVES))
+    parser.add_argument("--seeds", default="1", help="numbers, separated by commas")
+    parser.add_argument("--gain", type=float, default=0.0, help="log-likelihood (0: 50 to 500, by seed)")
+    parser.add_argument("--samples", type=int, default=1500)
+    parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--out", type=Path, default=Path("library"))
+    return parser.parse_args()
+
+
+def gain_of(args, seed):
+    """Return the gain of a seed."""
+    return args.gain or 50.0 * 10.0 ** float(np.random.default_rng([9, seed]).random())
+
+
+def main():
+    """Run what is not done yet, and tell of all that is."""
+    args = parsed()
+    args.out.mkdir(parents=True, exist_ok=True)
+    path = args.out / "rows.jsonl"
+    rows = [json.loads(line) for line in path.read_text().splitlines()] if path.exists() else []
+    done = {(r["name"], r["sensor"], r["drive"], r["seed"]) for r in rows}
+    names = ["clean"] if args.what == "clean" else [t for t in args.terms.split(",") if t] or sorted(TABLE)
+    tasks = [
+        (name, sensor, drive, int(seed), gain_of(args, int(seed)), args.samples)
+        for seed in args.seeds.split(",")
+        for sensor in args.sensors.split(",")
+        for drive in args.drives.split(",")
+        for name in names
+        if (name, sensor, drive, int(seed)) not in done
+        and not (name != "clean" and TABLE[name].tone and drive != "harmonic")
+    ]
+    with ProcessPoolExecutor(args.jobs) as pool, path.open("a") as stream:
+        for row in pool.map(work, tasks):
+            print(json.dumps(row), file=stream, flush=True)
+            names = [f["mechanism"] for f in row.get("found", [])]
+            print(
+                row["name"],
+                row["sensor"],
+                row["drive"],
+                row["seed"],
+                row.get("model"),
+                row["status"],
+                f"{row.get('seconds', 0.0):.0f} s",
+                names,
+                flush=True,
+            )
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,85 @@
+"""Parameters of terms in the natural scales of a recording: sizes, priors, and the values at which shapes are tried."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from lostmotion.contracts import Param, Term
+from lostmotion.likelihood.problem import Free, Problem, Scales
+from lostmotion.likelihood.system import Slot
+from lostmotion.quantities import FORCE, LENGTH, SPEED, Dimension, quantity_of
+
+SCANNED = 8
+"""So many values of a parameter with a scan are tried by score tests, evenly over the logarithm of its range."""
+SHAPES = (0.3, 1.0, 3.0)
+"""Where a shape parameter is tried, in units of its typical value."""
+
+
+def size_of(param: Param, scales: Scales) -> float:
+    """Return the typical size of a term's parameter in the natural scales of the recording."""
+    time = scales.span if param.lasting else scales.time
+    return param.typical * param.dimension.scale(scales.force, scales.length, time)
+
+
+def frees_of(slots: list[Slot], scales: Scales, start: Mapping[str, float]) -> tuple[Free, ...]:
+    """Return the free parameters of a term: amplitudes normal about zero (half-normal if signed), shapes log-normal."""
+    open_ = [slot for slot in slots if not slot.param.choices]
+    return tuple(_free(slot, size_of(slot.param, scales), start.get(slot.key)) for slot in open_)
+
+
+def _free(slot: Slot, size: float, start: float | None) -> Free:
+    if slot.param.scale == "log":
+        middle = math.log(size)
+        begin = middle if start is None else math.log(start)
+        return Free(slot.key, slot.unit, begin, middle - 4.0, middle + 4.0, log=True, mean=middle, sd=1.5)
+    low = max(slot.param.low, -30.0 * size)
+    return Free(slot.key, slot.unit, start or 0.0, low, min(slot.param.high, 30.0 * size), mean=0.0, sd=size)
+
+
+def term_of(problem: Problem, key: str) -> tuple[Term, list[Slot]]:
+    """Return a term of the problem's system and the slots of its parameters."""
+    i = problem.system.keys.index(key)
+    term, slots = problem.system.terms[i], [s for s in problem.system.slots if s.term == i]
+    return term, slots if term.acts == "motion" else [_shown(problem, term, slot) for slot in slots]
+
+
+SHOWN = {"position": LENGTH, "velocity": SPEED, "acceleration": Dimension(0, 1, -2), "force": FORCE}
+
+
+def _shown(problem: Problem, term: Term, slot: Slot) -> Slot:
+    """Return a parameter of a sensor or a drive: a length stands for what the sensor shows, a force for the input."""
+    first = problem.observations[0]
+    if term.acts == "sensor":
+        stands, name = LENGTH, next((s.channel for s in first.sensors if s.place == term.at), "position")
+    else:
+        inputs = problem.system.model.inputs
+        stands, name = FORCE, term.at if term.at in inputs else inputs[first.lead]
+    dimension = SHOWN[quantity_of(name)]
+    if slot.param.dimension != stands or dimension == stands:
+        return slot
+    unit = dimension.unit(problem.system.model.motion)
+    return replace(slot, param=replace(slot.param, dimension=dimension), unit=unit)
+
+
+def sorted_slots(problem: Problem, key: str) -> tuple[list[Slot], list[Slot]]:
+    """Return the slots of the amplitudes of a term, and those of its shapes."""
+    _, slots = term_of(problem, key)
+    return [s for s in slots if s.param.null is not None], [s for s in slots if s.param.null is None]
+
+
+def star(grids: Sequence[Sequence[float]]) -> list[tuple[float, ...]]:
+    """Return the points at which shapes are tried: each over its grid while the others stay in the middle of theirs."""
+    middle = tuple(grid[len(grid) // 2] for grid in grids)
+    points = [(*middle[:i], value, *middle[i + 1 :]) for i, grid in enumerate(grids) for value in grid]
+    return list(dict.fromkeys(points)) or [()]
+
+
+def tried_of(param: Param, scales: Scales) -> tuple[float, ...]:
+    """Return the values at which a shape parameter is tried."""
+    if param.scan:
+        return tuple((size_of(param, scales) * np.geomspace(*param.scan, SCANNED)).tolist())
+    return param.choices or tuple(f * size_of(param, scales) for f in SHAPES)

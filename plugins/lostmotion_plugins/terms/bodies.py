@@ -1,0 +1,97 @@
+"""Masses that the model does not count: one on a spring of its own, and one that comes or goes."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import ClassVar
+
+from lostmotion.contracts import Array, Model, Param, Term, Values
+from lostmotion.quantities import FREQUENCY, INERTIA, LENGTH, NUMBER, SPEED, TIME
+
+
+def _free_standing(at: str, model: Model) -> bool:
+    """Return whether motion at a place is that of one body: what is between two bodies has no mass of its own."""
+    return any(place.name == at and place.against is None for place in model.interfaces)
+
+
+@dataclass(frozen=True)
+class HiddenMode(Term):
+    """A further mass on a spring and a damper of its own: a cover that rattles, a second mode, a tuned absorber.
+
+    The states are place and velocity of that mass, relative to the same frame as those of the body it is mounted on.
+    """
+
+    at: str = "ground"
+    name: ClassVar[str] = "hidden_mode"
+    physics: ClassVar[str] = (
+        "A further mass of {mass_ratio} of the moving one vibrates on it at {frequency} with {damping} of critical"
+        " damping"
+    )
+    formula: ClassVar[str] = (
+        "m_h (w^2 (z - x) + 2 damping w (z' - v)),  z'' = -w^2 (z - x) - 2 damping w (z' - v),"
+        "  w = 2 pi frequency,  m_h = mass_ratio * inertia"
+    )
+    paper: ClassVar[str] = "Den Hartog, Mechanical Vibrations (1956), section 3.3"
+    params = (
+        Param("mass_ratio", "hidden mass over that of the body", NUMBER, low=0.0, null=0.0, typical=0.1),
+        Param(
+            "frequency", "frequency of the hidden mass on the body held still", FREQUENCY, low=0.0, scale="log",
+            typical=0.5 / math.pi, scan=(0.1, 10.0),
+        ),
+        Param("damping", "damping ratio of the hidden mass", NUMBER, low=0.0, scale="log", typical=0.03),
+    )  # fmt: skip
+    states = ("hidden_place", "hidden_speed")
+    begins = (LENGTH, SPEED)
+    needs = ("inertia", "shake_input")
+    anywhere = True
+
+    def fits(self, model: Model) -> bool:
+        """Return whether the term can act in `model`: at a body, and not between two."""
+        return _free_standing(self.at, model) and super().fits(model)
+
+    @staticmethod
+    def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
+        w = 2.0 * math.pi * p[1]
+        return p[0] * p[3] * w * (w * (s[0] - x) + 2.0 * p[2] * (s[1] - v))
+
+    @staticmethod
+    def rate(t: float, x: float, v: float, u: Array, p: Values, s: Values, dsdt: Array) -> None:
+        w = 2.0 * math.pi * p[1]
+        shake = u[int(p[4])] if p[4] >= 0.0 else 0.0
+        dsdt[0] = s[1]
+        dsdt[1] = -w * (w * (s[0] - x) + 2.0 * p[2] * (s[1] - v)) - shake
+
+
+@dataclass(frozen=True)
+class InertiaChange(Term):
+    """A mass that is added or lost at a time: a load picked up, a part that falls off.
+
+    All other forces give the body the acceleration a; with the changed mass it would be smaller by a share of it.
+    """
+
+    at: str = "ground"
+    name: ClassVar[str] = "inertia_change"
+    physics: ClassVar[str] = "The moving mass changes by {change} at {time}"
+    formula: ClassVar[str] = "-change * m / (m + change) * a from `time` on, a the acceleration by all other forces"
+    paper: ClassVar[str] = "Isermann, Fault-Diagnosis Systems (2006), section 5.1: additive and multiplicative faults"
+    params = (
+        Param("change", "change of the moving mass", INERTIA, null=0.0, typical=0.2),
+        Param(
+            "time", "when it changes", TIME, low=0.0, scale="log", typical=0.35, lasting=True, scan=(0.05, 2.8),
+        ),
+    )  # fmt: skip
+    needs = ("inertia", "acceleration", "shake_input")
+    anywhere = True
+
+    def fits(self, model: Model) -> bool:
+        """Return whether the term can act in `model`: at a body, and not between two."""
+        return _free_standing(self.at, model) and super().fits(model)
+
+    @staticmethod
+    def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
+        if t < p[1]:
+            return 0.0
+        shake = u[int(p[4])] if p[4] >= 0.0 else 0.0
+        changed = max(p[2] + p[0], 0.1 * p[2])
+        return (p[2] / changed - 1.0) * p[2] * (p[3] + shake)

@@ -1,0 +1,100 @@
+"""Dry friction whose level depends on something: the direction, the load, the time since the start."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import ClassVar
+
+from lostmotion.contracts import Array, Model, Param, Term, Values
+from lostmotion.quantities import FORCE, NUMBER, TIME
+
+
+@dataclass(frozen=True)
+class DirectionalFriction(Term):
+    """Two levels of dry friction: one for motion in positive direction, one for motion in negative direction."""
+
+    at: str = "ground"
+    name: ClassVar[str] = "directional_friction"
+    physics: ClassVar[str] = (
+        "Dry friction opposes the motion: {forward} in positive direction, {backward} in negative direction"
+    )
+    formula: ClassVar[str] = "-forward where v > 0, +backward where v < 0"
+    paper: ClassVar[str] = "Armstrong-Helouvry, Dupont, Canudas de Wit, Automatica 30 (1994) 1083-1138, section 2.1"
+    params = (
+        Param("forward", "friction in positive direction", FORCE, low=0.0, null=0.0),
+        Param("backward", "friction in negative direction", FORCE, low=0.0, null=0.0),
+    )
+    needs = ("mobility",)
+    resembles = ("coulomb_friction", "stribeck_friction")
+
+    @staticmethod
+    def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
+        width = max(p[0], p[1]) * p[2]
+        if abs(v) >= width:
+            return -p[0] if v > 0.0 else (p[1] if v < 0.0 else 0.0)
+        return -0.5 * (p[0] - p[1]) - 0.5 * (p[0] + p[1]) * v / width
+
+
+@dataclass(frozen=True)
+class LoadDependentFriction(Term):
+    """Dry friction that grows with the load on the parts: with the force of their contact, else with the drive.
+
+    Where parts meet with play at the place, the load is the force between them; elsewhere it is the force that drives
+    the body.
+    """
+
+    at: str = "ground"
+    name: ClassVar[str] = "load_dependent_friction"
+    physics: ClassVar[str] = "Dry friction of {coefficient} times the load opposes the motion"
+    formula: ClassVar[str] = "-coefficient * |load| * sign(v), the load a contact with play, or else the drive"
+    paper: ClassVar[str] = "Hamon, Gautier, Garrec, IEEE/RSJ Int. Conf. Intelligent Robots and Systems (2010) 1609-1614"
+    params = (Param("coefficient", "friction over the load", NUMBER, low=0.0, null=0.0, typical=0.1),)
+    needs = ("contact", "play", "force_input", "mobility")
+    resembles = ("coulomb_friction",)
+
+    def fits(self, model: Model) -> bool:
+        """Return whether the term can act in `model`: there is a contact with play at the place, or a force drives."""
+        contact = any(place.name == self.at and place.play for place in model.interfaces)
+        return (contact or "force" in model.inputs) and super().fits(model)
+
+    @staticmethod
+    def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
+        pushed: float = u[int(p[3])] if p[3] >= 0.0 else 0.0
+        pressed = p[1] * (x - min(max(x, -p[2]), p[2]))
+        level: float = p[0] * abs(pressed if p[1] > 0.0 else pushed)
+        width = level * p[4]
+        if abs(v) >= width:
+            return -level if v > 0.0 else (level if v < 0.0 else 0.0)
+        return -level * v / width
+
+
+@dataclass(frozen=True)
+class FrictionDrift(Term):
+    """Dry friction that changes while the machine runs: it warms up, or runs dry."""
+
+    at: str = "ground"
+    name: ClassVar[str] = "friction_drift"
+    physics: ClassVar[str] = (
+        "Dry friction opposes the motion: {force} at the start, and {change} more in the long run, reached in {time}"
+    )
+    formula: ClassVar[str] = "-max(force + change * (1 - exp(-t/time)), 0) * sign(v)"
+    paper: ClassVar[str] = "Simoni, Beschi, Legnani, Visioli, IEEE/RSJ Int. Conf. Intelligent Robots (2015) 3524-3529"
+    params = (
+        Param("force", "friction at the start", FORCE, low=0.0, null=0.0),
+        Param("change", "change of the friction in the long run", FORCE, null=0.0, typical=0.5),
+        Param(
+            "time", "time in which it changes by 63 %", TIME, low=0.0, scale="log", typical=0.3, lasting=True,
+            scan=(0.1, 10.0),
+        ),
+    )  # fmt: skip
+    needs = ("mobility",)
+    resembles = ("coulomb_friction",)
+
+    @staticmethod
+    def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
+        level = max(p[0] + p[1] * (1.0 - math.exp(-t / p[2])), 0.0)
+        width = (abs(p[0]) + abs(p[1])) * p[3]
+        if abs(v) >= width:
+            return -level if v > 0.0 else (level if v < 0.0 else 0.0)
+        return -level * v / width

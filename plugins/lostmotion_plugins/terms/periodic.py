@@ -1,0 +1,73 @@
+"""What repeats over travel or turn."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import ClassVar
+
+from lostmotion.contracts import Array, Param, Term, Values
+from lostmotion.quantities import FORCE, LENGTH, NUMBER
+
+PITCHES = (0.03, 6.0)
+"""Where a pitch is looked for, in amplitudes of the motion."""
+
+
+@dataclass(frozen=True)
+class Cogging(Term):
+    """A force that repeats over travel or turn, as that of the magnets of a motor on its teeth, or of a bent screw."""
+
+    at: str = "ground"
+    name: ClassVar[str] = "cogging"
+    physics: ClassVar[str] = "A force that repeats with every {pitch} acts, {cosine} as a cosine and {sine} as a sine"
+    formula: ClassVar[str] = "cosine * cos(2 pi x / pitch) + sine * sin(2 pi x / pitch)"
+    paper: ClassVar[str] = "Zhu, Howe, IEEE Trans. Energy Conversion 15 (2000) 407-412"
+    params = (
+        Param("cosine", "force as cos(2 pi x / pitch)", FORCE, null=0.0, typical=0.1),
+        Param("sine", "force as sin(2 pi x / pitch)", FORCE, null=0.0, typical=0.1),
+        Param("pitch", "travel or turn after which it repeats", LENGTH, low=0.0, scale="log", scan=PITCHES),
+    )
+    further = (Param("force", "amplitude of the force", FORCE), Param("phase", "phase in rad", NUMBER))
+
+    @staticmethod
+    def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
+        angle = 2.0 * math.pi * x / p[2]
+        return p[0] * math.cos(angle) + p[1] * math.sin(angle)
+
+    @staticmethod
+    def derived(p: Values) -> Values:
+        return math.hypot(p[0], p[1]), math.atan2(-p[1], p[0])
+
+
+@dataclass(frozen=True)
+class PositionDependentFriction(Term):
+    """Dry friction that is larger at some places than at others, and repeats over travel or turn.
+
+    Below the velocity at which friction changes its direction in one step the law is a steep line.
+    """
+
+    at: str = "ground"
+    name: ClassVar[str] = "position_dependent_friction"
+    physics: ClassVar[str] = (
+        "Dry friction of {force} on the average, which repeats with every {pitch}, {cosine} as a cosine and {sine} as a"
+        " sine, opposes the motion"
+    )
+    formula: ClassVar[str] = "-max(force + cosine * cos(2 pi x / pitch) + sine * sin(2 pi x / pitch), 0) * sign(v)"
+    paper: ClassVar[str] = "Armstrong, IEEE Int. Conf. Robotics and Automation (1988) 1299-1305: position dependence"
+    params = (
+        Param("force", "friction force on the average", FORCE, low=0.0, null=0.0),
+        Param("cosine", "friction as cos(2 pi x / pitch)", FORCE, null=0.0, typical=0.3),
+        Param("sine", "friction as sin(2 pi x / pitch)", FORCE, null=0.0, typical=0.3),
+        Param("pitch", "travel or turn after which it repeats", LENGTH, low=0.0, scale="log", scan=PITCHES),
+    )
+    needs = ("mobility",)
+    resembles = ("coulomb_friction", "stribeck_friction")
+
+    @staticmethod
+    def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
+        angle = 2.0 * math.pi * x / p[3]
+        size = max(p[0] + p[1] * math.cos(angle) + p[2] * math.sin(angle), 0.0)
+        width = (abs(p[0]) + abs(p[1]) + abs(p[2])) * p[4]
+        if abs(v) >= width:
+            return -size if v > 0.0 else (size if v < 0.0 else 0.0)
+        return -size * v / width
