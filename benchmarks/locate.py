@@ -64,7 +64,7 @@ GOES_WITH: Mapping[str, tuple[str, ...]] = {
     "quadratic_damping": ("velocity",),
     "linear_stiffness": ("position",),
     "cubic_stiffness": ("position",),
-    "ripple over position": ("position",),
+    "wave over position that narrows": ("position",),
     "bump at one position": ("position",),
     "friction that depends on position": ("sign of velocity", "velocity"),
     "excitation_harmonic": ("phase",),

@@ -11,11 +11,12 @@ import numpy as np
 from lostmotion.contracts import Array, Term, Values, place_of
 from lostmotion.errors import ContractError
 from lostmotion.inference.fit import Fit, Sensitivity, maximise, restarted, sensitivity, solved, warmed
+from lostmotion.inference.late import PRICE, can_be_late, cut, refined, since_of
 from lostmotion.inference.natural import SCANNED, frees_of, size_of, sorted_slots, star, term_of, tried_of
 from lostmotion.likelihood.compose import handed
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import LATEST, NOISE, RANDOM, Free, Problem
-from lostmotion.likelihood.system import Slot
+from lostmotion.likelihood.system import ALWAYS, Slot
 from lostmotion.quantities import FORCE, TIME
 
 CREEP, FINEST = 0.02, 32
@@ -25,6 +26,8 @@ SHARES = (1.0, 0.3, 0.01)
 """Fits begin with these shares of what a score test promises."""
 CALM, LARGE = 0.05, 0.7
 """Noise of a calm start in amplitudes of the response, and a large force in amplitudes of the measured one."""
+ONSET = PRICE + 3.0
+"""A term is taken for late when that promises so much more gain."""
 LOOKS = 200
 """Places of a recording at which a force is looked at, when a filter with it does not get through."""
 SPREAD = (0.003, 0.01, 0.03, 0.1, 0.3, 1.0, 3.0)
@@ -75,6 +78,17 @@ def screen(fit: Fit, slopes: Sensitivity, key: str, more: Sequence[Mapping[str, 
     if len(amplitudes) == 1 and amplitudes[0].param.scan:
         hints += _stretched(fit, slopes, key, amplitudes[0])
     return max(hints, key=lambda h: h.gain)
+
+
+def _late(fit: Fit, key: str, amplitudes: Sequence[Slot], always: Hint, joint: Sensitivity) -> Hint:
+    """Return what a term promises that acts from some time on, if that is decisively more than what it `always` did."""
+    best = always
+    shape = {name: value for name, value in always.start.items() if name not in {a.key for a in amplitudes}}
+    for time, gradient, information in cut(fit.problem, joint, len(amplitudes)):
+        hint = _told(fit, key, amplitudes, shape, gradient, information)
+        if hint.gain > best.gain + (ONSET if best is always else 0.0):
+            best = replace(hint, start={**hint.start, since_of(key): time})
+    return best
 
 
 def _afar(fit: Fit, slot: Slot, key: str, distinct: float) -> Hint:
@@ -143,6 +157,8 @@ def joined(problem: Problem, key: str, start: Mapping[str, float]) -> Problem:
     """Return a problem with one more term, begun at `start`, its choices held at what is said there."""
     _, slots = term_of(problem, key)
     choices = {s.key: start[s.key] for s in slots if s.param.choices and s.key in start}
+    if since_of(key) in problem.system.index:
+        choices[since_of(key)] = start.get(since_of(key), ALWAYS)
     return problem.knowing(choices).extended(frees_in(problem, key, slots, start), {key})
 
 
@@ -185,7 +201,11 @@ def _scored(fit: Fit, slopes: Sensitivity, key: str, shapes: Sequence[Mapping[st
         joints = _joint(slopes, wider, zeros, widths)
         told = [np.maximum(np.diag(joint.information())[-len(sizes) :], 1e-300) for joint in joints]
         widths = [np.clip(0.5 / np.sqrt(curvature), 1e-9 * sizes, sizes) for curvature in told]
-    return [_hint(fit, key, amplitudes, shape, joint) for shape, joint in zip(shapes, joints, strict=True)]
+    hints = [_hint(fit, key, amplitudes, shape, joint) for shape, joint in zip(shapes, joints, strict=True)]
+    if can_be_late(fit.problem, key):
+        best = max(range(len(hints)), key=lambda i: hints[i].gain)
+        hints.append(_late(fit, key, amplitudes, hints[best], joints[best]))
+    return hints
 
 
 def _held(slot: Slot) -> Free:
@@ -215,7 +235,13 @@ def _joint(slopes: Sensitivity, wider: Problem, zeros: Sequence[Array], widths: 
 
 def _hint(fit: Fit, key: str, amplitudes: Sequence[Slot], shape: Mapping[str, float], joint: Sensitivity) -> Hint:
     """Return what a score test says of a term at one shape."""
-    gradient, information = joint.gradient(), joint.information()
+    return _told(fit, key, amplitudes, shape, joint.gradient(), joint.information())
+
+
+def _told(
+    fit: Fit, key: str, amplitudes: Sequence[Slot], shape: Mapping[str, float], gradient: Array, information: Array
+) -> Hint:
+    """Return what gradient and information of base parameters and amplitudes together say of a term."""
     if not (np.all(np.isfinite(gradient)) and np.all(np.isfinite(information))):
         _require_finite(fit.problem, key)
         return Hint(key, 0.0, dict(shape), 0.0)
@@ -284,7 +310,7 @@ def fit_with(fit: Fit, hint: Hint, *, hopeless: float = -math.inf) -> Fit:
         fits.append(maximise(problems[i], hopeless=hopeless, tolerance=ROUGHLY))
         if fits[-1].status in ("converged", "abandoned") and fits[-1].log_likelihood > fit.log_likelihood - 1.0:
             break
-    return max(fits, key=lambda f: f.local.log_posterior)
+    return refined(max(fits, key=lambda f: f.local.log_posterior), hint.key)
 
 
 def calmed(fit: Fit) -> Fit:
@@ -314,16 +340,20 @@ def fit_in_place(fit: Fit, key: str, hint: Hint, *, hopeless: float = -math.inf)
     shared = {s.key: values.get(f"{key}.{s.param.name}") for s in slots}
     start = {**hint.start, **{name: value for name, value in shared.items() if value is not None}}
     problem = with_term(restarted(fit).reduced(key, values), hint, start)
-    begins = np.array([problem.start, *_reshaped(problem, [s for s in slots if shared[s.key] is None])])
+    own = [s for s in slots if shared[s.key] is None]
+    begins = np.array([problem.start, *_reshaped(problem, own), *_lessened(problem, own)])
     begins = problem.clip(np.vstack([begins, [warmed(problem, theta, RAISED) for theta in begins]]))
     heights = problem.log_posteriors(begins)
     return maximise(problem, begins[int(np.argmax(heights))], hopeless=hopeless, tolerance=ROUGHLY)
 
 
 def _reshaped(problem: Problem, slots: Sequence[Slot]) -> Iterator[Array]:
-    """Yield the start of a problem with one of the shapes among `slots` put elsewhere: a thousandfold range of each."""
+    """Yield the start of a problem with one of the shapes among `slots` put elsewhere: a thousandfold range of each.
+
+    A shape with a scan stays: it was looked for already.
+    """
     for slot in slots:
-        if slot.param.null is None and slot.param.scale == "log" and not slot.param.choices:
+        if slot.param.null is None and slot.param.scale == "log" and not (slot.param.choices or slot.param.scan):
             at = problem.keys.index(slot.key)
             for factor in SPREAD:
                 theta = problem.start.copy()
@@ -331,7 +361,16 @@ def _reshaped(problem: Problem, slots: Sequence[Slot]) -> Iterator[Array]:
                 yield theta
 
 
+def _lessened(problem: Problem, slots: Sequence[Slot]) -> Iterator[Array]:
+    """Yield the start of a problem with less of the amplitudes among `slots`: score tests promise too much of some."""
+    at = [problem.keys.index(s.key) for s in slots if s.param.null is not None and s.key in problem.keys]
+    for share in SHARES[1:] if at else ():
+        theta = problem.start.copy()
+        theta[at] *= share
+        yield theta
+
+
 def _scaled(hint: Hint, slots: list[Slot], factor: float) -> dict[str, float]:
     """Return the starting values of a hint with its amplitudes scaled."""
-    shapes = {s.key for s in slots if s.param.null is None}
+    shapes = {s.key for s in slots if s.param.null is None} | {since_of(hint.key)}
     return {name: value if name in shapes else factor * value for name, value in hint.start.items()}

@@ -61,9 +61,7 @@ def transplanted(fit: Fit) -> Fit:
     driven = all(observation.tone.omega > 0.0 for observation in problem.observations)
     curves = curves_for(old.model, driven=driven)
     system = System(old.model, (*old.terms, *curves))
-    known = system.vector(
-        {slot.key: problem.known[old.index[slot.key]] for slot in system.slots if slot.key in old.index}
-    )
+    known = system.vector({key: problem.known[old.index[key]] for key in system.index if key in old.index})
     moved = motions_of(fit, [place_of(old.model, curve) for curve in curves])
     for curve in curves:
         low, high = _range(fit, curve, moved)

@@ -15,6 +15,8 @@ from lostmotion.quantities import FORCE, LENGTH, SPEED, Dimension, quantity_of
 
 SCANNED = 8
 """So many values of a parameter with a scan are tried by score tests, evenly over the logarithm of its range."""
+REACH = 4.0
+"""A shape without a scan may be anything up to this logarithm from its typical value."""
 SHAPES = (0.3, 1.0, 3.0)
 """Where a shape parameter is tried, in units of its typical value."""
 
@@ -34,8 +36,9 @@ def frees_of(slots: list[Slot], scales: Scales, start: Mapping[str, float]) -> t
 def _free(slot: Slot, size: float, start: float | None) -> Free:
     if slot.param.scale == "log":
         middle = math.log(size)
-        begin = middle if start is None else math.log(start)
-        return Free(slot.key, slot.unit, begin, middle - 4.0, middle + 4.0, log=True, mean=middle, sd=1.5)
+        low, high = (math.log(end) for end in slot.param.scan or (math.exp(-REACH), math.exp(REACH)))
+        begin = middle if start is None else min(max(math.log(start), middle + low), middle + high)
+        return Free(slot.key, slot.unit, begin, middle + low, middle + high, log=True, mean=middle, sd=1.5)
     low = max(slot.param.low, -30.0 * size)
     return Free(slot.key, slot.unit, start or 0.0, low, min(slot.param.high, 30.0 * size), mean=0.0, sd=size)
 

@@ -12,8 +12,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
-from lostmotion.contracts import Array, place_of
+from lostmotion.contracts import Array, SensorTerm, place_of
 from lostmotion.inference.candidates import screen, slopes_of
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.natural import size_of, sorted_slots, term_of, tried_of
@@ -67,17 +68,57 @@ class Track:
         for one in amplitudes:
             others = {s.key: float(s.param.null or 0.0) for s in amplitudes if s is not one}
             law = self.law(key, {**shape, **others, one.key: size_of(one.param, self.problem.scales)})
-            if not np.all(np.isfinite(law)):
-                return 0.0
-            parts = np.add.reduceat((law - law.mean()) * self.lean, edges)
-            error = float(parts.std(ddof=1)) / math.sqrt(BLOCKS)
-            square += (float(parts.mean()) / error) ** 2 if error > 0.0 else 0.0
+            square += _steadiness(law, self.lean, edges) ** 2
         return math.sqrt(square)
 
 
-def scouted(fit: Fit) -> dict[str, list[dict[str, float]]]:
-    """Return for each law without states the shape to which the recording leans, where there is one that is clear."""
+@dataclass(frozen=True)
+class Shown:
+    """What a sensor showed: readings that were foretold (samples,), and errors over their variances (samples,)."""
+
+    problem: Problem
+    foretold: Array
+    lean: Array
+
+    def steady(self, key: str, shape: Mapping[str, float]) -> float:
+        """Return by how many standard errors a bend of a shape goes with the errors, all amplitudes together."""
+        term, slots = term_of(self.problem, key)
+        amplitudes = [s for s in slots if s.param.null is not None]
+        edges, square = np.linspace(0, len(self.lean), BLOCKS + 1).astype(int)[:-1], 0.0
+        for one in amplitudes:
+            p = tuple(shape.get(s.key, size_of(s.param, self.problem.scales) * (s is one)) for s in slots)
+            assert isinstance(term, SensorTerm)  # noqa: S101
+            square += _steadiness(term.bent(self.foretold, p) - self.foretold, self.lean, edges) ** 2
+        return math.sqrt(square)
+
+
+def _shown(problem: Problem, theta: Array, key: str) -> Shown:
+    """Return what the sensor of a term showed."""
+    observation, seen = problem.observations[0], problem.innovations(theta)
+    width = len(observation.sensors)
+    sensor = next(i for i, s in enumerate(observation.sensors) if s.place == term_of(problem, key)[0].at)
+    errors, variances = (row.reshape(-1, width)[:, sensor] for row in (seen.errors, seen.variances))
+    readings = observation.readings[:, sensor]
+    kept = np.isfinite(readings)
+    return Shown(problem, (readings - errors)[kept], (errors / variances)[kept])
+
+
+def _steadiness(law: Array, lean: Array, edges: NDArray[np.intp]) -> float:
+    """Return by how many standard errors a law goes with a gradient, from its mean over parts of the recording."""
+    if not np.all(np.isfinite(law)):
+        return 0.0
+    parts = np.add.reduceat((law - law.mean()) * lean, edges)
+    error = float(parts.std(ddof=1)) / math.sqrt(BLOCKS)
+    return float(parts.mean()) / error if error > 0.0 else 0.0
+
+
+def scouted(fit: Fit, *, forces: bool = True) -> dict[str, list[dict[str, float]]]:
+    """Return for each law without states the shape to which the recording leans, where there is one that is clear.
+
+    Without `forces` only sensors are looked at: what bends them passes for noise, and leaves no random force.
+    """
     keys, whole = scoutable(fit.problem), fit.problem.observations[0]
+    keys = [key for key in keys if forces or key in fit.problem.system.bending]
     if not keys:
         return {}
     problem = stepped(fit.problem, fit.theta).on((whole.part(0, min(whole.samples, MOST_SAMPLES)),))
@@ -85,7 +126,8 @@ def scouted(fit: Fit) -> dict[str, list[dict[str, float]]]:
     track = Track(problem, fit.theta, np.ascontiguousarray(states[:, : len(problem.system.model.states)]), lean)
     slopes, found = None, {}
     for key in keys:
-        if best := _best(track, key):
+        of_sensor = term_of(problem, key)[0].acts == "sensor"
+        if best := _best(_shown(problem, fit.theta, key) if of_sensor else track, key):
             slopes = slopes or slopes_of(fit)
             hint = screen(fit, slopes, key, [best])
             if hint.gain > CLEAR and best.items() <= hint.start.items():
@@ -94,17 +136,17 @@ def scouted(fit: Fit) -> dict[str, list[dict[str, float]]]:
 
 
 def scoutable(problem: Problem) -> list[str]:
-    """Return the keys of forces without states that have a free shape, and that are not at work yet."""
+    """Return the keys of forces without states, and of bends of sensors, that have a free shape and are not at work."""
     idle = [(key, term_of(problem, key)[0]) for key in problem.system.keys if key not in problem.active]
     plain = [key for key, term in idle if term.acts == "motion" and not term.states]
-    return [key for key in plain if _free_shapes(problem, key)]
+    return [key for key in (*plain, *problem.system.bending) if _free_shapes(problem, key)]
 
 
 def _free_shapes(problem: Problem, key: str) -> list[Slot]:
     return [s for s in sorted_slots(problem, key)[1] if s.param.scale == "log" and not s.param.choices]
 
 
-def _best(track: Track, key: str) -> dict[str, float] | None:
+def _best(track: Track | Shown, key: str) -> dict[str, float] | None:
     """Return the shape that goes with the gradient best, and better than the usual ones, or None."""
     problem = track.problem
     _, shapes = sorted_slots(problem, key)

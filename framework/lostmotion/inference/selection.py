@@ -22,6 +22,7 @@ from lostmotion.inference.candidates import (
 )
 from lostmotion.inference.course import BEAM, CLOSE, Selection, Visit
 from lostmotion.inference.fit import MANY, Fit, alone, maximise, restarted, together, warmed
+from lostmotion.inference.late import price_of_onsets
 from lostmotion.inference.natural import term_of
 from lostmotion.inference.prices import price_of, related
 from lostmotion.inference.standing import CERTAIN, standing
@@ -144,6 +145,7 @@ class Selector:
         """Note a fitted set, weighted by its evidence and the prices of its terms."""
         terms = fit.problem.active
         price = sum(price_of(term_of(fit.problem, key)[0], len(self.candidates)) for key in terms)
+        price += price_of_onsets(fit.problem)
         visit = Visit(terms, fit, fit.log_evidence - price)
         known = self.course.visits.get(terms)
         if known is None or visit.weight > known.weight:

@@ -234,19 +234,33 @@ class Problem:
             index, rows = task
             late, bends = self.late(thetas[rows[:1]], index)[0], self._bends(thetas[rows[0]], index)
             seen, slopes = unbent(self._seen(index, late), bends)
-            found = self.engine.filter(self.dynamics, seen, self.points(thetas[rows], index))
+            awake = self._awake(thetas[rows[0]], index)
+            found = self.engine.filter(awake.dynamics, seen, awake.points(thetas[rows], index))
             found = stretched(found, slopes) if bends else found
             return realigned(found, late) if any(late) else found
 
         return each(work, tasks, self.jobs)
 
     def _views_of(self, thetas: Array, index: int) -> list[tuple[Any, ...]]:
-        """Return for each of some coordinates (points, n) what makes readings another view: delays, and what bends."""
+        """Return for each of some coordinates (points, n) what makes readings another view.
+
+        That is delays of sensors, what bends them, and which of those that lag are at work.
+        """
         late = self.late(thetas, index)
-        if not any(key in self.active for key in self.system.bending):
+        if not self.active & {*self.system.bending, *self.system.lagging}:
             return list(late)
         bends = [tuple((s, p) for s, _, p in self._bends(theta, index)) for theta in thetas]
-        return list(zip(late, bends, strict=True))
+        awake = [self._awake(theta, index).active for theta in thetas]
+        return list(zip(late, bends, awake, strict=True))
+
+    def _awake(self, theta: Array, index: int) -> Problem:
+        """Return the problem without sensors that lag by nothing at some coordinates: a lag of zero has no rate."""
+        lagging = self.active & set(self.system.lagging)
+        if not lagging:
+            return self
+        full = self.full(theta, index)
+        idle = frozenset(key for key in lagging if self.system.idle(full, key))
+        return replace(self, active=self.active - idle) if idle else self
 
     def _bends(self, theta: Array, index: int) -> list[Bend]:
         """Return which sensors of a recording are bent at some coordinates, by which term and with which numbers."""
@@ -321,7 +335,10 @@ class Problem:
         which = []
         for full in fulls:
             acts = [key for key in keys if not self.system.idle(full, key)]
-            values = tuple((key, self.system.values(full, key, observation.tone)) for key in acts)
+            values = tuple(
+                (key, full[self.system.index.get(f"{key}.since", -1)], self.system.values(full, key, observation.tone))
+                for key in acts
+            )
             if values not in numbers:
                 numbers[values] = len(drives)
                 columns = self.system.acting(observation.columns, full, acts, observation.tone, lead=observation.lead)

@@ -26,6 +26,7 @@ from lostmotion.quantities import TIME
 PIECE = 200_000
 """Steps of a long motion that are computed at a time."""
 ALWAYS = -1e9
+"""The onset (s) of a term that was there from the beginning."""
 ONSET = Param("since", "time from which on it acts", TIME, null=ALWAYS)
 NUMB = -1
 """The index of an observed channel that is no state and has to be linearised."""
@@ -97,8 +98,12 @@ class System:
 
     @cached_property
     def onsets(self) -> tuple[Slot, ...]:
-        """The time from which on each force acts: `key.since`. They stand behind all parameters in the full vector."""
-        return tuple(Slot(f"{key}.since", ONSET, "s", self.keys.index(key)) for key, _ in self.forces)
+        """The time from which on each term acts: `key.since`; those of the kernel first, then those of the drive.
+
+        They stand behind all parameters in the full vector. What a sensor shows has no onset.
+        """
+        keys = [key for key, _ in self.forces] + [k for k, t in self.beside.items() if t.acts == "drive"]
+        return tuple(Slot(f"{key}.since", ONSET, "s", self.keys.index(key)) for key in keys)
 
     @cached_property
     def index(self) -> Mapping[str, int]:
@@ -195,7 +200,7 @@ class System:
         force, the step, and one over each inertia; before these the onset of each force.
         """
         base = fulls[:, : len(self.model.params)]
-        onsets = fulls[:, len(self.slots) :]
+        onsets = fulls[:, len(self.slots) : len(self.slots) + len(self.forces)]
         more = {"step": step, "finest": step, "omega": tone.omega, "amplitude": tone.amplitude}
         columns = []
         for key, term in self.forces:
@@ -278,7 +283,8 @@ class System:
             u: Input = Recorded(tuple(columns[place] for place in places))
             own = [key for key in keys if self._touches(key, name, lead in places)]
             for key in own:
-                u = through(self.beside[key], u, self.values(full, key, tone))
+                since = full[self.index[f"{key}.since"]] if f"{key}.since" in self.index else ALWAYS
+                u = through(self.beside[key], u, self.values(full, key, tone), float(since))
             for order, place in enumerate(places if own else ()):
                 made[place] = partial(of_order, u, order)
         return made
@@ -332,6 +338,11 @@ class System:
         """The keys of the terms that bend what a sensor shows."""
         bent = SensorTerm.bent
         return tuple(k for k, t in self.beside.items() if isinstance(t, SensorTerm) and type(t).bent is not bent)
+
+    @cached_property
+    def lagging(self) -> tuple[str, ...]:
+        """The keys of the sensors that have states of their own."""
+        return tuple(key for key, term in self.beside.items() if term.acts == "sensor" and term.states)
 
     def gauging(self, active: Iterable[str]) -> bool:
         """Return whether any sensor term is active."""

@@ -17,7 +17,7 @@ from lostmotion.inference.locate import Curve, covariates, curve, edges_of, furt
 from lostmotion.inference.natural import term_of
 from lostmotion.inference.odds import Ratio, likely, log_odds
 from lostmotion.inference.prices import price_of
-from lostmotion.inference.scout import scoutable, scouted
+from lostmotion.inference.scout import scouted
 from lostmotion.inference.selection import significant_random_force
 from lostmotion.inference.setup import HELD_OUT, polish, problem_of, search, split, stepped
 from lostmotion.inference.shares import Covariate, Share, shares_of, significant
@@ -189,10 +189,8 @@ def diagnose(
     say("fit of the nominal model")
     nominal = search(problem_of(system, case, train, jobs=jobs), rng)
     curves = Curves(len(system.keys), say)
-    shapes = {}
-    if scoutable(nominal.problem) and significant_random_force(nominal) > SIGNIFICANT:
-        say("shapes: pitches, stops, times")
-        shapes = scouted(nominal)
+    say("shapes: pitches, stops, times")
+    shapes = scouted(nominal, forces=significant_random_force(nominal) > SIGNIFICANT)
     selection = sought(nominal, fitted_keys(system), say, shapes, curves.promise)
     if selection.chosen.problem.active and significant_random_force(selection.chosen) > SIGNIFICANT:
         say("shapes beside what was found")

@@ -11,6 +11,7 @@ import numpy as np
 
 from lostmotion.contracts import Array, Model, SensorTerm, Term
 from lostmotion.inference.fit import Fit
+from lostmotion.inference.late import since
 from lostmotion.inference.mixture import draws
 from lostmotion.inference.natural import term_of
 from lostmotion.likelihood.predict import Horizon
@@ -114,6 +115,9 @@ def _entry(outcome: Outcome, key: str, after: Mapping[str, Interval]) -> dict[st
     sentence = term.physics.format(**numbers) + _whose(d, term)
     if term.at in elsewhere(system.model):
         sentence += f" at the place {term.at!r}"
+    late = since(d.after, key)
+    if late:
+        sentence += f", since {late}"
     share = float(np.max(np.abs(d.laws[key]))) / d.after.problem.scales.force
     percent, is_sensor = f"{100.0 * share:.2g}" if share < 1.0 else f"{100.0 * share:.0f}", isinstance(term, SensorTerm)
     doubts = doubts_of(d, key) + [doubt for doubt in (outcome.unconfirmed.get(key), why) if doubt]
@@ -125,6 +129,7 @@ def _entry(outcome: Outcome, key: str, after: Mapping[str, Interval]) -> dict[st
         "doubts": doubts,
         "parameters": {name: i.as_dict() for name, i in (own | _derived(outcome, term, held)).items()},
         "share_of_drive": share,
+        **({"since": late.as_dict()} if late else {}),
         "says": f"{sentence}." if is_sensor else f"{sentence}, up to {percent} % of {d.yardstick}.",
     }
 

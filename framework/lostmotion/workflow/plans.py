@@ -187,7 +187,7 @@ def two_ways(pilot: Pilot, at: str, rng: np.random.Generator) -> Draft:
 def wavy(pilot: Pilot, at: str, rng: np.random.Generator) -> Draft:
     """Return the plan of friction with a wave over position."""
     x, v = pilot.motion(at)
-    pitch, share = float(np.ptp(x) / rng.uniform(1.5, 6.0)), float(rng.uniform(0.4, 0.9))
+    pitch, share = float(np.ptp(x) / rng.uniform(3.0, 6.0)), float(rng.uniform(0.4, 0.9))
     phase = float(rng.uniform(0.0, 2.0 * math.pi))
     felt = np.sign(v) * (1.0 + share * np.cos(2.0 * math.pi * x / pitch + phase))
     told = lambda size: {"force": size, "wave": share * size, "pitch": pitch, "phase": phase}  # noqa: E731
@@ -218,7 +218,7 @@ def aging(pilot: Pilot, at: str, rng: np.random.Generator) -> Draft:
 
 def magnets(pilot: Pilot, at: str, rng: np.random.Generator) -> Draft:
     """Return the plan of a force with a wave over position."""
-    pitch, phase = float(np.ptp(pilot.q) / rng.uniform(1.5, 12.0)), float(rng.uniform(0.0, 2.0 * math.pi))
+    pitch, phase = float(np.ptp(pilot.q) / rng.uniform(3.0, 12.0)), float(rng.uniform(0.0, 2.0 * math.pi))
     felt = np.sin(2.0 * math.pi * pilot.q / pitch + phase)
     return Draft(felt, lambda size: {"force": size, "pitch": pitch, "phase": phase})
 
@@ -243,7 +243,7 @@ def sensor_behind(pilot: Pilot, at: str, rng: np.random.Generator) -> Draft:
 
 def sensor_wave(pilot: Pilot, at: str, rng: np.random.Generator) -> Draft:
     """Return the plan of a sensor with a wave over what it shows."""
-    pitch, phase = float(np.ptp(pilot.q) / rng.uniform(1.5, 8.0)), float(rng.uniform(0.0, 2.0 * math.pi))
+    pitch, phase = float(np.ptp(pilot.q) / rng.uniform(3.0, 8.0)), float(rng.uniform(0.0, 2.0 * math.pi))
     shown = np.cos(2.0 * math.pi * pilot.q / pitch + phase)
     return Draft(shown, lambda size: {"size": size, "pitch": pitch, "phase": phase}, shown=True)
 

@@ -9,8 +9,9 @@ from typing import ClassVar
 from lostmotion.contracts import Array, Param, Term, Values
 from lostmotion.quantities import FORCE, LENGTH, NUMBER
 
-PITCHES = (0.03, 6.0)
-"""Where a pitch is looked for, in amplitudes of the motion."""
+TYPICAL, PITCHES = 0.3, (0.1, 3.4)
+"""The usual pitch in amplitudes of the motion, and where one is looked for in units of that: the longest has two
+periods in the travel. What repeats less often is no wave that anybody could tell from another smooth curve."""
 
 
 @dataclass(frozen=True)
@@ -25,7 +26,15 @@ class Cogging(Term):
     params = (
         Param("cosine", "force as cos(2 pi x / pitch)", FORCE, null=0.0, typical=0.1),
         Param("sine", "force as sin(2 pi x / pitch)", FORCE, null=0.0, typical=0.1),
-        Param("pitch", "travel or turn after which it repeats", LENGTH, low=0.0, scale="log", scan=PITCHES),
+        Param(
+            "pitch",
+            "travel or turn after which it repeats",
+            LENGTH,
+            low=0.0,
+            scale="log",
+            typical=TYPICAL,
+            scan=PITCHES,
+        ),
     )
     further = (Param("force", "amplitude of the force", FORCE), Param("phase", "phase in rad", NUMBER))
 
@@ -58,7 +67,15 @@ class PositionDependentFriction(Term):
         Param("force", "friction force on the average", FORCE, low=0.0, null=0.0),
         Param("cosine", "friction as cos(2 pi x / pitch)", FORCE, null=0.0, typical=0.3),
         Param("sine", "friction as sin(2 pi x / pitch)", FORCE, null=0.0, typical=0.3),
-        Param("pitch", "travel or turn after which it repeats", LENGTH, low=0.0, scale="log", scan=PITCHES),
+        Param(
+            "pitch",
+            "travel or turn after which it repeats",
+            LENGTH,
+            low=0.0,
+            scale="log",
+            typical=TYPICAL,
+            scan=PITCHES,
+        ),
     )
     needs = ("mobility",)
     resembles = ("coulomb_friction", "stribeck_friction")

@@ -94,7 +94,7 @@ class PositionRipple(SensorTerm):
     params = (
         Param("cosine", "error as cos(2 pi x / pitch)", LENGTH, null=0.0, typical=0.02),
         Param("sine", "error as sin(2 pi x / pitch)", LENGTH, null=0.0, typical=0.02),
-        Param("pitch", "way after which it repeats", LENGTH, low=0.0, scale="log", scan=(0.1, 6.0)),
+        Param("pitch", "way after which it repeats", LENGTH, low=0.0, scale="log", typical=0.3, scan=(0.1, 3.4)),
     )
     further = (Param("size", "amplitude of the error", LENGTH), Param("phase", "phase in rad", NUMBER))
     resembles = ("cogging",)

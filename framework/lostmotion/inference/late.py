@@ -1,0 +1,115 @@
+"""Since when a term acts: how a recording tells it at first sight, and how it is estimated."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from lostmotion.contracts import Array
+from lostmotion.inference.fit import Fit, Sensitivity, maximise, restarted
+from lostmotion.likelihood.problem import Free, Problem
+from lostmotion.likelihood.system import ALWAYS
+from lostmotion.results import Interval
+
+TIMES = 24
+"""So many onsets are tried, evenly over a recording."""
+FIRST, LAST = 0.04, 0.9
+"""Shares of a recording between which an onset is told: before, a term was there from the beginning."""
+AROUND, GRID, DEPTH = 0.1, 96, 12.0
+"""An interval of an onset is sought over this share of a recording to either side, at so many places at once, and among
+those whose log-likelihood is this much lower at the most."""
+PRICE = math.log(TIMES)
+"""The log price of an onset that was chosen."""
+
+
+def since_of(key: str) -> str:
+    """Return the key of the onset of a term."""
+    return f"{key}.since"
+
+
+def can_be_late(problem: Problem, key: str) -> bool:
+    """Return whether an onset of a term can be told: of one recording, and not of a sensor."""
+    return len(problem.observations) == 1 and since_of(key) in problem.system.index
+
+
+def onset(problem: Problem, key: str) -> float:
+    """Return since when (s) a term acts by what is known, `ALWAYS` if from the beginning."""
+    index = problem.system.index
+    return float(problem.known[index[since_of(key)]]) if since_of(key) in index else ALWAYS
+
+
+def times_of(problem: Problem) -> Array:
+    """Return the onsets (TIMES,) that are tried, in s."""
+    observation = problem.observations[0]
+    duration = observation.samples * observation.dt
+    return np.asarray(observation.time[0] + duration * np.linspace(FIRST, LAST, TIMES), dtype=float)
+
+
+def cut(problem: Problem, joint: Sensitivity, k: int) -> Iterator[tuple[float, Array, Array]]:
+    """Yield each onset (s) with gradient and information where the last `k` coordinates act from it on alone.
+
+    What came before is forgotten by a filter within a few cycles, so that the sensitivity behind an onset is that of a
+    term which was always there: sums over its part of the samples.
+    """
+    observation, times = problem.observations[0], times_of(problem)
+    width = len(observation.sensors)
+    edges = np.searchsorted(observation.time, times) * width
+    gradient, information, scores = joint.gradient(), joint.information(), joint.scores()[-k:]
+    v = joint.here.variances
+    for time, edge in zip(times.tolist(), edges.tolist(), strict=True):
+        g, h, behind = gradient.copy(), information.copy(), slice(edge, None)
+        own = (joint.errors[-k:, behind] / v[behind]) @ joint.errors[:, behind].T
+        own += 0.5 * (joint.variances[-k:, behind] / v[behind] ** 2) @ joint.variances[:, behind].T
+        g[-k:] = scores[:, behind].sum(axis=1)
+        h[-k:, :], h[:, -k:] = own, own.T
+        yield time, g, h
+
+
+def at_any_time(problem: Problem, key: str, start: float) -> Free:
+    """Return the onset of a term as a free parameter, uniform over the recording."""
+    observation = problem.observations[0]
+    begin = float(observation.time[0])
+    return Free(since_of(key), "s", start, begin, begin + observation.samples * observation.dt)
+
+
+def refined(fit: Fit, key: str) -> Fit:
+    """Return the fit with the onset of a term held where the likelihood is highest nearby; as it is without one."""
+    if not onset(fit.problem, key) > ALWAYS:
+        return fit
+    wider = restarted(fit).extended((at_any_time(fit.problem, key, onset(fit.problem, key)),), ())
+    found = maximise(wider, np.append(fit.theta, onset(fit.problem, key)))
+    held = restarted(fit).knowing({since_of(key): float(found.theta[-1])})
+    late = maximise(held, found.theta[:-1])
+    return late if late.local.log_posterior > fit.local.log_posterior else fit
+
+
+def since(fit: Fit, key: str) -> Interval | None:
+    """Return median and central 95 % interval of the onset of a term, all else as it is; None where it has none.
+
+    A likelihood over onsets has kinks, and is flat where the term does nothing, so it is summed over a grid: first over
+    a part of the recording about the onset, then over where it is high.
+    """
+    problem, at = fit.problem, onset(fit.problem, key)
+    if not at > ALWAYS:
+        return None
+    free = at_any_time(problem, key, at)
+    wider, reach = problem.extended((free,), ()), AROUND * (free.high - free.low)
+    low, high = max(at - reach, free.low), min(at + reach, free.high)
+    grid, heights = np.zeros(0), np.zeros(0)
+    for _ in range(2):
+        grid = np.linspace(low, high, GRID)
+        heights = wider.log_likelihoods(np.array([np.append(fit.theta, t) for t in grid]))
+        near = grid[heights > heights.max() - DEPTH]
+        low, high = near[0] - (grid[1] - grid[0]), near[-1] + (grid[1] - grid[0])
+    weights = np.exp(heights - heights.max())
+    below = np.cumsum(weights) / weights.sum()
+    cell = grid[1] - grid[0]
+    median, low, high = (float(np.interp(share, below, grid + 0.5 * cell)) for share in (0.5, 0.025, 0.975))
+    return Interval(median, low, high, "s")
+
+
+def price_of_onsets(problem: Problem) -> float:
+    """Return the log price of the onsets of the terms at work."""
+    return PRICE * sum(onset(problem, key) > ALWAYS for key in problem.active)
