@@ -1,0 +1,220 @@
+"""Where each number of a model with its terms stands: parameters, onsets, states, and what each law is handed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lostmotion.contracts import Array, DriveTerm, Interface, Model, Param, SensorTerm, Term, place_of
+from lostmotion.errors import ContractError, nearest
+from lostmotion.likelihood.drive import SILENT, Tone
+from lostmotion.quantities import TIME
+
+ALWAYS = -1e9
+"""The onset (s) of a term that was there from the beginning."""
+ONSET = Param("since", "time from which on it acts", TIME, null=ALWAYS)
+NUMB = -1
+"""The index of an observed channel that is no state and has to be linearised."""
+
+
+def key_of(term: Term) -> str:
+    """Return the name of a term, with its place when that is neither the ground nor plain: `coulomb_friction@base`."""
+    return term.name if term.at in ("ground", "drive", "sensor") else f"{term.name}@{term.at}"
+
+
+@dataclass(frozen=True)
+class Slot:
+    """A parameter of the whole system: `key` is `c` for the model's, `coulomb_friction.force` for a term's."""
+
+    key: str
+    param: Param
+    unit: str
+    term: int | None
+
+
+@dataclass(frozen=True)
+class Layout:
+    """A model and the terms it may have, as numbers: the full vector of parameters, and which entry is which."""
+
+    model: Model
+    terms: tuple[Term, ...] = ()
+
+    @property
+    def everything(self) -> frozenset[str]:
+        """The keys of all terms."""
+        return frozenset(self.keys)
+
+    @cached_property
+    def keys(self) -> tuple[str, ...]:
+        """The key of each term, in order."""
+        return tuple(key_of(term) for term in self.terms)
+
+    @cached_property
+    def slots(self) -> tuple[Slot, ...]:
+        """Every parameter: the model's first, then those of each term."""
+        motion = self.model.motion
+        own = [Slot(q.name, q, q.dimension.unit(motion), None) for q in self.model.params]
+        for i, term in enumerate(self.terms):
+            own += [Slot(f"{self.keys[i]}.{q.name}", q, q.dimension.unit(motion), i) for q in term.params]
+        return tuple(own)
+
+    @cached_property
+    def onsets(self) -> tuple[Slot, ...]:
+        """The time from which on each term acts: `key.since`; those of the kernel first, then those of the drive.
+
+        They stand behind all parameters in the full vector. What a sensor shows has no onset.
+        """
+        keys = [key for key, _ in self.forces] + [k for k, t in self.beside.items() if t.acts == "drive"]
+        return tuple(Slot(f"{key}.since", ONSET, "s", self.keys.index(key)) for key in keys)
+
+    @cached_property
+    def index(self) -> Mapping[str, int]:
+        """The position of each parameter key in the full vector."""
+        return {slot.key: i for i, slot in enumerate((*self.slots, *self.onsets))}
+
+    def slot(self, name: str) -> Slot:
+        """Return the parameter called `name` or one of its aliases, or raise `ContractError` naming the nearest."""
+        for slot in (*self.slots, *self.onsets):
+            if name == slot.key or (slot.term is None and name in slot.param.aliases):
+                return slot
+        known = [slot.key for slot in self.slots if slot.term is None]
+        raise ContractError(
+            f"{self.model.name} has no parameter {name!r}{nearest(name, known)}: it has {', '.join(known)}"
+        )
+
+    def vector(self, values: Mapping[str, float]) -> Array:
+        """Return the full parameter vector; what is not given is `null`, or one for a shape parameter, or zero."""
+        full = np.array([_default(slot) for slot in (*self.slots, *self.onsets)])
+        for name, value in values.items():
+            full[self.index[self.slot(name).key]] = value
+        return full
+
+    def states(self, active: Iterable[str]) -> int:
+        """Return how many states the model has with these terms."""
+        chosen = set(active)
+        return len(self.model.states) + sum(
+            len(term.states) for key, term in zip(self.keys, self.terms, strict=True) if key in chosen
+        )
+
+    @cached_property
+    def forces(self) -> tuple[tuple[str, Term], ...]:
+        """The terms that the kernel knows, with their keys, in its order: forces, and sensors that have states.
+
+        Those that feel the acceleration come behind all other forces, which make it.
+        """
+        pairs = list(zip(self.keys, self.terms, strict=True))
+        own = [(k, t) for k, t in pairs if t.acts == "motion" or (t.acts == "sensor" and t.states)]
+        return tuple(sorted(own, key=lambda pair: (pair[1].acts == "sensor", "acceleration" in pair[1].needs)))
+
+    @cached_property
+    def beside(self) -> Mapping[str, DriveTerm | SensorTerm]:
+        """The terms of drive and sensor, by key."""
+        pairs = zip(self.keys, self.terms, strict=True)
+        return {key: term for key, term in pairs if isinstance(term, DriveTerm | SensorTerm)}
+
+    @cached_property
+    def inertias(self) -> tuple[int, ...]:
+        """The indices of all inertias that forces move, each once."""
+        moved = [name for i in self.model.interfaces for name in (i.inertia, *(i.against or ())[1:])]
+        return tuple(dict.fromkeys(self.index[name] for name in moved))
+
+    def inertia(self, full: Array, place: Interface) -> Any:
+        """Return the inertia (kg or kg m^2) that a force at a place moves; of two bodies, 1 / (1/m1 + lever^2/m2).
+
+        `full` is (parameters,) or (points, parameters).
+        """
+        moved = [place.inertia, *(place.against[1:] if place.against else ())]
+        inverse = [1.0 / full[..., self.index[name]] for name in moved]
+        for lever in self.lever(full, place):
+            inverse[-1] = lever**2 * inverse[-1]
+        return 1.0 / np.sum(inverse, axis=0)
+
+    def lever(self, full: Array, place: Interface) -> tuple[Any, ...]:
+        """Return the lever of the second body of a place, as its `motion` takes it: nothing where there is none."""
+        return () if place.lever is None else (full[..., self.index[place.lever]],)
+
+    def wiring(self, active: Iterable[str]) -> tuple[NDArray[np.bool_], NDArray[np.int64]]:
+        """Return the switches of the terms, and where in `y` the states of each begin."""
+        chosen = set(active)
+        if unknown := chosen - set(self.keys):
+            raise ContractError(
+                f"no term {sorted(unknown)[0]!r} in this system{nearest(sorted(unknown)[0], self.keys)}"
+            )
+        on = np.array([key in chosen for key, _ in self.forces], dtype=np.bool_)
+        at, start = np.zeros(len(on), dtype=np.int64), len(self.model.states)
+        for i, (_, term) in enumerate(self.forces):
+            at[i] = start if on[i] else 0
+            start += len(term.states) if on[i] else 0
+        return on, at
+
+    def pack(self, fulls: Array, step: float, tone: Tone = SILENT, *, line: int = 1) -> Array:
+        """Return what a model and its forces are handed, (points, params): each force has what it needs behind its own.
+
+        `fulls` is (points, parameters); `step` is that of the integration (s), of which a law that jumps at rest takes
+        `line` to pass its steep line. Behind the parameters of the model and of the forces stand the pace of a latent
+        force, the step, and one over each inertia; before these the onset of each force.
+        """
+        base = fulls[:, : len(self.model.params)]
+        onsets = fulls[:, len(self.slots) : len(self.slots) + len(self.forces)]
+        more = {"step": step, "finest": step, "omega": tone.omega, "amplitude": tone.amplitude}
+        columns = []
+        for key, term in self.forces:
+            own = np.empty((len(fulls), len(self._sources[key])))
+            for column, (kind, i) in enumerate(self._sources[key]):
+                if kind in ("mobility", "inertia"):
+                    moved = self.inertia(fulls, self.model.interfaces[i])
+                    own[:, column] = moved if kind == "inertia" else line * step / moved
+                elif kind == "number":
+                    own[:, column] = i
+                else:
+                    own[:, column] = fulls[:, i] if kind == "own" else more[kind]
+            columns.append(term.prepared(own))
+        with np.errstate(divide="ignore"):
+            inverse = [1.0 / fulls[:, i] for i in self.inertias]
+        silent, steps = np.zeros(len(fulls)), np.full(len(fulls), step)
+        return np.column_stack([base, *columns, onsets, silent, steps, *inverse])
+
+    def values(self, full: Array, key: str, tone: Tone) -> tuple[float, ...]:
+        """Return `p` of a term beside the machine: its own parameters, and behind them what it needs of the drive."""
+        known = {"omega": tone.omega, "amplitude": tone.amplitude}
+        return tuple(float(full[i] if kind == "own" else known.get(kind, 0.0)) for kind, i in self._sources[key])
+
+    @cached_property
+    def _sources(self) -> Mapping[str, tuple[tuple[str, int], ...]]:
+        """Where each entry of the `p` of a term comes from: "own" with an index, "mobility" with that of its place."""
+        return {key: tuple(self._entries(key, term)) for key, term in zip(self.keys, self.terms, strict=True)}
+
+    def _entries(self, key: str, term: Term) -> Iterable[tuple[str, int]]:
+        place = place_of(self.model, term)
+        contact = {"stiffness": place.stiffness, "play": place.play}
+        contact["contact"] = place.stiffness if place.play else None
+        yield from (("own", self.index[f"{key}.{q.name}"]) for q in term.params)
+        for need in term.needs:
+            if need in ("step", "finest", "omega", "amplitude"):
+                yield need, NUMB
+            elif need in ("mobility", "inertia"):
+                yield need, self.model.interfaces.index(place)
+            elif need in ("acceleration", "force_input", "shake_input"):
+                yield "number", self._input_of(need, place)
+            else:
+                name = contact.get(need, need)
+                yield ("own", self.index[name]) if name else ("number", 0)
+
+    def _input_of(self, need: str, place: Interface) -> int:
+        """Return which input is the force on the body at a place, or the acceleration of the base; -1 where none is."""
+        inputs, first = self.model.inputs, self.model.interfaces[0].row
+        name = "base_acceleration" if need == "shake_input" else "force" if place.row == first else "second_force"
+        return inputs.index(name) if name in inputs and need != "acceleration" else NUMB
+
+
+def _default(slot: Slot) -> float:
+    if slot.param.null is not None:
+        return slot.param.null
+    if slot.param.choices:
+        return slot.param.choices[0]
+    return 1.0 if slot.param.scale == "log" else 0.0
