@@ -145,6 +145,7 @@ def work(task):
         if code:
             return row
         told = json.loads((folder / "out" / "diagnosis.json").read_text())
+        row["machine"] = {"values": dict(rig.values), "signal": {"tones": rig.signal.tones}}
         row["truth"] = [{"name": e.mechanism, "at": e.at, **e.parameters} for e in effects]
         row["found"] = told["found"]
         row["verdict"] = told["verdict"]

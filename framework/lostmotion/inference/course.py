@@ -228,11 +228,14 @@ class Selection:
     def feared(self, visit: Visit, worse: float) -> float:
         """Return the log evidence that a discrepancy may add to a part of a set: promised or fitted, whichever is more.
 
-        Where scores have a long memory what a fit wins is mostly that memory, and the promise alone counts.
+        Where scores have a long memory what a fit wins is mostly that memory, and the promise alone counts. An absurd
+        promise that did not come true is no promise.
         """
         promised = self.expansion(visit).promise(worse).gain
         won = self._won(visit) if worse < LONG else None
-        return promised if won is None else max(promised, won.over(worse))
+        if won is None:
+            return promised
+        return won.over(worse) if promised > ABSURD else max(promised, won.over(worse))
 
     @staticmethod
     def _prices(visit: Visit, over: Visit) -> float:

@@ -28,6 +28,7 @@ ALIKE: tuple[frozenset[str], ...] = (
     frozenset({"excitation_delay", "sensor_delay"}),
     frozenset({"excitation_gain", "sensor_gain"}),
     frozenset({"dahl_friction", "lugre_friction", "bouc_wen_hysteresis"}),
+    frozenset({"actuator_lag", "sensor_lag"}),
 )
 """Mechanisms that no recording of this kind tells apart: either name is right."""
 SKIPPED = ("sensor_quantisation", "unknown")
@@ -85,14 +86,28 @@ def yardstick(prepared: Prepared, truth: Row, diagnosis: Row | None) -> Yardstic
 def spelled(truth: Mapping[str, float], machine: Row) -> dict[str, float]:
     """Return the parameters of an effect with all further names they have in the library.
 
-    A wave of an amplitude and a phase (rad) has a cosine and a sine; one of the drive is a share of that.
+    A wave of an amplitude and a phase (rad) has a cosine and a sine; one of the drive is a share of that. A hidden mass
+    is a share of the moving one, and of a drive that is cut all is lost.
     """
+    if "mass" in truth:
+        return {**truth, "mass_ratio": truth["mass"] / machine["values"]["m"]}
+    if {"limit", "width"} & set(truth):
+        return {**truth, "share": 1.0}
     if "phase" not in truth:
         return dict(truth)
+    phase = truth["phase"]
+    if "pitch" in truth:
+        sized = next(name for name in ("wave", "size", "force") if name in truth)
+        phase -= 0.5 * math.pi if sized == "force" else 0.0
+        return {**truth, "phase": phase, **_waves(truth[sized], phase)}
     drive = math.hypot(*(tone[0] for tone in machine["signal"]["tones"]))
     depth = truth["depth"] if "depth" in truth else truth["amplitude"] / drive
-    cosine, sine = depth * math.cos(truth["phase"]), -depth * math.sin(truth["phase"])
-    return {**truth, "share": depth, "cosine": cosine, "sine": sine}
+    return {**truth, "share": depth, **_waves(depth, phase)}
+
+
+def _waves(size: float, phase: float) -> dict[str, float]:
+    """Return cosine and sine of size * cos(angle + phase)."""
+    return {"cosine": size * math.cos(phase), "sine": -size * math.sin(phase)}
 
 
 def _margin(full: Fit, problem: Problem, found: Sequence[Row]) -> float | None:
