@@ -1,4 +1,4 @@
-"""How well the terms of the library are named: `python benchmarks/library.py [table|confusion] [options]`.
+"""How well the terms of the library are named: `python benchmarks/library.py [table|clean] [options]`.
 
 Each term is hidden in a machine by an integrator that shares nothing with the framework (`independent_zoo.move`), under
 a multisine, a sweep or a harmonic, seen by a sensor of position, velocity or acceleration, at a size that is to gain a
@@ -23,6 +23,7 @@ from lostmotion.kernels.independent_zoo import Hidden
 from lostmotion.storage import save_table
 from lostmotion.workflow.hiding import hidden_in
 from lostmotion.workflow.mechanisms import NOISY, TABLE, Effect
+from lostmotion.workflow.oracle import alike, spelled
 from lostmotion.workflow.pilot import Pilot
 from lostmotion.workflow.zoo import USUAL, Meddling, Rig, Signal, drawn_log, moved, sized, wide_prior
 
@@ -158,7 +159,7 @@ def work(task):
 def parsed():
     """Return the options."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("what", nargs="?", default="table", choices=("table", "confusion", "clean"))
+    parser.add_argument("what", nargs="?", default="table", choices=("table", "clean"))
     parser.add_argument("--terms", default="", help="names, separated by commas (all)")
     parser.add_argument("--sensors", default=",".join(SENSORS))
     parser.add_argument("--drives", default=",".join(DRIVES))
@@ -173,6 +174,52 @@ def parsed():
 def gain_of(args, seed):
     """Return the gain of a seed."""
     return args.gain or 50.0 * 10.0 ** float(np.random.default_rng([9, seed]).random())
+
+
+def named(row):
+    """Return the names that a row has, and whether the hidden one is among them, or one that counts as it."""
+    found = [f["mechanism"] for f in row["found"] if f["mechanism"] not in ("unknown", "random_force")]
+    return found, any(alike(name, row["name"]) for name in found)
+
+
+def covered(row):
+    """Return for each parameter of the hidden term whether its interval holds the truth."""
+    if not row["truth"]:
+        return []
+    truth = {k: v for k, v in row["truth"][0].items() if k not in ("name", "at")}
+    known = spelled(truth, row["machine"]) if row.get("machine") else truth
+    entry = next((f for f in row["found"] if f["mechanism"] == row["name"]), None)
+    told = entry["parameters"] if entry else {}
+    return [i["low"] <= known[k] <= i["high"] for k, i in told.items() if k in known and i["low"] is not None]
+
+
+def summary(rows):
+    """Print how many were named, how many intervals hold, and how many names were one too many, by sensor and drive."""
+    head = ("sensor", "drive", "named", "intervals that hold", "names too many", "seconds (median)")
+    print(f"\n| {' | '.join(head)} |\n|{'---|' * len(head)}")
+    good = [r for r in rows if r.get("status") == 0 and r["name"] != "clean"]
+    for sensor in SENSORS:
+        for drive in DRIVES:
+            own = [r for r in good if (r["sensor"], r["drive"]) == (sensor, drive)]
+            if not own:
+                continue
+            hits = sum(named(r)[1] for r in own)
+            held = [ok for r in own for ok in covered(r)]
+            extra = sum(sum(not alike(n, r["name"]) for n in named(r)[0]) for r in own)
+            seconds = float(np.median([r["seconds"] for r in own]))
+            print(
+                f"| {sensor} | {drive} | {hits} of {len(own)} | {sum(held)} of {len(held)} | {extra} | {seconds:.0f} |"
+            )
+    clean = [r for r in rows if r.get("status") == 0 and r["name"] == "clean"]
+    if clean:
+        print(f"\nOf {len(clean)} machines that hide nothing {sum(bool(named(r)[0]) for r in clean)} had a name.")
+    missed = [
+        (r["name"], r["sensor"], r["drive"], named(r)[0] or [f["mechanism"] for f in r["found"]])
+        for r in good
+        if not named(r)[1]
+    ]
+    for name, sensor, drive, found in missed:
+        print(f"- {name}, {sensor}, {drive}: {', '.join(found) or 'nothing'}")
 
 
 def main():
@@ -207,6 +254,7 @@ def main():
                 names,
                 flush=True,
             )
+    summary([json.loads(line) for line in path.read_text().splitlines()])
 
 
 if __name__ == "__main__":

@@ -11,6 +11,7 @@ from sensed import case_of, model_of, moved, multisine, noisy
 
 from lostmotion.inference.candidates import screen, slopes_of
 from lostmotion.inference.late import TIMES, can_be_late, cut, onset, refined, since, since_of, times_of
+from lostmotion.inference.likeness import likeness
 from lostmotion.inference.scout import scouted
 from lostmotion.inference.selection import Selector
 from lostmotion.inference.setup import problem_of, search, split
@@ -22,10 +23,10 @@ from lostmotion.registry import Registry
 from lostmotion.workflow.mechanisms import TABLE
 from lostmotion.workflow.oracle import alike, spelled
 from lostmotion.workflow.prepare import prepare
-from lostmotion_plugins.terms.elastic import LinearStiffness
+from lostmotion_plugins.terms.elastic import CubicStiffness, LinearStiffness
 from lostmotion_plugins.terms.friction import CoulombFriction
 from lostmotion_plugins.terms.lag import ActuatorLag, SensorLag, lagged
-from lostmotion_plugins.terms.play import Backlash
+from lostmotion_plugins.terms.play import Backlash, EndStop
 from lostmotion_plugins.terms.sensor import PositionRipple
 from lostmotion_plugins.terms.viscous import QuadraticDamping
 
@@ -187,6 +188,23 @@ def lagging(x, time):
     for i in range(1, len(out)):
         out[i] = out[i - 1] + share * (dense[i] - out[i - 1])
     return np.interp(np.arange(len(x)), fine, out)
+
+
+def test_a_learned_force_is_said_to_look_like_the_law_it_came_from(tmp_path):
+    """A force along the motion by formula: one law at a shape of its own, the sum of two, and one of no law."""
+    terms = [EndStop(), QuadraticDamping(), CoulombFriction(), CubicStiffness()]
+    fit = nominal_of(tmp_path, terms)
+    states = np.ascontiguousarray(fit.problem.smooth(fit.theta).states[:, :2])
+    x, v = states.T
+    stop = -np.sign(x) * np.maximum(np.abs(x) - 0.031, 0.0)
+    found = likeness(fit.problem, fit.theta, states, 40.0 * stop)
+    assert found.keys == ("end_stop",)
+    assert found.share > 0.98
+    both = stop / np.std(stop) - v * np.abs(v) / np.std(v * np.abs(v))
+    found = likeness(fit.problem, fit.theta, states, both)
+    assert set(found.keys) == {"end_stop", "quadratic_damping"}
+    noise = np.random.default_rng(0).standard_normal(len(x))
+    assert likeness(fit.problem, fit.theta, states, noise) is None
 
 
 @pytest.fixture

@@ -149,19 +149,30 @@ def _free_shapes(problem: Problem, key: str) -> list[Slot]:
 def _best(track: Track | Shown, key: str) -> dict[str, float] | None:
     """Return the shape that goes with the gradient best, and better than the usual ones, or None."""
     problem = track.problem
-    _, shapes = sorted_slots(problem, key)
-    usual = {s.key: tried_of(s.param, problem.scales) for s in shapes}
-    middle = {name: grid[len(grid) // 2] for name, grid in usual.items()}
-    far = {s.key: _grid(s, problem) for s in _free_shapes(problem, key)}
-    chosen = {s.key: s.param.choices for s in shapes if s.param.choices}
+    usual = {s.key: tried_of(s.param, problem.scales) for s in sorted_slots(problem, key)[1]}
 
-    def steadiest(grids: Mapping[str, Array | tuple[float, ...]]) -> tuple[float, dict[str, float]]:
-        tried = [{**middle, name: float(value)} for name, grid in grids.items() for value in grid]
-        tried += [{**shape, name: value} for shape in tried for name, choices in chosen.items() for value in choices]
+    def steadiest(tried: list[dict[str, float]]) -> tuple[float, dict[str, float]]:
         return max(((track.steady(key, shape), shape) for shape in tried), key=lambda pair: pair[0])
 
-    top, best = steadiest(far)
-    return best if top > max(STEADY, steadiest(usual)[0]) else None
+    top, best = steadiest(shapes_of(problem, key))
+    return best if top > max(STEADY, steadiest(_starred(problem, key, usual))[0]) else None
+
+
+def shapes_of(problem: Problem, key: str) -> list[dict[str, float]]:
+    """Return the shapes of a law that are looked at: each free one over its range, the others in the middle."""
+    return _starred(problem, key, {s.key: _grid(s, problem) for s in _free_shapes(problem, key)})
+
+
+def _starred(problem: Problem, key: str, grids: Mapping[str, Array | tuple[float, ...]]) -> list[dict[str, float]]:
+    """Return shapes with one of them over its grid while the others stay in the middle, each choice with each."""
+    shapes = sorted_slots(problem, key)[1]
+    usual = {s.key: tried_of(s.param, problem.scales) for s in shapes}
+    middle = {name: grid[len(grid) // 2] for name, grid in usual.items()}
+    tried = [{**middle, name: float(value)} for name, grid in grids.items() for value in grid]
+    for s in shapes:
+        if s.param.choices:
+            tried += [{**shape, s.key: value} for shape in tried for value in s.param.choices]
+    return tried
 
 
 def _grid(slot: Slot, problem: Problem) -> Array:

@@ -366,7 +366,8 @@ def law_of(fit: Fit, observation: Observation, states: Array, key: str) -> Array
 
 def _felt(system: System, key: str) -> Interface:
     """Return the place where a term acts; what acts beside the machine is felt at the first one."""
-    found = [place_of(system.model, term) for known, term in system.forces if known == key]
+    forces = [term for known, term in system.forces if known == key and term.acts == "motion"]
+    found = [place_of(system.model, term) for term in forces]
     return found[0] if found else system.model.interfaces[0]
 
 

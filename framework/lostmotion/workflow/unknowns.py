@@ -10,7 +10,9 @@ import numpy as np
 
 from lostmotion.inference.curves import Band, band_of
 from lostmotion.inference.learned import names_of
+from lostmotion.inference.likeness import likeness
 from lostmotion.inference.locate import listed
+from lostmotion.inference.natural import term_of
 from lostmotion.inference.odds import p_values
 from lostmotion.inference.proposal import Axis, proposed
 from lostmotion.inference.shares import LEVEL, SURROGATES
@@ -45,6 +47,7 @@ def learned_entry(d: Diagnosis) -> dict[str, Any]:
     depends = names_of(unknown.terms)
     share = rms / d.after.problem.scales.force
     size_of = f"{rms:.3g} {unit} rms, {share:.2%} of {d.yardstick}"
+    alike, looks = _looks(d)
     text = f"A force of {size_of}, is missing that no term of the library explains"
     return {
         "mechanism": "unknown",
@@ -56,9 +59,26 @@ def learned_entry(d: Diagnosis) -> dict[str, Any]:
         "curve": curves[0],
         "curves": curves,
         "proposal": _proposal(d, bands),
+        **alike,
         "share_of_drive": share,
-        "says": f"{text}: it depends on {listed(depends)} and is modelled by a learned curve.",
+        "says": f"{text}: it depends on {listed(depends)}{looks} and is modelled by a learned curve.",
     }
+
+
+def _looks(d: Diagnosis) -> tuple[dict[str, Any], str]:
+    """Return what a learned force looks like along the recorded motion: as an entry, and in words; or nothing."""
+    if d.learned is None or d.left is None:
+        return {}, ""
+    force = np.sum([d.laws[key] for key in d.learned.keys], axis=0)
+    problem = d.after.problem.on((d.shown,))
+    found = likeness(problem, d.after.theta, d.left.missing.states, force)
+    if found is None:
+        return {}, ""
+    terms = [term_of(problem, key)[0] for key in found.keys]
+    several = len(problem.system.model.interfaces) > 1
+    names = [term.name.replace("_", " ") + (f" at {term.at}" if several else "") for term in terms]
+    entry = {"looks_like": [{"mechanism": t.name, "at": t.at} for t in terms], "share_of_likeness": found.share}
+    return entry, f", looks like {' and '.join(names)} ({found.share:.0%} of its variance)"
 
 
 def unnamed_entry(d: Diagnosis) -> dict[str, Any]:

@@ -1,0 +1,95 @@
+"""What a learned force looks like: laws of the library, at any shape, that come close to it along the recorded motion.
+
+It is a proposal in words. The likelihood has refused these laws: at the shapes it tried, or since a smooth force
+explains as much.
+"""
+
+from __future__ import annotations
+
+import itertools
+from dataclasses import dataclass
+
+import numpy as np
+
+from lostmotion.contracts import Array
+from lostmotion.inference.natural import size_of, sorted_slots, term_of, tried_of
+from lostmotion.inference.scout import MOST_SAMPLES, Track, shapes_of
+from lostmotion.likelihood.problem import Problem
+
+ALIKE, TOGETHER = 0.8, 0.9
+"""A law, or a sum of two, is told of when it makes up this share of the variance of the learned force."""
+MOST_SHAPES = 40
+KEPT = 6
+"""So many laws that come closest alone are tried two by two."""
+
+
+@dataclass(frozen=True)
+class Likeness:
+    """Laws of the library by key that come close to a learned force together, and their share of its variance."""
+
+    keys: tuple[str, ...]
+    share: float
+
+
+def likeness(problem: Problem, theta: Array, states: Array, force: Array) -> Likeness | None:
+    """Return the law, or the sum of two, that a learned force (samples,) along `states` (samples, n) looks like.
+
+    None where nothing comes close. The problem is of the one recording along which the force is given.
+    """
+    kept = slice(0, MOST_SAMPLES)
+    whole = problem.observations[0]
+    short = problem.on((whole.part(0, min(whole.samples, MOST_SAMPLES)),))
+    moved = np.ascontiguousarray(states[kept, : len(problem.system.model.states)])
+    track, aim = Track(short, theta, moved, np.zeros(0)), force[kept] - np.mean(force[kept])
+    if not float(aim @ aim) > 0.0:
+        return None
+    alone = {key: _closest(track, key, aim) for key in _static(short)}
+    ranked = sorted(alone, key=lambda key: -alone[key][0])[:KEPT]
+    if not ranked:
+        return None
+    if alone[ranked[0]][0] > ALIKE:
+        return Likeness((ranked[0],), alone[ranked[0]][0])
+    pairs = {(a, b): _share(np.hstack([alone[a][1], alone[b][1]]), aim) for a, b in itertools.combinations(ranked, 2)}
+    best = max(pairs, key=lambda pair: pairs[pair], default=None)
+    return Likeness(best, pairs[best]) if best and pairs[best] > TOGETHER else None
+
+
+def _static(problem: Problem) -> list[str]:
+    """Return the keys of the forces of the library without states, which are functions of the motion alone."""
+    found = []
+    for key in problem.system.keys:
+        term = term_of(problem, key)[0]
+        learned = hasattr(term, "over")
+        if term.acts == "motion" and not term.states and not learned and "acceleration" not in term.needs:
+            found.append(key)
+    return found
+
+
+def _closest(track: Track, key: str, aim: Array) -> tuple[float, Array]:
+    """Return the largest share of a force that a law has at any shape, and its columns (samples, amplitudes) there."""
+    best, columns = 0.0, np.zeros((len(aim), 0))
+    problem = track.problem
+    amplitudes, shapes = sorted_slots(problem, key)
+    usual = {s.key: float(tried_of(s.param, problem.scales)[0]) for s in shapes}
+    tried = shapes_of(problem, key) or [usual]
+    for shape in tried[:: max(1, len(tried) // MOST_SHAPES)]:
+        rows = []
+        for one in amplitudes:
+            others = {s.key: float(s.param.null or 0.0) for s in amplitudes if s is not one}
+            rows.append(track.law(key, {**shape, **others, one.key: size_of(one.param, problem.scales)}))
+        law = np.array(rows).T
+        share = _share(law, aim) if np.all(np.isfinite(law)) else 0.0
+        if share > best:
+            best, columns = share, law
+    return best, columns
+
+
+def _share(columns: Array, aim: Array) -> float:
+    """Return the share of the variance of a force that columns have, means apart."""
+    centred = columns - columns.mean(axis=0)
+    size = np.sqrt(np.sum(centred**2, axis=0))
+    centred = centred[:, size > 0.0] / size[size > 0.0]
+    if not centred.shape[1]:
+        return 0.0
+    left = aim - centred @ np.linalg.lstsq(centred, aim, rcond=1e-10)[0]
+    return 1.0 - float(left @ left) / float(aim @ aim)
