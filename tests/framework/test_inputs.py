@@ -72,7 +72,7 @@ def test_motion_and_derivatives_take_fewer_inputs(model):
 @pytest.mark.parametrize("model", MODELS, ids=lambda m: m.name)
 def test_a_harmonic_drive_moves_the_first_input_alone(model):
     problem = problem_of(model, moved(model))
-    values = {slot.key: float(v) for slot, v in zip(problem.system.slots, problem.known, strict=True)}
+    values = {slot.key: float(problem.known[i]) for i, slot in enumerate(problem.system.slots)}
     flow = stepped(problem.system, values, drive=Harmonic(0.3, 6.0, 0.2), steps=100)
     inputs = flow._inputs(4, flow.period / 4).reshape(4, 3, -1)[:, 0]
     angle = 2.0 * np.pi * np.arange(4) / 4 + 0.2

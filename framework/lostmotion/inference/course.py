@@ -228,14 +228,14 @@ class Selection:
     def feared(self, visit: Visit, worse: float) -> float:
         """Return the log evidence that a discrepancy may add to a part of a set: promised or fitted, whichever is more.
 
-        Where scores have a long memory what a fit wins is mostly that memory, and the promise alone counts. An absurd
-        promise that did not come true is no promise.
+        Where scores have a long memory what a fit wins is mostly that memory, and the promise alone counts. Of an
+        absurd promise that did not come true no more than `ABSURD` is feared.
         """
         promised = self.expansion(visit).promise(worse).gain
         won = self._won(visit) if worse < LONG else None
         if won is None:
             return promised
-        return won.over(worse) if promised > ABSURD else max(promised, won.over(worse))
+        return max(min(promised, ABSURD), won.over(worse))
 
     @staticmethod
     def _prices(visit: Visit, over: Visit) -> float:

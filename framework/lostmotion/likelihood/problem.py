@@ -242,10 +242,7 @@ class Problem:
         return each(work, tasks, self.jobs)
 
     def _views_of(self, thetas: Array, index: int) -> list[tuple[Any, ...]]:
-        """Return for each of some coordinates (points, n) what makes readings another view.
-
-        That is delays of sensors, what bends them, and which of those that lag are at work.
-        """
+        """Return for each of some coordinates (points, n) what makes readings another view: delays, bends and lags."""
         late = self.late(thetas, index)
         if not self.active & {*self.system.bending, *self.system.lagging}:
             return list(late)
@@ -256,15 +253,12 @@ class Problem:
     def _awake(self, theta: Array, index: int) -> Problem:
         """Return the problem without sensors that lag by nothing at some coordinates: a lag of zero has no rate."""
         lagging = self.active & set(self.system.lagging)
-        if not lagging:
-            return self
-        full = self.full(theta, index)
-        idle = frozenset(key for key in lagging if self.system.idle(full, key))
+        idle = {key for key in lagging if self.system.idle(self.full(theta, index), key)}
         return replace(self, active=self.active - idle) if idle else self
 
     def _bends(self, theta: Array, index: int) -> list[Bend]:
         """Return which sensors of a recording are bent at some coordinates, by which term and with which numbers."""
-        if not any(key in self.active for key in self.system.bending):
+        if not self.active & set(self.system.bending):
             return []
         full, sensors = self.full(theta, index), self.observations[index].sensors
         return [

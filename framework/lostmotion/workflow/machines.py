@@ -142,7 +142,7 @@ def _mover(system: System) -> _Mover:
 def _values(system: System, full: Array) -> dict[str, float]:
     """Return the parameters by name; `friction` is that of the term, wherever it acts."""
     values = {key: float(full[i]) for key, i in system.index.items()}
-    return {**values, "friction": sum(v for k, v in values.items() if k.startswith(FRICTION))}
+    return {**values, "friction": sum(v for k, v in values.items() if k.startswith(FRICTION) and k.endswith(".force"))}
 
 
 def _numbers(p: Mapping[str, float], rate: float) -> tuple[int, tuple[float, ...], float]:
