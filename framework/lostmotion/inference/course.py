@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 from lostmotion.inference.candidates import Hint
 from lostmotion.inference.fit import Fit
+from lostmotion.inference.natural import term_of
 from lostmotion.inference.rival import Expansion, expanded, fitted, righted, stood_in
 
 CLOSE = 12.0
@@ -225,17 +226,19 @@ class Selection:
             return promised
         return min(promised, max(won.over(worse), min(expansion.bare(worse), won.open)))
 
-    def feared(self, visit: Visit, worse: float) -> float:
+    def feared(self, visit: Visit, worse: float, more: frozenset[str] = frozenset()) -> float:
         """Return the log evidence that a discrepancy may add to a part of a set: promised or fitted, whichever is more.
 
         Where scores have a long memory what a fit wins is mostly that memory, and the promise alone counts. Of an
-        absurd promise that did not come true no more than `ABSURD` is feared.
+        absurd promise that did not come true no more than `ABSURD` is feared, but where it stands against `more`: terms
+        that an engineer looks for last.
         """
         promised = self.expansion(visit).promise(worse).gain
         won = self._won(visit) if worse < LONG else None
         if won is None:
             return promised
-        return max(min(promised, ABSURD), won.over(worse))
+        last = any(term_of(self.chosen.problem, key)[0].unlikely > 0.0 for key in more)
+        return max(promised if last else min(promised, ABSURD), won.over(worse))
 
     @staticmethod
     def _prices(visit: Visit, over: Visit) -> float:
@@ -260,7 +263,7 @@ class Selection:
         won = self._won(visit) if self._won(over) and worse < LONG else None
         own = max(won.over(worse), min(here.bare(worse), won.open)) if won else self.worth(visit, worse)
         behind = (over.fit.log_evidence - visit.fit.log_evidence) / worse
-        return own - behind - self.feared(over, worse) - self._prices(visit, over)
+        return own - behind - self.feared(over, worse, visit.terms - over.terms) - self._prices(visit, over)
 
     def sound(self, visit: Visit) -> bool:
         """Return whether slopes about a set say what happens: a body at rest answers small forces not at all.
