@@ -48,12 +48,17 @@ def whole(tmp_path_factory):
     return out
 
 
+def heard():
+    """Hear an interrupt: a shell lets what it runs in the background ignore it."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
 def began(tmp_path, jobs):
     """Return a campaign in a process of its own that has finished a few trials."""
     script = tmp_path / "toy.py"
     told = {"here": str(Path(__file__).parent), "out": str(tmp_path / "out"), "gate": str(tmp_path / "gate")}
     script.write_text(TOY.format(**told, jobs=jobs))
-    process = subprocess.Popen([sys.executable, str(script)], env=os.environ, start_new_session=True)
+    process = subprocess.Popen([sys.executable, str(script)], env=os.environ, start_new_session=True, preexec_fn=heard)
     soon(lambda: len(list((tmp_path / "out" / "trials").glob("0*.json"))) >= 2)
     return process
 

@@ -13,7 +13,7 @@ from lostmotion.workflow.campaign import Campaign
 COUNT = 12
 
 
-HELD, SLOW = 4, 1.5
+HELD, SLOW = 4, 0.5
 """From this trial on each one waits to be let go, and then takes so many seconds."""
 
 
