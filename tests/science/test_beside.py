@@ -82,6 +82,7 @@ def test_a_gain_of_one_per_cent_stays_open():
     assert "excitation_gain" in course.unbeaten
 
 
+@pytest.mark.slow
 def test_under_one_tone_a_long_delay_and_a_small_harmonic_stay_open():
     """A force over the phase of the drive imitates both: they would be taken by evidence alone, and get no name."""
     hidden = 0.3 * np.exp(0.7j)

@@ -167,6 +167,7 @@ def test_lag_of_a_drive_is_that_of_the_linear_answer(time):
     assert np.abs(seen - wanted).max() < 1e-9
 
 
+@pytest.mark.slow
 def test_lags_of_drive_and_sensor_promise_the_same_of_a_linear_machine(tmp_path):
     """What lags a linear machine on its way in lags it on its way out; both are found by their secants."""
     late = 0.02

@@ -115,6 +115,7 @@ def test_a_known_value_that_is_slightly_wrong_gets_no_name(tmp_path):
     assert course.unbeaten
 
 
+@pytest.mark.slow
 def test_friction_is_named_beside_a_smooth_force(tmp_path):
     rub = lambda x, v, t: bend(0.2)(x, v, t) - 1.0 * np.tanh(v / 1e-3)  # noqa: E731
     nominal, system = nominal_of(tmp_path, rub)

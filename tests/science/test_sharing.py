@@ -84,6 +84,7 @@ def test_nothing_is_compared_with_one_recording():
     assert sharing_of(fitted([recorded("alone", 1)])) is None
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("memory", [0.0, 0.6])
 def test_false_alarms_are_as_rare_as_is_said(memory):
     """Fifty sets of three recordings, the force noise as large as the drive: p < 0.05 in any of two parameters.

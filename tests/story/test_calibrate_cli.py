@@ -79,6 +79,7 @@ def test_what_is_printed_and_written(done):
     assert "<script" not in page
 
 
+@pytest.mark.slow
 def test_a_lost_machine_is_made_again_with_the_same_bytes(case, done, tmp_path):
     _, out = done
     before = {name: (out / name).read_bytes() for name in WHAT}

@@ -45,6 +45,7 @@ def test_case_and_picture_are_left_to_play_with(shown):
     assert (folder / "hero.png").stat().st_size < 200_000
 
 
+@pytest.mark.slow
 def test_nothing_hidden_nothing_found(tmp_path):
     done = demo("--clean", "--out", tmp_path / "out")
     assert done.exit_code == 0, done.output
