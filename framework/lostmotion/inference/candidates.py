@@ -11,12 +11,12 @@ import numpy as np
 from lostmotion.contracts import Array, Term, Values, place_of
 from lostmotion.errors import ContractError
 from lostmotion.inference.fit import Fit, Sensitivity, maximise, restarted, sensitivity, solved, warmed
-from lostmotion.inference.late import PRICE, can_be_late, cut, refined, since_of
-from lostmotion.inference.natural import SCANNED, frees_of, size_of, sorted_slots, star, term_of, tried_of
+from lostmotion.inference.late import PRICE, can_be_late, cut, refined
+from lostmotion.inference.natural import frees_of, size_of, sorted_slots, star, term_of, tried_of
 from lostmotion.likelihood.compose import handed
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import LATEST, NOISE, RANDOM, Free, Problem
-from lostmotion.likelihood.system import ALWAYS, Slot
+from lostmotion.likelihood.system import ALWAYS, Slot, since_of
 from lostmotion.quantities import FORCE, TIME
 
 CREEP, FINEST = 0.02, 32
@@ -119,9 +119,7 @@ def _stretched(fit: Fit, slopes: Sensitivity, key: str, slot: Slot) -> list[Hint
     or one and a half times this amplitude.
     """
     problem = fit.problem
-    size = size_of(slot.param, problem.scales)
-    low, high = slot.param.scan or (1.0, 1.0)
-    reached = size * np.geomspace(low, high, SCANNED)
+    reached = tried_of(slot.param, problem.scales)
     wider = problem.extended((_held(slot),), {key})
     here, seen = slopes.here, wider.many(np.vstack([np.append(slopes.theta, a) for a in reached]))
     hints = []

@@ -10,7 +10,7 @@ import numpy as np
 from lostmotion.contracts import Array
 from lostmotion.inference.fit import Fit, Sensitivity, maximise, restarted
 from lostmotion.likelihood.problem import Free, Problem
-from lostmotion.likelihood.system import ALWAYS
+from lostmotion.likelihood.system import ALWAYS, since_of
 from lostmotion.results import Interval
 
 TIMES = 24
@@ -24,11 +24,6 @@ PRICE = math.log(TIMES)
 """The log price of an onset that was chosen."""
 
 
-def since_of(key: str) -> str:
-    """Return the key of the onset of a term."""
-    return f"{key}.since"
-
-
 def can_be_late(problem: Problem, key: str) -> bool:
     """Return whether an onset of a term can be told: of one recording, and not of a sensor."""
     return len(problem.observations) == 1 and since_of(key) in problem.system.index
@@ -36,8 +31,7 @@ def can_be_late(problem: Problem, key: str) -> bool:
 
 def onset(problem: Problem, key: str) -> float:
     """Return since when (s) a term acts by what is known, `ALWAYS` if from the beginning."""
-    index = problem.system.index
-    return float(problem.known[index[since_of(key)]]) if since_of(key) in index else ALWAYS
+    return problem.system.onset(problem.known, key)
 
 
 def times_of(problem: Problem) -> Array:

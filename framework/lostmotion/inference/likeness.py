@@ -12,7 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from lostmotion.contracts import Array
-from lostmotion.inference.natural import size_of, sorted_slots, term_of, tried_of
+from lostmotion.inference.learned import Learned
+from lostmotion.inference.natural import sorted_slots, term_of, tried_of
 from lostmotion.inference.scout import MOST_SAMPLES, Track, shapes_of
 from lostmotion.likelihood.problem import Problem
 
@@ -59,8 +60,12 @@ def _static(problem: Problem) -> list[str]:
     found = []
     for key in problem.system.keys:
         term = term_of(problem, key)[0]
-        learned = hasattr(term, "over")
-        if term.acts == "motion" and not term.states and not learned and "acceleration" not in term.needs:
+        if (
+            term.acts == "motion"
+            and not term.states
+            and not isinstance(term, Learned)
+            and "acceleration" not in term.needs
+        ):
             found.append(key)
     return found
 
@@ -69,15 +74,11 @@ def _closest(track: Track, key: str, aim: Array) -> tuple[float, Array]:
     """Return the largest share of a force that a law has at any shape, and its columns (samples, amplitudes) there."""
     best, columns = 0.0, np.zeros((len(aim), 0))
     problem = track.problem
-    amplitudes, shapes = sorted_slots(problem, key)
+    shapes = sorted_slots(problem, key)[1]
     usual = {s.key: float(tried_of(s.param, problem.scales)[0]) for s in shapes}
     tried = shapes_of(problem, key) or [usual]
     for shape in tried[:: max(1, len(tried) // MOST_SHAPES)]:
-        rows = []
-        for one in amplitudes:
-            others = {s.key: float(s.param.null or 0.0) for s in amplitudes if s is not one}
-            rows.append(track.law(key, {**shape, **others, one.key: size_of(one.param, problem.scales)}))
-        law = np.array(rows).T
+        law = track.columns(key, shape)
         share = _share(law, aim) if np.all(np.isfinite(law)) else 0.0
         if share > best:
             best, columns = share, law

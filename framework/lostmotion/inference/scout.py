@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -57,19 +58,33 @@ class Track:
         full = problem.full(self.theta)
         full[[system.index[name] for name in values]] = list(values.values())
         packed = system.pack(full[None], observation.dt / problem.nsub, observation.tone)
+        return np.asarray(self._rates(packed, frozenset({key}))[:, row] - self._bare[:, row])
+
+    def columns(self, key: str, shape: Mapping[str, float]) -> Array:
+        """Return what each amplitude of a term does alone at its typical size, (samples, amplitudes)."""
+        amplitudes, _ = sorted_slots(self.problem, key)
+        still = {s.key: float(s.param.null or 0.0) for s in amplitudes}
+        laws = [
+            self.law(key, {**shape, **still, one.key: size_of(one.param, self.problem.scales)}) for one in amplitudes
+        ]
+        return np.stack(laws, axis=1)
+
+    def _rates(self, packed: Array, active: frozenset[str]) -> Array:
+        observation = self.problem.observations[0]
         told = (packed, self.states, observation.inputs, observation.time)
-        with_term, without = (derivatives(system, frozenset(on), *told)[0][:, row] for on in ({key}, set[str]()))
-        return with_term - without
+        return derivatives(self.problem.system, active, *told)[0]
+
+    @cached_property
+    def _bare(self) -> Array:
+        """The derivatives (samples, n) of the states without any term."""
+        problem, observation = self.problem, self.problem.observations[0]
+        full = problem.full(self.theta)[None]
+        packed = problem.system.pack(full, observation.dt / problem.nsub, observation.tone)
+        return self._rates(packed, frozenset())
 
     def steady(self, key: str, shape: Mapping[str, float]) -> float:
         """Return by how many standard errors a law of a shape goes with the gradient, all amplitudes together."""
-        amplitudes, _ = sorted_slots(self.problem, key)
-        edges, square = np.linspace(0, len(self.lean), BLOCKS + 1).astype(int)[:-1], 0.0
-        for one in amplitudes:
-            others = {s.key: float(s.param.null or 0.0) for s in amplitudes if s is not one}
-            law = self.law(key, {**shape, **others, one.key: size_of(one.param, self.problem.scales)})
-            square += _steadiness(law, self.lean, edges) ** 2
-        return math.sqrt(square)
+        return _steadiest(self.columns(key, shape), self.lean)
 
 
 @dataclass(frozen=True)
@@ -83,13 +98,12 @@ class Shown:
     def steady(self, key: str, shape: Mapping[str, float]) -> float:
         """Return by how many standard errors a bend of a shape goes with the errors, all amplitudes together."""
         term, slots = term_of(self.problem, key)
-        amplitudes = [s for s in slots if s.param.null is not None]
-        edges, square = np.linspace(0, len(self.lean), BLOCKS + 1).astype(int)[:-1], 0.0
-        for one in amplitudes:
+        bends = []
+        for one in (s for s in slots if s.param.null is not None):
             p = tuple(shape.get(s.key, size_of(s.param, self.problem.scales) * (s is one)) for s in slots)
             assert isinstance(term, SensorTerm)  # noqa: S101
-            square += _steadiness(term.bent(self.foretold, p) - self.foretold, self.lean, edges) ** 2
-        return math.sqrt(square)
+            bends.append(term.bent(self.foretold, p) - self.foretold)
+        return _steadiest(np.stack(bends, axis=1), self.lean)
 
 
 def _shown(problem: Problem, theta: Array, key: str) -> Shown:
@@ -101,6 +115,12 @@ def _shown(problem: Problem, theta: Array, key: str) -> Shown:
     readings = observation.readings[:, sensor]
     kept = np.isfinite(readings)
     return Shown(problem, (readings - errors)[kept], (errors / variances)[kept])
+
+
+def _steadiest(laws: Array, lean: Array) -> float:
+    """Return by how many standard errors laws (samples, amplitudes) go with a gradient, all of them together."""
+    edges = np.linspace(0, len(lean), BLOCKS + 1).astype(int)[:-1]
+    return math.sqrt(sum(_steadiness(law, lean, edges) ** 2 for law in laws.T))
 
 
 def _steadiness(law: Array, lean: Array, edges: NDArray[np.intp]) -> float:

@@ -12,7 +12,16 @@ from typing import NamedTuple
 import numba
 import numpy as np
 
-from lostmotion.kernels.independent_zoo import BOUC_WEN, Hidden, _drags, _levels, _pressing, _remembered, _springs
+from lostmotion.kernels.independent_zoo import (
+    BOUC_WEN,
+    Hidden,
+    _drags,
+    _levels,
+    _pressing,
+    _remembered,
+    _ridden,
+    _springs,
+)
 
 CELLS = 400
 REACH = 3.0
@@ -70,9 +79,7 @@ def _moved(force, base, body, hidden, nothing, flaws, curves, state, clock, ever
         gap, slide = middle - base[0, k] - sunk, fast - base[1, k]
         inner = _springs(now, middle, gap, body, h) + _drags(now, middle, fast, gap, slide, body, h)
         if h.mode_mass > 0.0:
-            between = h.mode_stiffness * (own + 0.5 * step * fast_own - middle) + h.mode_drag * (fast_own - fast)
-            fast_own -= step * between / h.mode_mass
-            own += step * fast_own
+            between, own, fast_own = _ridden(own, fast_own, middle, fast, step, h)
             inner += between
         inner += _read(curves[0], middle / flaws.position) + _read(curves[1], fast / flaws.velocity)
         pull = force[k] + inner

@@ -129,6 +129,14 @@ def _drags(t, x, v, gap, slide, body, h):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(cache=True, nogil=True)
+def _ridden(far, fast_far, middle, fast, step, h):  # type: ignore[no-untyped-def]
+    """Return the force (N) of a hidden mass on the body, and place and velocity of that mass after one step."""
+    between = h.mode_stiffness * (far + 0.5 * step * fast_far - middle) + h.mode_drag * (fast_far - fast)
+    fast_far -= step * between / h.mode_mass
+    return between, far + step * fast_far, fast_far
+
+
+@numba.njit(cache=True, nogil=True)
 def _levels(t, rub, place, load, h):  # type: ignore[no-untyped-def]
     """Return the level of dry friction (N) against motion in positive and in negative direction."""
     level = h.friction + h.excess * math.exp(-((rub / h.velocity) ** 2)) + h.rough * (place / h.rough_length) ** 2
@@ -188,9 +196,7 @@ def _moved(force, base, body, hidden, nothing, state, clock, every):  # type: ig
         gap, slide = middle - base[0, k], fast - base[1, k]
         pull = force[k] + _springs(now, middle, gap, body, h) + _drags(now, middle, fast, gap, slide, body, h)
         if h.mode_mass > 0.0:
-            between = h.mode_stiffness * (far + 0.5 * step * fast_far - middle) + h.mode_drag * (fast_far - fast)
-            fast_far -= step * between / h.mode_mass
-            far += step * fast_far
+            between, far, fast_far = _ridden(far, fast_far, middle, fast, step, h)
             pull += between
         if h.memory > 0.0:
             new = _remembered(z, slide if h.memory_place == 1.0 else fast, step, h)

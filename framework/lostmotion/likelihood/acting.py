@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
 from lostmotion.contracts import Array, DriveTerm, Input, SensorTerm
+from lostmotion.likelihood.layout import ALWAYS
 
 Column = Callable[[Array], Array]
 """An input as a function of time (s)."""
@@ -30,9 +30,11 @@ def of_order(u: Input, order: int, t: Array) -> Array:
     return u(t, order)
 
 
-def through(term: DriveTerm | SensorTerm, u: Input, p: tuple[float, ...], since: float = -math.inf) -> Input:
+def through(term: DriveTerm | SensorTerm, u: Input, p: tuple[float, ...], since: float) -> Input:
     """Return an input after one term, from a time (s) on; a sensor that is late sees what an earlier input has done."""
     if isinstance(term, DriveTerm):
+        if since <= ALWAYS:
+            return lambda t, order: term.true(u, t, p, order)
         return lambda t, order: np.where(t < since, u(t, order), term.true(u, t, p, order))
     late = term.delay(p)
     return (lambda t, order: u(t - late, order)) if late else u

@@ -22,6 +22,11 @@ NUMB = -1
 """The index of an observed channel that is no state and has to be linearised."""
 
 
+def since_of(key: str) -> str:
+    """Return the key of the onset of a term."""
+    return f"{key}.since"
+
+
 def key_of(term: Term) -> str:
     """Return the name of a term, with its place when that is neither the ground nor plain: `coulomb_friction@base`."""
     return term.name if term.at in ("ground", "drive", "sensor") else f"{term.name}@{term.at}"
@@ -70,12 +75,17 @@ class Layout:
         They stand behind all parameters in the full vector. What a sensor shows has no onset.
         """
         keys = [key for key, _ in self.forces] + [k for k, t in self.beside.items() if t.acts == "drive"]
-        return tuple(Slot(f"{key}.since", ONSET, "s", self.keys.index(key)) for key in keys)
+        return tuple(Slot(since_of(key), ONSET, "s", self.keys.index(key)) for key in keys)
 
     @cached_property
     def index(self) -> Mapping[str, int]:
         """The position of each parameter key in the full vector."""
         return {slot.key: i for i, slot in enumerate((*self.slots, *self.onsets))}
+
+    def onset(self, full: Array, key: str) -> float:
+        """Return since when (s) a term acts, `ALWAYS` if from the beginning; `full` is (parameters,)."""
+        at = self.index.get(since_of(key))
+        return ALWAYS if at is None else float(full[at])
 
     def slot(self, name: str) -> Slot:
         """Return the parameter called `name` or one of its aliases, or raise `ContractError` naming the nearest."""

@@ -330,8 +330,7 @@ class Problem:
         for full in fulls:
             acts = [key for key in keys if not self.system.idle(full, key)]
             values = tuple(
-                (key, full[self.system.index.get(f"{key}.since", -1)], self.system.values(full, key, observation.tone))
-                for key in acts
+                (key, self.system.onset(full, key), self.system.values(full, key, observation.tone)) for key in acts
             )
             if values not in numbers:
                 numbers[values] = len(drives)

@@ -18,11 +18,11 @@ from lostmotion.errors import ContractError, nearest
 from lostmotion.likelihood.acting import Column, Recorded, of_order, through
 from lostmotion.likelihood.compose import Blueprint, Functions, Place, functions, law_of
 from lostmotion.likelihood.drive import SILENT, Drive, Tone
-from lostmotion.likelihood.layout import ALWAYS, NUMB, Layout, Slot, key_of
+from lostmotion.likelihood.layout import ALWAYS, NUMB, Layout, Slot, key_of, since_of
 from lostmotion.likelihood.motion import derivatives, run
 from lostmotion.likelihood.sensors import Sensor
 
-__all__ = ["ALWAYS", "Clock", "Motion", "Slot", "System", "key_of"]
+__all__ = ["ALWAYS", "Clock", "Motion", "Slot", "System", "key_of", "since_of"]
 
 PIECE = 200_000
 """Steps of a long motion that are computed at a time."""
@@ -127,8 +127,7 @@ class System(Layout):
             u: Input = Recorded(tuple(columns[place] for place in places))
             own = [key for key in keys if self._touches(key, name, lead in places)]
             for key in own:
-                since = full[self.index[f"{key}.since"]] if f"{key}.since" in self.index else ALWAYS
-                u = through(self.beside[key], u, self.values(full, key, tone), float(since))
+                u = through(self.beside[key], u, self.values(full, key, tone), self.onset(full, key))
             for order, place in enumerate(places if own else ()):
                 made[place] = partial(of_order, u, order)
         return made
@@ -201,8 +200,10 @@ class System(Layout):
 
         One with a state of its own shows that.
         """
-        chosen = set(active)
-        for (key, term), at in zip(self.forces, self.wiring(chosen)[1], strict=True):
+        chosen = set(active) & set(self.lagging)
+        if not chosen:
+            return self.channel(sensor.channel)
+        for (key, term), at in zip(self.forces, self.wiring(active)[1], strict=True):
             if key in chosen and isinstance(term, SensorTerm) and term.at == sensor.place:
                 return self.channel(sensor.channel)[0], int(at)
         return self.channel(sensor.channel)

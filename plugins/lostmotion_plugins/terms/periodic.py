@@ -8,10 +8,16 @@ from typing import ClassVar
 
 from lostmotion.contracts import Array, Param, Term, Values
 from lostmotion.quantities import FORCE, LENGTH, NUMBER
+from lostmotion_plugins.terms.changing import ParametricStiffness
 
 TYPICAL, PITCHES = 0.3, (0.1, 3.4)
 """The usual pitch in amplitudes of the motion, and where one is looked for in units of that: the longest has two
 periods in the travel. What repeats less often is no wave that anybody could tell from another smooth curve."""
+
+
+PITCH = Param(
+    "pitch", "travel or turn after which it repeats", LENGTH, low=0.0, scale="log", typical=TYPICAL, scan=PITCHES
+)
 
 
 @dataclass(frozen=True)
@@ -26,26 +32,15 @@ class Cogging(Term):
     params = (
         Param("cosine", "force as cos(2 pi x / pitch)", FORCE, null=0.0, typical=0.1),
         Param("sine", "force as sin(2 pi x / pitch)", FORCE, null=0.0, typical=0.1),
-        Param(
-            "pitch",
-            "travel or turn after which it repeats",
-            LENGTH,
-            low=0.0,
-            scale="log",
-            typical=TYPICAL,
-            scan=PITCHES,
-        ),
+        PITCH,
     )
     further = (Param("force", "amplitude of the force", FORCE), Param("phase", "phase in rad", NUMBER))
+    derived = staticmethod(ParametricStiffness.derived)
 
     @staticmethod
     def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
         angle = 2.0 * math.pi * x / p[2]
         return p[0] * math.cos(angle) + p[1] * math.sin(angle)
-
-    @staticmethod
-    def derived(p: Values) -> Values:
-        return math.hypot(p[0], p[1]), math.atan2(-p[1], p[0])
 
 
 @dataclass(frozen=True)
@@ -67,15 +62,7 @@ class PositionDependentFriction(Term):
         Param("force", "friction force on the average", FORCE, low=0.0, null=0.0),
         Param("cosine", "friction as cos(2 pi x / pitch)", FORCE, null=0.0, typical=0.3),
         Param("sine", "friction as sin(2 pi x / pitch)", FORCE, null=0.0, typical=0.3),
-        Param(
-            "pitch",
-            "travel or turn after which it repeats",
-            LENGTH,
-            low=0.0,
-            scale="log",
-            typical=TYPICAL,
-            scan=PITCHES,
-        ),
+        PITCH,
     )
     needs = ("mobility",)
     resembles = ("coulomb_friction", "stribeck_friction")

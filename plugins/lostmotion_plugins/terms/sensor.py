@@ -10,7 +10,9 @@ import numpy as np
 
 from lostmotion.contracts import Array, Param, SensorTerm, Values
 from lostmotion.quantities import LENGTH, NUMBER, TIME
+from lostmotion_plugins.terms.changing import ParametricStiffness
 from lostmotion_plugins.terms.drive import FAR
+from lostmotion_plugins.terms.periodic import PITCHES, TYPICAL
 
 _LEVELS = 30
 """At least so many differences of neighbouring values have to lie on the lattice."""
@@ -94,19 +96,16 @@ class PositionRipple(SensorTerm):
     params = (
         Param("cosine", "error as cos(2 pi x / pitch)", LENGTH, null=0.0, typical=0.02),
         Param("sine", "error as sin(2 pi x / pitch)", LENGTH, null=0.0, typical=0.02),
-        Param("pitch", "way after which it repeats", LENGTH, low=0.0, scale="log", typical=0.3, scan=(0.1, 3.4)),
+        Param("pitch", "way after which it repeats", LENGTH, low=0.0, scale="log", typical=TYPICAL, scan=PITCHES),
     )
     further = (Param("size", "amplitude of the error", LENGTH), Param("phase", "phase in rad", NUMBER))
+    derived = staticmethod(ParametricStiffness.derived)
     resembles = ("cogging",)
 
     @staticmethod
     def bent(x: Array, p: Values) -> Array:
         angle = 2.0 * math.pi * x / p[2]
         return np.asarray(x + p[0] * np.cos(angle) + p[1] * np.sin(angle))
-
-    @staticmethod
-    def derived(p: Values) -> Values:
-        return math.hypot(p[0], p[1]), math.atan2(-p[1], p[0])
 
 
 @dataclass(frozen=True)
