@@ -224,10 +224,8 @@ class Stepped:
     def _packed(self, h: float) -> tuple[Array, Array]:
         """Return the parameters of model and terms, the mobility being that of `LINE` steps."""
         packed = self.system.pack(self.full[None], h, self._tone, line=LINE)[0]
-        base, own = np.split(
-            packed[: self.system.blueprint.rows.pace - self.system.blueprint.rows.params],
-            [len(self.system.model.params)],
-        )
+        rows = self.system.blueprint.rows
+        base, own = packed[: rows.pace - rows.params], packed[rows.own - rows.params : rows.onset - rows.params]
         return np.ascontiguousarray(base), np.ascontiguousarray(own)
 
     def _measured(self, fixed: bool) -> Stepped:

@@ -13,8 +13,8 @@ from lostmotion.errors import ContractError
 from lostmotion.inference.fit import Fit, Sensitivity, maximise, restarted, sensitivity, solved, warmed
 from lostmotion.inference.late import PRICE, can_be_late, cut, refined
 from lostmotion.inference.natural import frees_of, size_of, sorted_slots, star, term_of, tried_of
-from lostmotion.likelihood.compose import handed
 from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.plan import handed
 from lostmotion.likelihood.problem import LATEST, NOISE, RANDOM, Free, Problem
 from lostmotion.likelihood.system import ALWAYS, Slot, since_of
 from lostmotion.quantities import FORCE, TIME

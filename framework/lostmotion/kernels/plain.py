@@ -42,6 +42,11 @@ def column(block: Array, row: int, lane: int, count: int) -> Array:
     return block[row : row + count, lane]
 
 
+def shifted(block: Array, row: int) -> Array:
+    """Return the block from a row on."""
+    return block[row:]
+
+
 def pointer(array: Array) -> Array:
     """Return the memory of an array: the array itself where it is a block, else its values in a row."""
     return array if array.ndim == 2 and array.shape[1] == STRIDE else array.reshape(-1)

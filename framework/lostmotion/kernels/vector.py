@@ -245,15 +245,19 @@ def assign(typingctx: Any, block: Any, row: Any, lane: Any, number: Any) -> Any:
     return types.void(block, types.intp, types.intp, types.float64), codegen
 
 
+def called(builder: Any, place: Any, *args: Any) -> Any:
+    """Return the status of a compiled function at an address, which returns nothing: 0, or another where it raised."""
+    byte = ir.IntType(8).as_pointer()
+    kind = ir.FunctionType(ir.IntType(32), [byte.as_pointer(), byte.as_pointer(), *(arg.type for arg in args)])
+    spare = [cgutils.alloca_once(builder, byte) for _ in range(2)]
+    return builder.call(builder.inttoptr(place, kind.as_pointer()), [*spare, *args])
+
+
 @intrinsic
 def call(typingctx: Any, address: Any, block: Any, wires: Any, lanes: Any) -> Any:
     """Call a compiled function of a model at `address` on a block; return 0, or another number where it raised."""
 
     def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        byte, number = ir.IntType(8).as_pointer(), ir.IntType(64)
-        told = [byte.as_pointer(), byte.as_pointer(), ir.DoubleType().as_pointer(), number.as_pointer(), number]
-        kind = ir.FunctionType(ir.IntType(32), told)
-        spare = [cgutils.alloca_once(builder, byte) for _ in range(2)]
-        return builder.call(builder.inttoptr(args[0], kind.as_pointer()), [*spare, *args[1:]])
+        return called(builder, *args)
 
     return types.int32(types.intp, block, wires, types.intp), codegen

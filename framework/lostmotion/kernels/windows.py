@@ -12,7 +12,7 @@ from numba import types
 from numba.core import cgutils
 from numba.extending import intrinsic
 
-from lostmotion.kernels.vector import STRIDE, address
+from lostmotion.kernels.vector import STRIDE, address, called
 
 BLOCK, NUMBERS = types.CPointer(types.float64), types.CPointer(types.int64)
 _WINDOW = types.Array(types.float64, 1, "A")
@@ -47,3 +47,24 @@ def add(typingctx: Any, block: Any, row: Any, lane: Any, more: Any) -> Any:
         return context.get_dummy_value()
 
     return types.void(block, types.intp, types.intp, types.float64), codegen
+
+
+@intrinsic
+def shifted(typingctx: Any, block: Any, row: Any) -> Any:
+    """Return the block from a row on."""
+
+    def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        return address(builder, [*args, ir.Constant(args[1].type, 0)], ir.DoubleType())
+
+    return block(block, types.intp), codegen
+
+
+@intrinsic
+def invoked(typingctx: Any, wires: Any, at: Any, own: Any, desk: Any, lanes: Any) -> Any:
+    """Call the compiled law whose address stands in a wire; return 0, or another number where it raised."""
+
+    def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        place = builder.load(builder.gep(args[0], [args[1]]))
+        return called(builder, place, args[2], args[3], args[4])
+
+    return types.int32(wires, types.intp, own, desk, types.intp), codegen

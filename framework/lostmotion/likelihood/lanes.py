@@ -93,7 +93,7 @@ class Lanes(Engine):
         forces = tuple(dynamics.states + i for i in range(dynamics.forces))
         packed = system.pack(points.params, dt / nsub, tone)
         packed[:, system.blueprint.rows.pace - system.blueprint.rows.params] = points.pace
-        wires = model_wires(system, dynamics.active, forces)
+        wires = model_wires(system, dynamics.active, forces, compiled=self.compiled)
         noise, wires[SOURCES], wires[DRAWN] = _noise_of(dynamics, points, dt)
         used = np.unique(points.which)
         inputs = drives[used[0]].cubics if len(used) == 1 else np.concatenate([drives[i].cubics for i in used])

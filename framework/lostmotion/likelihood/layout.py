@@ -166,8 +166,8 @@ class Layout:
         """Return what a model and its forces are handed, (points, params): each force has what it needs behind its own.
 
         `fulls` is (points, parameters); `step` is that of the integration (s), of which a law that jumps at rest takes
-        `line` to pass its steep line. Behind the parameters of the model and of the forces stand the pace of a latent
-        force, the step, and one over each inertia; before these the onset of each force.
+        `line` to pass its steep line. Behind the parameters of the model stand the pace of a latent force, the step,
+        and one over each inertia; then what each force is handed, and the onset of each.
         """
         base = fulls[:, : len(self.model.params)]
         onsets = fulls[:, len(self.slots) : len(self.slots) + len(self.forces)]
@@ -187,7 +187,7 @@ class Layout:
         with np.errstate(divide="ignore"):
             inverse = [1.0 / fulls[:, i] for i in self.inertias]
         silent, steps = np.zeros(len(fulls)), np.full(len(fulls), step)
-        return np.column_stack([base, *columns, onsets, silent, steps, *inverse])
+        return np.column_stack([base, silent, steps, *inverse, *columns, onsets])
 
     def values(self, full: Array, key: str, tone: Tone) -> tuple[float, ...]:
         """Return `p` of a term beside the machine: its own parameters, and behind them what it needs of the drive."""

@@ -11,7 +11,7 @@ from lostmotion.contracts import Array
 from lostmotion.errors import ContractError
 from lostmotion.kernels.inputs import DRIVES
 from lostmotion.kernels.vector import STRIDE, WIDTH
-from lostmotion.likelihood.compose import FIRST
+from lostmotion.likelihood.compose import FIRST, SENSOR, STATES, X, law_kernel
 from lostmotion.likelihood.drive import Drive, widened
 from lostmotion.likelihood.kernels import motion_kernels
 
@@ -46,16 +46,48 @@ def model_block(system: System, packed: Array) -> Array:
     return made
 
 
-def model_wires(system: System, active: frozenset[str], latent: tuple[int, ...] = ()) -> NDArray[np.int64]:
-    """Return the wires of a model: rows, switches, where the states of each law begin, and those of latent forces."""
+def model_wires(
+    system: System,
+    active: frozenset[str],
+    latent: tuple[int, ...] = (),
+    *,
+    muted: str | None = None,
+    compiled: bool = True,
+) -> NDArray[np.int64]:
+    """Return the wires of a model: rows, how many laws act, where latent forces stand, and a table for each law.
+
+    The law with the key `muted` does not act, and its states stay.
+    """
     plan, (on, at) = system.blueprint, system.wiring(active)
     forces = [*latent, *(-1 for _ in plan.bodies[len(latent) :])]
-    paced = sum(
-        1 << int(a + i) for law, a in zip(plan.laws, at, strict=True) if a and law.steps for i in range(law.states)
-    )
-    wires = np.array([*plan.rows[:5], 0, 0, plan.inputs, 1, plan.rows.step, paced, *on, *at, *forces], dtype=np.int64)
-    assert len(wires) == FIRST + 2 * len(plan.laws) + len(plan.bodies)  # noqa: S101
-    return wires
+    heard = [i for i, (key, _) in enumerate(system.forces) if on[i] and key != muted]
+    chosen = sorted(heard, key=lambda i: plan.laws[i].channel is not None)
+    sensing = sum(plan.laws[i].channel is not None for i in chosen)
+    paced = sum(1 << int(at[i] + a) for i in chosen if plan.laws[i].steps for a in range(plan.laws[i].states))
+    tables = [_table(system, i, int(at[i]), compiled) for i in chosen]
+    begin = FIRST + 2 + len(forces) + len(tables)
+    offsets = [begin + sum(map(len, tables[:i])) for i in range(len(tables))]
+    head = [*plan.rows[:5], 0, 0, plan.inputs, 1, plan.rows.step, paced, len(chosen) - sensing, sensing]
+    return np.array([*head, *forces, *offsets, *(n for table in tables for n in table)], dtype=np.int64)
+
+
+def _table(system: System, number: int, at: int, compiled: bool) -> list[int]:
+    """Return what the kernel of a model knows of a law: where it is, and which rows are copied to its desk and back.
+
+    `at` is where its states begin among those of the model.
+    """
+    plan, law = system.blueprint, system.blueprint.laws[number]
+    rows, own, place = plan.rows, plan.starts[number], plan.places[law.place]
+    desk = rows.desk + STATES
+    copies = [(rows.states + at + a, desk + a) for a in range(law.states)]
+    copies += [(rows.inputs + i, desk + 2 * law.states + i) for i in range(plan.inputs_of(law))]
+    copies += [(rows.step, own + a) for a in law.steps] + [(rows.derivatives + place.row, own + a) for a in law.felt]
+    copies += [] if law.channel is None else [(rows.channels + law.channel, rows.desk + X)]
+    returns = [(desk + law.states + a, rows.derivatives + at + a) for a in range(law.states)]
+    address = law_kernel(law, plan.inputs_of(law))[0] if compiled else 0
+    where = SENSOR if law.channel is not None else law.place
+    head = [address, number, where, own, rows.onset + number, len(copies), len(returns)]
+    return [*head, *(row for pair in (*copies, *returns) for row in pair)]
 
 
 def require_sound(failed: int, system: System, made: Array, wires: NDArray[np.int64]) -> None:
@@ -87,7 +119,7 @@ def run(
     """
     points, n = start.shape
     states, reached = np.full((points, steps, n), np.nan), np.zeros(points, dtype=np.int64)
-    wires, made = model_wires(system, active), system.functions(compiled)
+    wires, made = model_wires(system, active, compiled=compiled), system.functions(compiled)
     wires[DRIVES] = 2  # each run reads the drive from a place of its own
     cubics = drive.widened(len(system.model.inputs)).cubics
     kernel, pushed = motion_kernels(compiled)["run"], np.zeros((points, 0, n)) if kicks is None else kicks
@@ -126,9 +158,7 @@ def derivatives(
     force with the key `muted` is switched off, and its states stay.
     """
     rates, seen = np.zeros(states.shape), np.zeros((len(states), len(system.model.channels)))
-    made, wires = system.functions(), model_wires(system, active)
-    if muted is not None:
-        wires[FIRST + [key for key, _ in system.forces].index(muted)] = 0
+    made, wires = system.functions(), model_wires(system, active, muted=muted)
     told: list[Any] = [
         np.ascontiguousarray(a, dtype=float)
         for a in (np.zeros(len(states)) if times is None else times, states, widened(inputs, len(system.model.inputs)))

@@ -95,10 +95,10 @@ class _Machine:
 
     def going(self, step: float) -> None:
         """Tell the laws how long the step is that is tried."""
-        rows, first = self.system.blueprint.rows, len(self.system.model.params)
-        for law in self.system.blueprint.laws:
-            self.packed[[first + i for i in law.steps]] = step
-            first += law.width
+        plan = self.system.blueprint
+        rows = plan.rows
+        for law, start in zip(plan.laws, plan.starts, strict=True):
+            self.packed[[start - rows.params + i for i in law.steps]] = step
         self.packed[rows.step - rows.params] = step
 
     @cached_property
@@ -116,11 +116,11 @@ class _Machine:
         dydt = np.zeros(len(y))
         system.model.rhs(t, y, u, self.packed, dydt)
         on, at = system.wiring(self.dynamics.active)
-        first = len(system.model.params)
         onsets = self.packed[plan.rows.onset - plan.rows.params :]
         step, sensing = self.packed[plan.rows.step - plan.rows.params], []
         for i, (law, (_, term)) in enumerate(zip(plan.laws, system.forces, strict=True)):
-            numbers, first = self.packed[first : first + law.width].copy(), first + law.width
+            first = plan.starts[i] - plan.rows.params
+            numbers = self.packed[first : first + law.width].copy()
             if on[i]:
                 place = plan.places[law.place]
                 numbers[list(law.felt)] = dydt[place.row]

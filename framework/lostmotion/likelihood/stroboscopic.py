@@ -13,7 +13,22 @@ import numpy as np
 from lostmotion.kernels.vector import BARE
 from lostmotion.kernels.views import slow_view, view
 from lostmotion.likelihood.adopted import adopted, defined, fingerprint, kept_as, told
-from lostmotion.likelihood.compose import Blueprint, fields_of, parts_of
+from lostmotion.likelihood.plan import Blueprint
+
+
+def _parts(plan: Blueprint) -> dict[str, Callable[..., Any]]:
+    """Return the functions of the plugins under the names they have in the composed text."""
+    parts = {"model_rhs": plan.rhs, "model_observe": plan.observe}
+    parts |= {f"motion_{i}": place.motion for i, place in enumerate(plan.places)}
+    for i, law in enumerate(plan.laws):
+        parts |= {f"force_{i}": law.force}
+        parts |= {f"rate_{i}": law.rate} if law.states else {}
+    return parts
+
+
+def _fields(plan: Blueprint) -> dict[str, Any]:
+    """Return the numbers of the terms whose functions are methods, under the names they have in a composed text."""
+    return {f"fields_{i}": law.fields for i, law in enumerate(plan.laws) if law.fields}
 
 
 def _law_lines(index: int, plan: Blueprint, start: int) -> list[str]:
@@ -54,7 +69,7 @@ def _text(plan: Blueprint, states: int) -> str:
 @lru_cache(maxsize=64)
 def stroboscopic_map(plan: Blueprint, states: int, compiled: bool = True) -> Callable[..., int]:
     """Return the map of a plan with so many active states, compiled, or as its plain Python twin."""
-    text, parts, fields = _text(plan, states), parts_of(plan), fields_of(plan)
+    text, parts, fields = _text(plan, states), _parts(plan), _fields(plan)
     if compiled:
         also = "".join(f"{name}{fingerprint(part)}" for name, part in sorted(parts.items())) + repr(fields)
         path = kept_as(text, also)

@@ -16,10 +16,11 @@ import numpy as np
 from lostmotion.contracts import Array, Assembly, DriveTerm, Input, Model, SensorTerm, place_of
 from lostmotion.errors import ContractError, nearest
 from lostmotion.likelihood.acting import Column, Recorded, of_order, through
-from lostmotion.likelihood.compose import Blueprint, Functions, Place, functions, law_of
+from lostmotion.likelihood.compose import Functions, functions, plain_functions
 from lostmotion.likelihood.drive import SILENT, Drive, Tone
 from lostmotion.likelihood.layout import ALWAYS, NUMB, Layout, Slot, key_of, since_of
 from lostmotion.likelihood.motion import derivatives, run
+from lostmotion.likelihood.plan import Blueprint, Place, law_of, room_for
 from lostmotion.likelihood.sensors import Sensor
 
 __all__ = ["ALWAYS", "Clock", "Motion", "Slot", "System", "key_of", "since_of"]
@@ -57,7 +58,7 @@ class System(Layout):
 
     def functions(self, compiled: bool = True) -> Functions:
         """Return what derives and what observes the states, the same whatever terms are active."""
-        return functions(self.blueprint, compiled)
+        return functions(self.blueprint.bare) if compiled else plain_functions(self.blueprint)
 
     @cached_property
     def blueprint(self) -> Blueprint:
@@ -82,7 +83,7 @@ class System(Layout):
             for _, t in self.forces
         )
         sizes = (len(model.states), len(model.inputs), len(model.channels), len(model.params))
-        return Blueprint(*sizes, model.rhs, model.observe, places, laws)
+        return Blueprint(*sizes, model.rhs, model.observe, places, laws, room_for(laws, len(places)))
 
     @cached_property
     def groups(self) -> tuple[tuple[str, tuple[int, ...]], ...]:

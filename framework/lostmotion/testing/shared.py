@@ -8,7 +8,7 @@ from dataclasses import fields
 from typing import Any
 
 from lostmotion.contracts import Model
-from lostmotion.likelihood.compose import numeric
+from lostmotion.likelihood.plan import numeric
 from lostmotion.quantities import Dimension
 from lostmotion.testing.rules import listed, rule
 

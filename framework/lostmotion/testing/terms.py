@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from lostmotion.contracts import Array, DriveTerm, SensorTerm, Term
-from lostmotion.likelihood.compose import handed, law_of
+from lostmotion.likelihood.plan import handed, law_of
 from lostmotion.testing.probes import STEP, Point, compiled, differ, of_term
 from lostmotion.testing.rules import SNAKE, listed, rule
 from lostmotion.testing.shared import repeated
