@@ -146,6 +146,13 @@ class Term(ABC):
         """Return the numbers that `further` names: what a reader asks for beside the parameters, such as a phase."""
         return ()
 
+    def commoner(self, values: Mapping[str, float]) -> Mapping[str, Mapping[str, float]]:
+        """Return commoner terms that are the same force together at these values, by name, with their values; or none.
+
+        A set of terms is told with these: a part of friction that has one direction is, where it is small, an offset.
+        """
+        return {}
+
     @property
     def marked(self) -> bool:
         """Whether the stored values themselves tell of this term, so that it is not fitted."""

@@ -10,8 +10,8 @@ import pytest
 
 from lostmotion.contracts import Param, Term
 from lostmotion.errors import ContractError
-from lostmotion.likelihood.plan import law_of
 from lostmotion.likelihood.motion import derivatives
+from lostmotion.likelihood.plan import law_of
 from lostmotion.likelihood.system import System
 from lostmotion.quantities import FORCE
 from lostmotion.testing import check

@@ -23,8 +23,9 @@ from lostmotion.registry import Registry
 from lostmotion.workflow.mechanisms import TABLE
 from lostmotion.workflow.oracle import alike, spelled
 from lostmotion.workflow.prepare import prepare
-from lostmotion_plugins.terms.elastic import CubicStiffness, LinearStiffness
+from lostmotion_plugins.terms.elastic import CubicStiffness, LinearStiffness, OffsetForce
 from lostmotion_plugins.terms.friction import CoulombFriction
+from lostmotion_plugins.terms.friction_kinds import DirectionalFriction
 from lostmotion_plugins.terms.lag import ActuatorLag, SensorLag, lagged
 from lostmotion_plugins.terms.play import Backlash, EndStop
 from lostmotion_plugins.terms.sensor import PositionRipple
@@ -75,6 +76,22 @@ def test_play_of_a_spring_is_found_from_afar(tmp_path):
     course = Selector(fit, ("backlash", "coulomb_friction"), lambda _: None).run()
     assert course.chosen.problem.active == {"backlash"}
     assert course.chosen.values["backlash.gap"] == pytest.approx(gap, rel=0.02)
+
+
+@pytest.mark.parametrize(
+    ("share", "names"), [(0.8, {"coulomb_friction", "offset_force"}), (0.4, {"directional_friction"})]
+)
+def test_levels_of_friction_that_differ_little_are_told_as_friction_and_an_offset(tmp_path, share, names):
+    """The forces are the same at any speed; every rig has an offset, and few have a friction with a direction."""
+    levels = (RUBBED, share * RUBBED)
+    rub = lambda x, v, t: -levels[int(v < 0.0)] * abs(math.tanh(v / 1e-3)) * (1.0 if v > 0.0 else -1.0)  # noqa: E731
+    fit = nominal_of(tmp_path, [CoulombFriction(), OffsetForce(), DirectionalFriction()], extra=rub)
+    course = Selector(fit, ("coulomb_friction", "offset_force", "directional_friction"), lambda _: None).run()
+    found = course.chosen.values
+    assert course.chosen.problem.active == names
+    if "offset_force" in names:
+        assert found["coulomb_friction.force"] == pytest.approx(0.5 * sum(levels), rel=0.03)
+        assert found["offset_force.force"] == pytest.approx(0.5 * (levels[1] - levels[0]), rel=0.15)
 
 
 def test_friction_that_sets_in_late_is_named_with_its_onset(tmp_path):

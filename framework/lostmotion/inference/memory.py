@@ -15,7 +15,8 @@ import numpy as np
 from lostmotion.inference.candidates import Shapes
 from lostmotion.inference.course import Selection
 from lostmotion.inference.fit import Fit, maximise, together
-from lostmotion.inference.selection import Progress, Promise, Selector, significant_random_force
+from lostmotion.inference.leftovers import significant_random_force
+from lostmotion.inference.selection import Progress, Promise, Selector
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.levels import memory_frees
 from lostmotion.likelihood.problem import Problem

@@ -7,8 +7,6 @@ from collections.abc import Callable, Iterable
 from dataclasses import replace
 from functools import partial
 
-import numpy as np
-
 from lostmotion.inference.candidates import (
     Hint,
     Shapes,
@@ -20,9 +18,11 @@ from lostmotion.inference.candidates import (
     slopes_of,
     with_term,
 )
+from lostmotion.inference.commoner import in_commoner_terms
 from lostmotion.inference.course import BEAM, CLOSE, Selection, Visit
-from lostmotion.inference.fit import MANY, Fit, alone, maximise, restarted, together, warmed
+from lostmotion.inference.fit import Fit, alone, maximise, restarted, together, warmed
 from lostmotion.inference.late import price_of_onsets
+from lostmotion.inference.leftovers import quiet
 from lostmotion.inference.natural import term_of
 from lostmotion.inference.prices import price_of, related
 from lostmotion.inference.standing import CERTAIN, standing
@@ -35,14 +35,14 @@ MOST_FITTED = 6
 MOST_TERMS = 5
 CONTESTED = 4
 """So many of the heaviest sets are held against the discrepancy in each round: each costs a hundred filter runs."""
+FAR = 300.0
+"""Sets that are so far behind the heaviest in log weight are not held against it: they may come back as it grows."""
 MOST_VISITS = 80  # a search ends after so many sets of terms, whatever is left
 NEARLY = 2.5
 DECISIVE = math.log(20.0)
 """A term is taken when it makes the posterior odds of the model twenty times better."""
 REMEMBERS = 2.0
 WORTH, RICH = 0.2, 4
-QUIET = 2.0 * math.log(3.0)
-"""A random force this far above the usual one, in log intensity, is reason to look for more."""
 SAME = 1e-4
 """Below this share of its own information a term cannot be told from parameters that are estimated anyway."""
 
@@ -71,6 +71,7 @@ class Selector:
         self.course = Selection(nominal, nominal)
         self._settled: set[frozenset[str]] = set()
         self._been: set[frozenset[str]] = set()
+        self._retold: set[frozenset[str]] = set()
         self._sure: dict[frozenset[str], tuple[float, float]] = {}
         self._visit(nominal)
 
@@ -87,6 +88,18 @@ class Selector:
         """Return the selection among a set that was found on other recordings, sets close to it, and a term more."""
         self._begun([found, *rivals])
         return self._finished(self._extended)
+
+    def further(self, course: Selection, fresh: Iterable[str]) -> Selection:
+        """Return a selection gone on with, now that `fresh` terms have shapes that had not been tried.
+
+        Sets with these are forgotten, and tried anew from the nominal and from the chosen fit on.
+        """
+        new, chosen = set(fresh), course.chosen.problem.active
+        kept = {terms: visit for terms, visit in course.visits.items() if terms <= chosen or not terms & new}
+        self.course = replace(course, visits=kept, hints={})
+        self._additions(course.nominal)
+        self.course.hints = {**course.hints, **self.course.hints}
+        return self.run()
 
     def _begun(self, fits: Iterable[Fit]) -> None:
         """Choose the best of some sets, less what it can do without, after score tests on top of the nominal fit."""
@@ -142,7 +155,11 @@ class Selector:
         return True
 
     def _visit(self, fit: Fit) -> Visit:
-        """Note a fitted set, weighted by its evidence and the prices of its terms."""
+        """Note a fitted set in the commonest terms that say it, weighted by evidence and the prices of its terms."""
+        told = in_commoner_terms(fit, self.candidates)
+        if told is not fit:
+            self._retold.add(fit.problem.active)
+            fit = told
         terms = fit.problem.active
         price = sum(price_of(term_of(fit.problem, key)[0], len(self.candidates)) for key in terms)
         price += price_of_onsets(fit.problem)
@@ -175,6 +192,7 @@ class Selector:
         self._been.add(here.terms)
         others = [v for v in self.course.visits.values() if v.terms not in self._been]
         good = sorted((v for v in others if self._decided(v, here)), key=lambda v: -v.weight)[:CONTESTED]
+        good = [v for v in good if v.weight > good[0].weight - FAR]
         same = [v for v in others if v.terms in self.course.smooth and len(v.terms) == len(here.terms)]
         good += [v for v in same if v not in good]
         if good:
@@ -293,7 +311,8 @@ class Selector:
     def _tried(self, fit: Fit, key: str) -> bool:
         """Return whether a term is in a fit already, itself or as a relative, or was tried on top of it."""
         active = fit.problem.active
-        return key in active or self._kin(fit, key) or active | {key} in self.course.visits
+        known = active | {key} in self.course.visits or active | {key} in self._retold
+        return key in active or self._kin(fit, key) or known
 
     def _visit_all(self, fits: Iterable[Fit]) -> None:
         """Note fits that were made on one core each."""
@@ -376,24 +395,3 @@ class Selector:
     @staticmethod
     def _related(fit: Fit, mine: str, other: str) -> bool:
         return related(term_of(fit.problem, mine)[0], term_of(fit.problem, other)[0])
-
-
-def quiet(fit: Fit) -> bool:
-    """Return whether no random force beyond three times the usual noise of the drive is left."""
-    return all(at <= f.mean + QUIET for f, at in zip(fit.problem.free, fit.theta, strict=True) if f.parameter == RANDOM)
-
-
-def significant_random_force(fit: Fit) -> float:
-    """Return the log-likelihood that a random force beyond three times the usual noise of the drive adds.
-
-    Where each recording has a random force of its own, all are held below that together.
-    """
-    problem, theta, frees = fit.problem, fit.theta.copy(), list(fit.problem.free)
-    for i, free in enumerate(frees):
-        cap = free.mean + QUIET
-        if free.parameter == RANDOM and theta[i] > cap:
-            theta[i], frees[i] = cap, replace(free, high=cap, start=cap)
-    if np.array_equal(theta, fit.theta):
-        return 0.0
-    capped = maximise(replace(problem, free=tuple(frees)), theta, rounds=6 if len(theta) > MANY else 40)
-    return float(np.maximum(fit.log_likelihood - capped.log_likelihood, 0.0))

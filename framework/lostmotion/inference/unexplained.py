@@ -13,9 +13,10 @@ from lostmotion.inference.candidates import slopes_of
 from lostmotion.inference.curves import CHOICES, ROUNDS, fit_curve, shape_of, transplanted
 from lostmotion.inference.fit import Fit, maximise
 from lostmotion.inference.learned import Learned
+from lostmotion.inference.leftovers import significant_random_force
 from lostmotion.inference.natural import term_of
 from lostmotion.inference.prices import price_of
-from lostmotion.inference.selection import DECISIVE, WORTH, significant_random_force
+from lostmotion.inference.selection import DECISIVE, WORTH
 from lostmotion.likelihood.problem import RANDOM, Problem
 
 MOST_CURVES = 2

@@ -25,8 +25,10 @@ STRIDE = 32
 """Points in one row of a block: the most that a kernel computes at once."""
 BARE: dict[str, Any] = {"error_model": "numpy", "nogil": True, "_nrt": False}
 """Without numba's run time nothing can be allocated in a kernel, and no references are counted: eight times faster."""
+INNER: dict[str, Any] = {**BARE, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+"""A function that only compiled code calls needs no way in from outside."""
 
-jit = numba.njit(**BARE)
+jit = numba.njit(**INNER)
 """A function of a kernel that is compiled into those that call it."""
 whole = numba.njit(**BARE, cache=True)
 """A kernel that Python calls; it is kept on disk."""

@@ -193,8 +193,8 @@ def run_errors(fit: Fit, pieces: Sequence[Piece], horizon: Horizon) -> Array:
     return np.array([math.sqrt(float(np.mean(part))) for part in np.array_split(joint, PARTS) if len(part)])
 
 
-def confirmed(errors: Array, without: Array) -> bool:
-    """Return whether `errors` (PARTS,) of one model are smaller than those of another by more than chance.
+def confirmed(errors: Array, without: Array, chance: float = CHANCE) -> bool:
+    """Return whether `errors` (PARTS,) of one model are smaller than those of another by more than `chance`.
 
     The paired test of Student on their logarithms, so that parts with little motion count as much as others.
     """
@@ -202,7 +202,7 @@ def confirmed(errors: Array, without: Array) -> bool:
     more = np.log(np.maximum(without, least)) - np.log(np.maximum(errors, least))
     if len(more) < 3 or not np.all(np.isfinite(more)) or not np.any(more):
         return False
-    return bool(np.mean(more) > 0.0 and ttest_1samp(more, 0.0).pvalue < CHANCE)
+    return bool(np.mean(more) > 0.0 and ttest_1samp(more, 0.0).pvalue < chance)
 
 
 def own_motion(fit: Fit, pieces: Sequence[Piece]) -> float:

@@ -13,12 +13,13 @@ from lostmotion.errors import DataError
 from lostmotion.inference.course import RICH, Selection, Visit
 from lostmotion.inference.fit import Fit, maximise
 from lostmotion.inference.learned import Learned, OverTime
+from lostmotion.inference.leftovers import significant_random_force
 from lostmotion.inference.locate import Curve, covariates, curve, edges_of, further, summary
 from lostmotion.inference.natural import term_of
 from lostmotion.inference.odds import Ratio, likely, log_odds
 from lostmotion.inference.prices import price_of
 from lostmotion.inference.scout import scouted
-from lostmotion.inference.selection import significant_random_force
+from lostmotion.inference.selection import Selector
 from lostmotion.inference.setup import HELD_OUT, polish, problem_of, search, split, stepped
 from lostmotion.inference.shares import Covariate, Share, shares_of, significant
 from lostmotion.inference.stretches import sought
@@ -195,7 +196,8 @@ def diagnose(
     if selection.chosen.problem.active and significant_random_force(selection.chosen) > SIGNIFICANT:
         say("shapes beside what was found")
         if more := {key: found for key, found in scouted(selection.chosen).items() if key not in shapes}:
-            selection = sought(nominal, fitted_keys(system), say, {**shapes, **more}, curves.promise)
+            selector = Selector(selection.nominal, fitted_keys(system), say, {**shapes, **more}, curves.promise)
+            selection = selector.further(selection, more)
     say("final estimates")
     before = polish(selection.nominal)
     after = polish(selection.chosen) if selection.chosen.problem.active else before
@@ -242,6 +244,15 @@ def simpler(d: Diagnosis, rng: np.random.Generator) -> Diagnosis | None:
         learned = replace(learned, fit=after)
     bare = replace(d, after=after, selection=selection, learned=learned, left=None, law=_NO, laws={}, law_curves={})
     told = replace(bare, random_gain=significant_random_force(after), withdrawn=(*d.withdrawn, gone))
+    return _located(told, rng)
+
+
+def instead(d: Diagnosis, fit: Fit, rng: np.random.Generator) -> Diagnosis:
+    """Return the diagnosis with another set of terms that was visited, given by its fit, in place of the chosen one."""
+    gone = tuple(key for key in d.named if key not in fit.problem.active)
+    after = polish(fit) if fit.problem.active else d.before
+    bare = replace(d, after=after, selection=replace(d.selection, chosen=fit), left=None, law=_NO, laws={})
+    told = replace(bare, law_curves={}, random_gain=significant_random_force(after), withdrawn=(*d.withdrawn, *gone))
     return _located(told, rng)
 
 

@@ -12,14 +12,18 @@ from collections.abc import Sequence
 import numpy as np
 
 from lostmotion.contracts import Array
-from lostmotion.inference.course import RICH
+from lostmotion.inference.course import RICH, Selection, Visit
+from lostmotion.inference.fit import Fit
 from lostmotion.inference.gauges import APART
 from lostmotion.inference.natural import term_of
 from lostmotion.likelihood.observation import Observation
 from lostmotion.quantities import TIME
-from lostmotion.stages.compare import confirmed, pieces_of, run_errors
+from lostmotion.stages.compare import CHANCE, confirmed, pieces_of, run_errors
 from lostmotion.stages.diagnose import Diagnosis
 from lostmotion.workflow.findings import Outcome
+
+ASKED = 3
+"""So many sets of each size are asked what they predict."""
 
 
 def unconfirmed(outcome: Outcome, observations: Sequence[Observation]) -> dict[str, str]:
@@ -30,9 +34,7 @@ def unconfirmed(outcome: Outcome, observations: Sequence[Observation]) -> dict[s
     """
     d, selection = outcome.diagnosis, outcome.diagnosis.selection
     here = selection.visits.get(selection.chosen.problem.active)
-    if here is None or not here.terms:
-        return {}
-    if not d.unexplained and not selection.expansion(here).promise(1.0).gain > RICH:
+    if here is None or _right(d, here):
         return {}
     pieces, told = pieces_of(observations, d.held), {}
     errors = run_errors(here.fit, pieces, outcome.horizon)
@@ -48,6 +50,40 @@ def unconfirmed(outcome: Outcome, observations: Sequence[Observation]) -> dict[s
                 f" response with it and by {_whole(without):.2%} without it), which is within chance."
             )
     return told
+
+
+def predicted_better(outcome: Outcome, observations: Sequence[Observation]) -> Fit | None:
+    """Return the fit of another set of no more terms that predicts held-out data better than the chosen one, or None.
+
+    Sets of terms may explain what they were fitted to equally well where the model is not right in other ways too;
+    what they predict then decides. The best sets of each size are asked, and have to be better by more than chance.
+    """
+    d, selection = outcome.diagnosis, outcome.diagnosis.selection
+    here = selection.visits.get(selection.chosen.problem.active)
+    if d.learned or here is None or _right(d, here):
+        return None
+    pieces, others = pieces_of(observations, d.held), _others(selection, here)
+    errors = run_errors(here.fit, pieces, outcome.horizon)
+    rivals = [(visit, run_errors(visit.fit, pieces, outcome.horizon)) for visit in others]
+    better = [(v, e) for v, e in rivals if confirmed(e, errors, CHANCE / len(rivals))]
+    return min(better, key=lambda rival: _whole(rival[1]))[0].fit if better else None
+
+
+def _others(selection: Selection, here: Visit) -> list[Visit]:
+    """Return the sets of most weight of each size up to that of a chosen one, but for this one and the empty set."""
+    found = []
+    for size in range(1, len(here.terms) + 1):
+        same = [v for v in selection.visits.values() if len(v.terms) == size and v.terms != here.terms]
+        same = [v for v in same if v.fit.status != "diverged" and not v.terms & selection.declined]
+        found += sorted(same, key=lambda v: -v.weight)[:ASKED]
+    return found
+
+
+def _right(d: Diagnosis, here: Visit) -> bool:
+    """Return whether nothing else is wrong with the model beside what was found, each sample counting as one."""
+    if not here.terms:
+        return True
+    return not d.unexplained and not d.selection.expansion(here).promise(1.0).gain > RICH
 
 
 def usual(d: Diagnosis, key: str) -> str:

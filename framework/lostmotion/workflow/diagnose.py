@@ -23,11 +23,11 @@ from lostmotion.stages.compare import (
     rates_of,
     worsened,
 )
-from lostmotion.stages.diagnose import Diagnosis, diagnose, simpler
+from lostmotion.stages.diagnose import Diagnosis, diagnose, instead, simpler
 from lostmotion.storage import folder_for, save_arrays, save_json
 from lostmotion.workflow.arrays import arrays_of
 from lostmotion.workflow.attractors import motions_of
-from lostmotion.workflow.confirming import unconfirmed
+from lostmotion.workflow.confirming import predicted_better, unconfirmed
 from lostmotion.workflow.decays import decay_in
 from lostmotion.workflow.disagreements import disagreement_in
 from lostmotion.workflow.evidences import evidence_of
@@ -137,9 +137,13 @@ def upheld(diagnosis: Diagnosis, prepared: Prepared, rng: np.random.Generator, s
     """Return the diagnosis with its predictions, less what held-out data speak against.
 
     They have a veto: where free runs or one-step predictions are worse with what was found than without it, learned
-    curves are taken back first, then one term after the other, the least probable one first.
+    curves are taken back first, then one term after the other, the least probable one first. And they choose among sets
+    of terms that explain the fitted data.
     """
     outcome = judged(diagnosis, prepared, rng)
+    if (better := predicted_better(outcome, prepared.observations)) is not None:
+        say(f"held-out predictions with {' and '.join(sorted(better.problem.active))} instead")
+        outcome = judged(instead(diagnosis, better, rng.spawn(1)[0]), prepared, rng)
     while outcome.diagnosis.found and worsened(outcome.before, outcome.after):
         less = simpler(outcome.diagnosis, rng.spawn(1)[0])
         if less is None:

@@ -15,8 +15,8 @@ import numpy as np
 
 from lostmotion.inference.candidates import joined
 from lostmotion.inference.fit import Fit, maximise, restarted, warmed
+from lostmotion.inference.leftovers import significant_random_force
 from lostmotion.inference.natural import term_of
-from lostmotion.inference.selection import significant_random_force
 from lostmotion.inference.setup import polish, problem_of, split, stepped
 from lostmotion.likelihood.predict import Horizon
 from lostmotion.likelihood.problem import NOISE, RANDOM, Problem

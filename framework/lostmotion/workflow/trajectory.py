@@ -13,7 +13,7 @@ from lostmotion.contracts import Term
 from lostmotion.errors import CaseError, nearest
 from lostmotion.inference.candidates import fit_with, screen, slopes_of
 from lostmotion.inference.fit import Fit, maximise, restarted
-from lostmotion.inference.selection import significant_random_force
+from lostmotion.inference.leftovers import significant_random_force
 from lostmotion.inference.setup import SHARED, frees_for, modes, polished, problem_of, separated
 from lostmotion.likelihood.system import System, key_of
 from lostmotion.registry import Registry

@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
 from lostmotion.contracts import Array, Model, Param, Term, Values
 from lostmotion.quantities import FORCE, NUMBER, TIME
+
+OFFSET = 0.25
+"""Levels that differ by less than this share of their sum are told as one level and an offset of the drive or of the
+sensor, which every rig has: the forces are the same at any speed, and at rest."""
 
 
 @dataclass(frozen=True)
@@ -27,6 +32,13 @@ class DirectionalFriction(Term):
     )
     needs = ("mobility",)
     resembles = ("coulomb_friction", "stribeck_friction")
+
+    def commoner(self, values: Mapping[str, float]) -> Mapping[str, Mapping[str, float]]:
+        """Return friction and an offset, which are the same force, where the levels differ by little."""
+        both, apart = values["forward"] + values["backward"], values["forward"] - values["backward"]
+        if not abs(apart) < OFFSET * both:
+            return {}
+        return {"coulomb_friction": {"force": 0.5 * both}, "offset_force": {"force": -0.5 * apart}}
 
     @staticmethod
     def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:

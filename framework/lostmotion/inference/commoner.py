@@ -1,0 +1,45 @@
+"""A law that is the sum of two commoner laws is told as these, where its values make that the likelier story."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+
+from lostmotion.inference.candidates import joined
+from lostmotion.inference.fit import Fit, maximise, restarted
+from lostmotion.inference.late import onset
+from lostmotion.inference.natural import term_of
+from lostmotion.likelihood.problem import Problem
+from lostmotion.likelihood.system import key_of, since_of
+
+AS_GOOD = 6.0
+"""Commoner terms may have this much less log evidence: the forces are the same, and only priors differ."""
+
+
+def in_commoner_terms(fit: Fit, candidates: Collection[str]) -> Fit:
+    """Return a fit in which commoner terms stand for one that is their sum; the fit itself where none is."""
+    for key in sorted(fit.problem.active):
+        problem = _rewritten(fit, key, candidates)
+        told = maximise(problem) if problem else fit
+        if told is not fit and told.status != "diverged" and told.log_evidence > fit.log_evidence - AS_GOOD:
+            return told
+    return fit
+
+
+def _rewritten(fit: Fit, key: str, candidates: Collection[str]) -> Problem | None:
+    """Return the problem with commoner terms in place of one, begun at the same force; None where it is no sum."""
+    term, slots = term_of(fit.problem, key)
+    values = fit.values
+    if not all(slot.key in values for slot in slots):
+        return None
+    terms = {key_of(t): t for t in fit.problem.system.terms if t.at == term.at}
+    stands = {
+        name: next((k for k, t in terms.items() if t.name == name), "")
+        for name in term.commoner({slot.param.name: values[slot.key] for slot in slots})
+    }
+    if not stands or not set(stands.values()) <= set(candidates) - fit.problem.active:
+        return None
+    since, problem = onset(fit.problem, key), restarted(fit).reduced(key, values)
+    for name, own in term.commoner({slot.param.name: values[slot.key] for slot in slots}).items():
+        start = {f"{stands[name]}.{param}": value for param, value in own.items()}
+        problem = joined(problem, stands[name], {**start, since_of(stands[name]): since})
+    return problem

@@ -1,0 +1,35 @@
+"""What a fit leaves over: whether its random force is beyond what a drive has anyway, and what that wins."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from lostmotion.inference.fit import MANY, Fit, maximise
+from lostmotion.likelihood.problem import RANDOM
+
+QUIET = 2.0 * math.log(3.0)
+"""A random force this far above the usual one, in log intensity, is reason to look for more."""
+
+
+def quiet(fit: Fit) -> bool:
+    """Return whether no random force beyond three times the usual noise of the drive is left."""
+    return all(at <= f.mean + QUIET for f, at in zip(fit.problem.free, fit.theta, strict=True) if f.parameter == RANDOM)
+
+
+def significant_random_force(fit: Fit) -> float:
+    """Return the log-likelihood that a random force beyond three times the usual noise of the drive adds.
+
+    Where each recording has a random force of its own, all are held below that together.
+    """
+    problem, theta, frees = fit.problem, fit.theta.copy(), list(fit.problem.free)
+    for i, free in enumerate(frees):
+        cap = free.mean + QUIET
+        if free.parameter == RANDOM and theta[i] > cap:
+            theta[i], frees[i] = cap, replace(free, high=cap, start=cap)
+    if np.array_equal(theta, fit.theta):
+        return 0.0
+    capped = maximise(replace(problem, free=tuple(frees)), theta, rounds=6 if len(theta) > MANY else 40)
+    return float(np.maximum(fit.log_likelihood - capped.log_likelihood, 0.0))
