@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from lostmotion.inference.curves import _told_apart
-from lostmotion.inference.learned import KINDS, OverPhase, OverPosition, curves_for, names_of, spread
+from lostmotion.inference.learned import OverPhase, OverPosition, names_of, spread
 from lostmotion.inference.proposal import Axis, proposed
+from lostmotion.inference.surfaces import KINDS, OverHistory, Surface, curves_for
 from lostmotion.quantities import DAMPING, FORCE, LENGTH, SPEED
 from lostmotion.registry import default
 
@@ -26,11 +27,14 @@ def curves():
 
 
 def test_there_is_a_curve_of_each_kind_at_each_place():
-    assert len(curves()) == 2 * len(KINDS) + 2
+    assert len(curves()) == 2 * (len(KINDS) + 2) + 3
     assert not any("omega" in t.needs for t in curves_for(default().make("model", "lin_backlash"), driven=False))
 
 
-@pytest.mark.parametrize("term", curves_for(default().make("model", "lin_backlash"), driven=True), ids=lambda t: t.name)
+ALL = curves_for(default().make("model", "lin_backlash"), driven=True)
+
+
+@pytest.mark.parametrize("term", [t for t in ALL if not isinstance(t, Surface | OverHistory)], ids=lambda t: t.name)
 def test_a_curve_without_weights_does_nothing_and_with_them_is_its_basis(term):
     rng = np.random.default_rng(0)
     needs = {"mobility": 1e-6, "omega": 2.0}
@@ -44,6 +48,32 @@ def test_a_curve_without_weights_does_nothing_and_with_them_is_its_basis(term):
         sign = -1.0 if term.times else 1.0
         size = np.abs(weights).sum()
         assert force(term, weights, at, velocity, given) == pytest.approx(sign * expected, abs=1e-4 * size)
+
+
+@pytest.mark.parametrize("term", [t for t in ALL if isinstance(t, Surface)], ids=lambda t: t.name)
+def test_a_surface_is_its_basis(term):
+    """The kernel makes its sines one from another, the basis each for itself."""
+    weights = np.random.default_rng(1).standard_normal(term.count)
+    omega, t = 2.0, 0.7
+    for x, v in ((0.1, -0.3), (-0.9, 0.8), (2.0, 0.0), (0.4, -5.0)):
+        own = (*weights, 0.1, 0.8, -0.2, 1.5, *((omega,) if term.needs else ()))
+        second = (v + 0.2) / 1.5 if term.beside == "velocity" else omega * t / np.pi
+        expected = float(term.grid(np.array([(x - 0.1) / 0.8]), np.array([second]))[0, 0] @ weights)
+        assert term.force(t, x, v, INPUT, own, ()) == pytest.approx(expected, rel=1e-9, abs=1e-12)
+
+
+def test_a_force_with_a_memory_is_its_curve_over_what_it_has_not_forgotten():
+    """Under a constant velocity the state settles at velocity times time; `followed` has the exact exponential."""
+    term, time = OverHistory(), 0.5
+    weights = np.random.default_rng(2).standard_normal(term.count)
+    own = term.prepared(np.array([[*weights, 0.0, 1.0, time]]))[0]
+    expected = float((term.basis(np.array([0.35])) @ weights)[0])
+    assert term.force(0.0, 9.0, 9.0, INPUT, own, (0.35,)) == pytest.approx(expected, abs=1e-4 * np.abs(weights).sum())
+    change = np.zeros(1)
+    term.rate(0.0, 0.0, 0.7, INPUT, own, (0.35,), change)
+    assert change[0] == pytest.approx(0.0, abs=1e-12)
+    t = np.arange(0.0, 3.0, 0.01)
+    assert term.followed(np.full(len(t), 0.7), 0.01, time) == pytest.approx(0.35 * (1.0 - np.exp(-t / time)), abs=1e-3)
 
 
 def test_friction_of_a_place_opposes_the_motion_and_sticks():

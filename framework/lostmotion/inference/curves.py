@@ -8,15 +8,16 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from lostmotion.contracts import Array, Interface, place_of
 from lostmotion.inference.fit import Fit, Sensitivity, maximise, restarted, robust_covariance, solved
-from lostmotion.inference.learned import Learned, curves_for, spread
+from lostmotion.inference.learned import Learned, spread
 from lostmotion.inference.natural import term_of
+from lostmotion.inference.surfaces import OverHistory, Surface, curves_for
 from lostmotion.likelihood.problem import Free, Problem
 from lostmotion.likelihood.system import System, key_of
 
@@ -29,6 +30,10 @@ CHOICES = math.log(len(SIZES) * len(LENGTHS))
 ROUNDS = 6
 """A curve is nearly linear in its coefficients and begins at a score estimate: a few rounds of scoring settle it."""
 EDGE = 0.02
+GRID = (41, 31)
+"""Places along both axes at which a surface is told."""
+TIMES = (0.3, 1.0, 3.0, 10.0)
+"""Times in which a learned force forgets that are tried, in units of the natural time of the recording."""
 TOLD = 0.1
 """The information of the data over that of the prior from which on a coefficient is fitted."""
 COVERED = 1e-2
@@ -41,13 +46,15 @@ NUDGE = 3e-4
 class Shape:
     """What a score test says of a curve: the log evidence it promises, its prior widths and where to start (count,).
 
-    A coefficient of which the data tell next to nothing beside its prior has width zero: it is left out.
+    A coefficient of which the data tell next to nothing beside its prior has width zero: it is left out. `known` are
+    values of the curve that were chosen with it.
     """
 
     key: str
     gain: float
     widths: Array
     start: Array
+    known: Mapping[str, float] = field(default_factory=dict)
 
 
 def transplanted(fit: Fit) -> Fit:
@@ -64,9 +71,8 @@ def transplanted(fit: Fit) -> Fit:
     known = system.vector({key: problem.known[old.index[key]] for key in system.index if key in old.index})
     moved = motions_of(fit, [place_of(old.model, curve) for curve in curves])
     for curve in curves:
-        low, high = _range(fit, curve, moved)
-        known[system.index[f"{key_of(curve)}.middle"]] = 0.5 * (low + high)
-        known[system.index[f"{key_of(curve)}.half"]] = 0.5 * (high - low)
+        for key, value in _ranges(fit, curve, moved).items():
+            known[system.index[f"{key_of(curve)}.{key}"]] = value
     return replace(fit, problem=replace(problem, system=system, known=known))
 
 
@@ -86,13 +92,34 @@ def motions_of(fit: Fit, places: Sequence[Interface]) -> Motions:
     return found
 
 
-def _range(fit: Fit, curve: Learned, moved: Motions) -> tuple[float, float]:
-    """Return the least and the greatest value of what a curve runs over, in all recordings, with a narrow margin."""
+def _ranges(fit: Fit, curve: Learned, moved: Motions) -> dict[str, float]:
+    """Return middle and half width of the range of what a curve runs over, of a surface of both things."""
+    time = fit.problem.scales.time
+    found = _middled(*_range(fit, curve, curve.over, moved, time))
+    if isinstance(curve, Surface):
+        found |= {f"{k}2": v for k, v in _middled(*_range(fit, curve, curve.beside, moved, time)).items()}
+    return found | ({"time": time} if isinstance(curve, OverHistory) else {})
+
+
+def _middled(low: float, high: float) -> dict[str, float]:
+    return {"middle": 0.5 * (low + high), "half": 0.5 * (high - low)}
+
+
+def _range(fit: Fit, curve: Learned, over: str, moved: Motions, time: float) -> tuple[float, float]:
+    """Return the least and the greatest value of something that moves, in all recordings, with a narrow margin.
+
+    A hidden state forgets in a `time` (s).
+    """
     problem = fit.problem
-    if curve.over in ("time", "phase"):
+    if over in ("time", "phase"):
         return 0.0, max(float(observation.time[-1]) for observation in problem.observations)
-    place = place_of(problem.system.model, curve)
-    ends = [_ends(motion[int(curve.over == "velocity")]) for motion in moved[place.name]]
+    seen = moved[place_of(problem.system.model, curve).name]
+    if over == "history":
+        steps = zip(seen, problem.observations, strict=True)
+        values = [OverHistory.followed(motion[1], observation.dt, time) for motion, observation in steps]
+    else:
+        values = [motion[int(over == "velocity")] for motion in seen]
+    ends = [_ends(value) for value in values]
     low, high = min(e[0] for e in ends), max(e[1] for e in ends)
     return low - EDGE * (high - low), high + EDGE * (high - low)
 
@@ -109,6 +136,21 @@ def size_of(term: Learned, problem: Problem) -> float:
 
 
 def shape_of(fit: Fit, slopes: Sensitivity, key: str) -> Shape:
+    """Return what a curve promises; one with a memory is asked at each of some `TIMES`, for which it pays."""
+    problem, term = fit.problem, _learned(fit.problem, key)
+    if not isinstance(term, OverHistory):
+        return _smoothest(fit, slopes, key)
+    moved, found = motions_of(fit, [place_of(problem.system.model, term)]), []
+    for share in TIMES:
+        time = share * problem.scales.time
+        held = {"time": time, **_middled(*_range(fit, term, "history", moved, time))}
+        known = {f"{key}.{name}": value for name, value in held.items()}
+        best = _smoothest(replace(fit, problem=problem.knowing(known)), slopes, key)
+        found.append(replace(best, gain=best.gain - math.log(len(TIMES)), known=known))
+    return max(found, key=lambda shape: shape.gain)
+
+
+def _smoothest(fit: Fit, slopes: Sensitivity, key: str) -> Shape:
     """Return what a curve promises at its best smoothness, the free parameters of the fit moving along.
 
     With gradient g and information H of its coefficients, prior widths D: the evidence gains
@@ -200,7 +242,7 @@ def with_curve(problem: Problem, key: str, widths: Array, start: Array) -> Probl
 
 def fit_curve(fit: Fit, shape: Shape) -> Fit:
     """Return the fit with one more curve, begun where its score test points, or with less of it, and fitted again."""
-    base = restarted(fit)
+    base = restarted(fit).knowing(shape.known) if shape.known else restarted(fit)
     problems = [with_curve(base, shape.key, shape.widths, f * shape.start) for f in (1.0, 0.5, 0.2)]
     heights = [p.log_posterior(p.clip(p.start)) for p in problems]
     return maximise(problems[int(np.argmax(heights))], rounds=ROUNDS, tolerance=0.3)
@@ -208,12 +250,16 @@ def fit_curve(fit: Fit, shape: Shape) -> Fit:
 
 @dataclass(frozen=True)
 class Band:
-    """A learned curve at places `at` (points,): mean, and covariance (points, points) of mean; what it is times."""
+    """A learned curve at places `at` (points,): mean, and covariance (points, points) of mean; what it is times.
+
+    A surface is given on the grid of `at` and `beside`, of which the values (points of both) stand in rows.
+    """
 
     term: Learned
     at: Array
     mean: Array
     covariance: Array
+    beside: Array | None = None
 
     @property
     def sd(self) -> Array:
@@ -227,10 +273,22 @@ def band_of(fit: Fit, key: str, points: int = 161) -> Band:
     places = {name: i for i, name in enumerate(problem.keys)}
     used = [i for i in range(term.count) if f"{key}.v{i}" in places]
     columns = [places[f"{key}.v{i}"] for i in used]
-    middle, half = (float(problem.known[problem.system.index[f"{key}.{n}"]]) for n in ("middle", "half"))
-    phase = term.over == "phase"
-    z = np.linspace(0.0, 2.0, points) if phase else np.linspace(-1.0, 1.0, points)
-    at = 0.5 * z if phase else middle + half * z
-    basis = term.basis(z)[:, used]
+    beside = None
+    if isinstance(term, Surface):
+        (z, at), (w, beside) = _axis(problem, key, term.over, GRID[0]), _axis(problem, key, term.beside, GRID[1], "2")
+        basis = term.grid(z, w).reshape(len(z) * len(w), -1)[:, used]
+    else:
+        z, at = _axis(problem, key, term.over, points)
+        basis = term.basis(z)[:, used]
     covariance = robust_covariance(fit)[np.ix_(columns, columns)]
-    return Band(term, at, basis @ fit.theta[columns], basis @ covariance @ basis.T)
+    return Band(term, at, basis @ fit.theta[columns], basis @ covariance @ basis.T, beside)
+
+
+def _axis(problem: Problem, key: str, over: str, points: int, which: str = "") -> tuple[Array, Array]:
+    """Return places (points,) in half widths (half periods) of a range, and what is there in its unit (periods)."""
+    if over == "phase":
+        z = np.linspace(0.0, 2.0, points)
+        return z, 0.5 * z
+    middle, half = (float(problem.known[problem.system.index[f"{key}.{n}{which}"]]) for n in ("middle", "half"))
+    z = np.linspace(-1.0, 1.0, points)
+    return z, middle + half * z

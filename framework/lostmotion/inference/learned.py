@@ -14,7 +14,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from lostmotion.contracts import Array, Model, Param, Term, Values
+from lostmotion.contracts import Array, Param, Term, Values
 from lostmotion.quantities import DAMPING, FORCE, LENGTH, SPEED, TIME, Dimension
 
 WIDER = 1.25
@@ -32,6 +32,22 @@ def _params(count: int, dimension: Dimension, over: Dimension) -> tuple[Param, .
     weights = tuple(Param(f"v{i}", "coefficient of a learned curve", dimension, null=0.0) for i in range(count))
     middle = Param("middle", "middle of the range of a learned curve", over)
     return (*weights, middle, Param("half", "half width of the range", over, low=0.0, scale="log"))
+
+
+def looked_up(p: Values, z: float, cells: int) -> float:
+    """Return a curve at `z`, in cells from its begin: a cubic from node to node of the table behind `p[2]`."""
+    z = min(z, cells) if z > 0.0 else 0.0
+    cell = min(int(z), cells - 1)
+    z -= cell
+    low, high, first, last = p[3 + 2 * cell], p[5 + 2 * cell], p[4 + 2 * cell], p[6 + 2 * cell]
+    bent = first + last - 2.0 * (high - low)
+    return low + z * (first + z * (high - low - first - bent + z * bent))
+
+
+def spread_of(waves: Array, length: float) -> Array:
+    """Return the standard deviation of each coefficient of functions with these `waves` (rad per half width)."""
+    power = (5.0 / length**2 + waves**2) ** -3.0
+    return np.asarray(np.sqrt(2.0 * power / power.sum()))
 
 
 @dataclass(frozen=True)
@@ -54,6 +70,14 @@ class Learned(Term):
     paper: ClassVar[str] = "Solin, Särkkä, Statistics and Computing 30 (2020) 419-446"
 
     @classmethod
+    def spread(cls, length: float) -> Array:
+        """Return the prior standard deviation (count,) of each coefficient, for a force of unit standard deviation.
+
+        `length` is the correlation length in half widths of the range, of a Matern process of order 5/2.
+        """
+        return spread_of(cls.waves(), length)
+
+    @classmethod
     def waves(cls) -> Array:
         """Return the angular frequency (count,) of each function, in rad per half width of the range."""
         return np.asarray(0.5 * math.pi / WIDER * np.arange(1, cls.count + 1), dtype=float)
@@ -71,7 +95,7 @@ class Learned(Term):
     def prepared(self, p: Array) -> Array:
         """Return begin and cells per unit of the table, what the law needs, then value and slope at each node."""
         middle, half = p[:, self.count], p[:, self.count + 1]
-        need = p[:, self.count + 2] if self.needs else np.zeros(len(p))
+        need = p[:, self.count + 2] if p.shape[1] > self.count + 2 else np.zeros(len(p))
         begin, per = middle - half, 0.5 * self.cells / half
         if self.source == PHASE:
             begin, per = np.zeros(len(p)), 0.5 * self.cells / math.pi * need
@@ -92,12 +116,7 @@ class Learned(Term):
         z = (seen - p[0]) * p[1]
         if self.source == PHASE:
             z -= self.cells * math.floor(z / self.cells)
-        z = min(z, self.cells) if z > 0.0 else 0.0
-        cell = min(int(z), self.cells - 1)
-        z -= cell
-        low, high, first, last = p[3 + 2 * cell], p[5 + 2 * cell], p[4 + 2 * cell], p[6 + 2 * cell]
-        bent = first + last - 2.0 * (high - low)
-        size = low + z * (first + z * (high - low - first - bent + z * bent))
+        size = looked_up(p, z, self.cells)
         if self.factor == DRAG:
             return -size * v
         if self.factor == AGAINST_MOTION:
@@ -206,27 +225,14 @@ def _turned(count: int) -> Array:
     return np.asarray(np.tile([0.5 * math.pi, 0.0], count // 2), dtype=float)
 
 
-KINDS: tuple[type[Learned], ...] = (OverPosition, OverVelocity, FrictionOverPosition, DragOverPosition)
-CLOCKS: tuple[type[Learned], ...] = (OverTime, OverPhase)
-
-
-def curves_for(model: Model, *, driven: bool) -> tuple[Learned, ...]:
-    """Return every curve that can be learned in a model: of the motion at each place, of time and drive at the first.
-
-    `driven` says that all recordings have a drive with one frequency.
-    """
-    own = [kind(at=place.name) for place in model.interfaces for kind in KINDS]
-    own += [kind(at=model.interfaces[0].name) for kind in CLOCKS if driven or "omega" not in kind.needs]
-    return tuple(own)
+def power_of(count: int, over: Dimension) -> tuple[Param, ...]:
+    """Return the parameters of a curve of a force: coefficients, middle and half width of the range."""
+    return _params(count, FORCE, over)
 
 
 def spread(term: Learned | type[Learned], length: float) -> Array:
-    """Return the prior standard deviation (count,) of each coefficient, for a force of unit standard deviation.
-
-    `length` is the correlation length in half widths of the range, of a Matern process of order 5/2.
-    """
-    power = (5.0 / length**2 + term.waves() ** 2) ** -3.0
-    return np.asarray(np.sqrt(2.0 * power / power.sum()))
+    """Return the prior standard deviation (count,) of each coefficient of a curve, for a force of unit deviation."""
+    return term.spread(length)
 
 
 def names_of(terms: Sequence[Learned]) -> list[str]:

@@ -83,7 +83,7 @@ def log_odds(fit: Fit) -> dict[str, Ratio]:
     slopes = slopes_of(wider)
     found: dict[str, list[Ratio]] = {}
     for key, term in zip(wider.problem.system.keys, wider.problem.system.terms, strict=True):
-        if isinstance(term, Learned) and key not in wider.problem.active:
+        if isinstance(term, Learned) and type(term) in NAMES and key not in wider.problem.active:
             found.setdefault(named(term), []).append(_of_curve(wider, slopes, key, term))
     return {name: Ratio(*map(averaged, zip(*values, strict=True))) for name, values in found.items()}
 

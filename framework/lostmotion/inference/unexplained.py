@@ -17,6 +17,7 @@ from lostmotion.inference.leftovers import significant_random_force
 from lostmotion.inference.natural import term_of
 from lostmotion.inference.prices import price_of
 from lostmotion.inference.selection import DECISIVE, WORTH
+from lostmotion.inference.surfaces import RICHER
 from lostmotion.likelihood.problem import RANDOM, Problem
 
 MOST_CURVES = 2
@@ -62,7 +63,7 @@ class Search:
     many: int
     say: Progress = lambda _: None
     visits: dict[frozenset[str], tuple[Fit, float]] = field(default_factory=dict)
-    learned: set[frozenset[str]] = field(default_factory=set)
+    learned: set[tuple[frozenset[str], bool]] = field(default_factory=set)
 
     def visit(self, fit: Fit) -> float:
         """Note a fit and return its weight: log evidence less the price of its terms and curves."""
@@ -79,18 +80,20 @@ class Search:
             return math.log(max(self.many, 1)) + 1.0 + CHOICES
         return price_of(term, self.many)
 
-    def learn(self, fit: Fit, count: int = FITTED) -> None:
+    def learn(self, fit: Fit, count: int = FITTED, *, richer: bool = False) -> None:
         """Fit the curves that promise most on top of a fit, if they promise to be decisive, and to reach the best set.
 
-        A score test promises too little where a large random force has to stand for what is missing.
+        A score test promises too little where a large random force has to stand for what is missing. `richer` ones are
+        over two things at once, or over the history of the motion, and are asked only then.
         """
-        if fit.problem.active in self.learned:
+        if (fit.problem.active, richer) in self.learned:
             return
-        self.learned.add(fit.problem.active)
+        self.learned.add((fit.problem.active, richer))
         slopes = slopes_of(fit)
         shapes = []
         for key, term in zip(fit.problem.system.keys, fit.problem.system.terms, strict=True):
-            if isinstance(term, Learned) and key not in fit.problem.active:
+            own = isinstance(term, Learned) and isinstance(term, RICHER) == richer
+            if own and key not in fit.problem.active:
                 self.say(f"score test of {key}")
                 shapes.append(shape_of(fit, slopes, key))
         short = max(weight for _, weight in self.visits.values()) - self.visits[fit.problem.active][1]
@@ -99,6 +102,21 @@ class Search:
         for shape in [s for s in shapes[:count] if s.gain > RIVAL * shapes[0].gain]:
             self.say(f"fit with {shape.key}")
             self.visit(fit_curve(fit, shape))
+
+    def bare(self, fit: Fit) -> Fit:
+        """Return a fit with a richer curve without the named terms that are not decisive beside it.
+
+        Laws that had stood in for a force over two things, or with a memory, are not needed any more.
+        """
+        curves = _curves(fit.problem)
+        if not any(isinstance(term_of(fit.problem, key)[0], RICHER) for key in curves):
+            return fit
+        for key in sorted(fit.problem.active - set(curves)):
+            self.say(f"learned curves without {key}")
+            less = maximise(fit.problem.reduced(key, fit.values), rounds=2 * ROUNDS, tolerance=0.3)
+            if self.visit(less) > self.visits[fit.problem.active][1] - DECISIVE:
+                fit = less
+        return fit
 
 
 @dataclass
@@ -143,12 +161,18 @@ class Curves:
         search.learn(after)
         if chosen.problem.active:
             search.learn(before, 1)
+        plain = _best(search)
+        if plain is None or significant_random_force(plain) > 0.0:
+            search.learn(after, richer=True)
+            search.learn(before, 1, richer=True)
         best = _best(search)
+        if best is not None and _takes_over(best, after):
+            best = search.bare(best)
         if best is None or _takes_over(best, after):
             return None
         while len(_curves(best.problem)) < MOST_CURVES and significant_random_force(best) > 0.0:
             search.learn(best, 1)
-            further = _best(search) or best
+            further = _best(search, best.problem.active) or best
             if further.problem.active == best.problem.active:
                 break
             best = further
@@ -189,10 +213,13 @@ def _curves(problem: Problem) -> tuple[str, ...]:
     return tuple(key for key in seen if key in active)
 
 
-def _best(search: Search) -> Fit | None:
-    """Return the best fit with curves: one with a curve more has to be decisively better than the one without."""
-    ranked = [(w - DECISIVE * len(_curves(f.problem)), f) for f, w in search.visits.values() if _curves(f.problem)]
-    return max(ranked, key=lambda pair: pair[0])[1] if ranked else None
+def _best(search: Search, beyond: frozenset[str] = frozenset()) -> Fit | None:
+    """Return the best fit with curves, and with all terms that it is to go `beyond`; None without any.
+
+    One with a curve more has to be decisively better than the one without.
+    """
+    fits = [(f, w) for active, (f, w) in search.visits.items() if active >= beyond and _curves(f.problem)]
+    return max(fits, key=lambda pair: pair[1] - DECISIVE * len(_curves(pair[0].problem)))[0] if fits else None
 
 
 def _takes_over(fit: Fit, without: Fit) -> bool:

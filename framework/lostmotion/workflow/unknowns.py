@@ -7,8 +7,10 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+from scipy.ndimage import maximum_filter
 
-from lostmotion.inference.curves import Band, band_of
+from lostmotion.contracts import Array, place_of
+from lostmotion.inference.curves import Band, band_of, motions_of
 from lostmotion.inference.learned import names_of
 from lostmotion.inference.likeness import likeness
 from lostmotion.inference.locate import listed
@@ -16,6 +18,7 @@ from lostmotion.inference.natural import term_of
 from lostmotion.inference.odds import p_values
 from lostmotion.inference.proposal import Axis, proposed
 from lostmotion.inference.shares import LEVEL, SURROGATES
+from lostmotion.inference.surfaces import OverHistory, Surface
 from lostmotion.inference.unexplained import Unknown
 from lostmotion.quantities import LENGTH, NUMBER, SPEED, TIME, Dimension
 from lostmotion.results import Interval
@@ -26,8 +29,10 @@ OVER: dict[str, tuple[str, Dimension]] = {
     "velocity": ("v", SPEED),
     "time": ("t", TIME),
     "phase": ("phase", NUMBER),
+    "history": ("z", LENGTH),
 }
-"""Symbol and dimension of what a curve runs over; a phase counts in periods of the drive."""
+"""Symbol and dimension of what a curve runs over; a phase counts in periods of the drive. The history of a motion is
+the stretch of a spring behind a dashpot."""
 NOT_FOUND = "A proposal, not a finding: the curve is what was found, and the formula is only one that fits it."
 NONE_FITS = "No short formula fits the curve: it stands for itself."
 BAND = 1.96
@@ -40,7 +45,12 @@ def learned_entry(d: Diagnosis) -> dict[str, Any]:
     if unknown is None:
         raise ValueError("a diagnosis without learned curves has no entry for them")
     bands = [band_of(unknown.fit, key) for key in unknown.keys]
-    curves = [_curve(d, band) for band in bands]
+    known = unknown.fit.problem
+    times = [
+        float(known.known[known.system.index[f"{key}.time"]]) if isinstance(term, OverHistory) else None
+        for key, term in zip(unknown.keys, unknown.terms, strict=True)
+    ]
+    curves = [_curve(d, band, time) for band, time in zip(bands, times, strict=True)]
     rms, sd = _size(d, unknown.keys, bands)
     unit = _unit_of(d, Dimension(1, 0, 0))
     size = Interval(rms, max(rms - BAND * sd, 0.0), rms + BAND * sd, unit)
@@ -117,20 +127,44 @@ def _doubt(band: Band) -> float:
     return math.sqrt(max(float(direction @ band.covariance @ direction), 0.0)) / norm
 
 
-def _curve(d: Diagnosis, band: Band) -> dict[str, Any]:
-    """Return a learned curve with its band of 95 %, as lists in SI units."""
-    term = band.term
-    return {
+def _curve(d: Diagnosis, band: Band, forgets: float | None) -> dict[str, Any]:
+    """Return a learned curve with its band of 95 %, as lists in SI units; a surface as lists of lists.
+
+    One with a memory tells in which time (s) it forgets.
+    """
+    term, shape = band.term, (len(band.at), -1) if band.beside is not None else (len(band.at),)
+    low, high = band.mean - BAND * band.sd, band.mean + BAND * band.sd
+    entry = {
         "over": term.over,
         "at_place": term.at,
         "unit": _unit_of(d, OVER[term.over][1]),
         "force_unit": _unit_of(d, term.params[0].dimension),
         "times": term.times,
         "at": band.at.tolist(),
-        "force": band.mean.tolist(),
-        "low": (band.mean - BAND * band.sd).tolist(),
-        "high": (band.mean + BAND * band.sd).tolist(),
+        "force": band.mean.reshape(shape).tolist(),
+        "low": low.reshape(shape).tolist(),
+        "high": high.reshape(shape).tolist(),
     }
+    if band.beside is not None and isinstance(term, Surface):
+        unit = _unit_of(d, OVER[term.beside][1])
+        entry |= {"over_too": term.beside, "unit_too": unit, "at_too": band.beside.tolist()}
+        entry["visited"] = _visited(d, band, term).tolist()
+    return entry if forgets is None else {**entry, "forgets_in": forgets}
+
+
+def _visited(d: Diagnosis, band: Band, term: Surface) -> Array:
+    """Return which cells (points, points) of the grid of a surface the motion came to, and their neighbours."""
+    problem, beside = d.after.problem, np.asarray(band.beside)
+    place = place_of(problem.system.model, term)
+    seen = np.zeros((len(band.at), len(beside)), dtype=bool)
+    for motion, observation in zip(motions_of(d.after, [place])[place.name], problem.observations, strict=True):
+        second = motion[1] if term.beside == "velocity" else observation.time * observation.tone.omega / math.tau % 1.0
+        cells = [
+            np.clip(np.searchsorted(axis, values), 0, len(axis) - 1)
+            for axis, values in ((band.at, motion[0]), (beside, second))
+        ]
+        seen[cells[0], cells[1]] = True
+    return np.asarray(maximum_filter(seen, size=3))
 
 
 def _proposal(d: Diagnosis, bands: list[Band]) -> dict[str, Any]:
@@ -146,6 +180,8 @@ def _proposal(d: Diagnosis, bands: list[Band]) -> dict[str, Any]:
 
 
 def _formula(d: Diagnosis, band: Band) -> tuple[str, float] | None:
+    if band.beside is not None or band.term.over == "history":
+        return None
     axis = Axis(*OVER[band.term.over], band.term.params[0].dimension, d.after.problem.system.model.motion)
     found = proposed(band.at, band.mean, band.covariance, axis)
     if found is None:

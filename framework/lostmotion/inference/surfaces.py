@@ -1,0 +1,206 @@
+"""Forces that are learned over two things at once, or over what the motion was before.
+
+A surface is a tensor product of the sines of two curves: a Gaussian process of reduced rank with a separable kernel
+(Solin, Särkkä, Statistics and Computing 30 (2020) 419-446). A force with a memory is a curve over a hidden state of
+first order: the stretch of a spring behind a dashpot.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from lostmotion.contracts import Array, Model, Param, Values
+from lostmotion.inference.learned import (
+    COARSE,
+    WIDER,
+    DragOverPosition,
+    FrictionOverPosition,
+    Learned,
+    OverPhase,
+    OverPosition,
+    OverTime,
+    OverVelocity,
+    looked_up,
+    power_of,
+    spread_of,
+)
+from lostmotion.quantities import LENGTH, SPEED, TIME, Dimension
+
+WIDE, DEEP = 8, 6
+"""Functions along the first and along the second thing on which a force depends."""
+
+
+def _surface(second: Dimension) -> tuple[Param, ...]:
+    """Return the parameters of a surface: those of a curve over position, and the range of what is second."""
+    middle = Param("middle2", "middle of the second range of a learned surface", second)
+    half = Param("half2", "half width of the second range of a learned surface", second, low=0.0, scale="log")
+    return (*power_of(WIDE * DEEP, LENGTH), middle, half)
+
+
+@dataclass(frozen=True)
+class Surface(Learned):
+    """A force that is learned over position and something else, which go together in it."""
+
+    wide: int = WIDE
+    deep: int = DEEP
+    count: ClassVar[int] = WIDE * DEEP
+    over: ClassVar[str] = "position"
+    beside: ClassVar[str]
+
+    @classmethod
+    def lines(cls) -> tuple[Array, Array]:
+        """Return the angular frequencies along both things, in rad per half width of the range (or half period)."""
+        both = (0.5 * math.pi / WIDER * np.arange(1, n + 1) for n in (WIDE, DEEP))
+        first, second = (np.asarray(waves, dtype=float) for waves in both)
+        return first, second
+
+    @classmethod
+    def waves(cls) -> Array:
+        """Return the larger of both frequencies (count,) of each function."""
+        first, second = cls.lines()
+        return np.asarray(np.maximum.outer(first, second).ravel())
+
+    @classmethod
+    def spread(cls, length: float) -> Array:
+        """Return the prior standard deviation (count,) of each coefficient: those along either thing, multiplied."""
+        first, second = cls.lines()
+        return np.asarray(np.outer(spread_of(first, length), spread_of(second, length)).ravel())
+
+    @classmethod
+    def along(cls, z: Array) -> Array:
+        """Return the functions (points, `DEEP`) of the second thing, in half widths from the middle of its range."""
+        return np.asarray(np.sin(np.outer(np.clip(z, -1.0, 1.0) + WIDER, cls.lines()[1])), dtype=float)
+
+    @classmethod
+    def grid(cls, first: Array, second: Array) -> Array:
+        """Return all functions (points of `first`, points of `second`, count) on a grid."""
+        across = np.sin(np.outer(np.clip(first, -1.0, 1.0) + WIDER, cls.lines()[0]))
+        return np.asarray(np.einsum("ai,bj->abij", across, cls.along(second)).reshape(len(first), len(second), -1))
+
+    def prepared(self, p: Array) -> Array:
+        """Return the parameters as they are: a sum of sines needs no table."""
+        return p
+
+
+@dataclass(frozen=True)
+class OverPlane(Surface):
+    """A force that depends on position and velocity together."""
+
+    name: ClassVar[str] = "unknown_over_position_and_velocity"
+    formula: ClassVar[str] = "f(x, v)"
+    beside: ClassVar[str] = "velocity"
+    depends: ClassVar[tuple[str, ...]] = ("position", "velocity")
+    params = _surface(SPEED)
+
+    def force(self, t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:  # type: ignore[override]
+        """Return the surface; the sines come one from another: sin kz = 2 cos z sin (k-1)z - sin (k-2)z."""
+        n = self.wide * self.deep
+        turn = 0.5 * math.pi / 1.25
+        one = turn * (min(max((x - p[n]) / p[n + 1], -1.0), 1.0) + 1.25)
+        two = turn * (min(max((v - p[n + 2]) / p[n + 3], -1.0), 1.0) + 1.25)
+        begin, twice, also = math.sin(two), 2.0 * math.cos(one), 2.0 * math.cos(two)
+        here, last, total = math.sin(one), 0.0, 0.0
+        for i in range(self.wide):
+            row, sine, before = 0.0, begin, 0.0
+            for j in range(self.deep):
+                row += p[i * self.deep + j] * sine
+                sine, before = also * sine - before, sine
+            total += row * here
+            here, last = twice * here - last, here
+        return total
+
+
+@dataclass(frozen=True)
+class OverPositionAndPhase(Surface):
+    """A force that depends on the position, in another way at each phase of the drive."""
+
+    name: ClassVar[str] = "unknown_over_position_and_phase"
+    formula: ClassVar[str] = "f(x, omega t)"
+    beside: ClassVar[str] = "phase"
+    depends: ClassVar[tuple[str, ...]] = ("position", "phase")
+    params = _surface(TIME)
+    needs = ("omega",)
+
+    @classmethod
+    def lines(cls) -> tuple[Array, Array]:
+        """Return the angular frequencies: those along the phase each twice, of a cosine and of a sine."""
+        return Surface.lines()[0], np.asarray(math.pi * np.repeat(np.arange(1, DEEP // 2 + 1), 2), dtype=float)
+
+    @classmethod
+    def along(cls, z: Array) -> Array:
+        """Return the functions (points, `DEEP`) of the phase, in half periods."""
+        turned = np.tile([0.5 * math.pi, 0.0], DEEP // 2)
+        return np.asarray(np.sin(np.outer(z, cls.lines()[1]) + turned), dtype=float)
+
+    def force(self, t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:  # type: ignore[override]
+        """Return the surface; `p` ends with the frequency of the drive."""
+        n = self.wide * self.deep
+        one = 0.5 * math.pi / 1.25 * (min(max((x - p[n]) / p[n + 1], -1.0), 1.0) + 1.25)
+        cosine, sine = math.cos(p[n + 4] * t), math.sin(p[n + 4] * t)
+        here, last, total, twice = math.sin(one), 0.0, 0.0, 2.0 * math.cos(one)
+        for i in range(self.wide):
+            row, c, w = 0.0, cosine, sine
+            for j in range(0, self.deep, 2):
+                row += p[i * self.deep + j] * c + p[i * self.deep + j + 1] * w
+                c, w = c * cosine - w * sine, w * cosine + c * sine
+            total += row * here
+            here, last = twice * here - last, here
+        return total
+
+
+@dataclass(frozen=True)
+class OverHistory(Learned):
+    """A force that depends on what the motion was before: a curve over the stretch of a spring behind a dashpot.
+
+    Its state z follows dz/dt = v - z / time: for a long time it is the position, for a short one the velocity.
+    """
+
+    name: ClassVar[str] = "unknown_over_history"
+    formula: ClassVar[str] = "f(z), dz/dt = v - z / time"
+    over: ClassVar[str] = "history"
+    depends: ClassVar[tuple[str, ...]] = ("history",)
+    states = ("stretch",)
+    params = (
+        *power_of(COARSE, LENGTH),
+        Param("time", "time in which a learned force forgets", TIME, low=0.0, scale="log"),
+    )
+
+    def force(self, t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:  # type: ignore[override]
+        """Return the curve over the state."""
+        return looked_up(p, (s[0] - p[0]) * p[1], self.cells)
+
+    def rate(  # type: ignore[override]
+        self, t: float, x: float, v: float, u: Array, p: Values, s: Values, dsdt: Array
+    ) -> None:
+        """Let the state follow the motion and forget."""
+        dsdt[0] = v - s[0] / p[2]
+
+    @staticmethod
+    def followed(velocity: Array, dt: float, time: float) -> Array:
+        """Return the state (samples,) along a motion of this velocity (samples,), sampled every `dt` s."""
+        state, kept = np.zeros(len(velocity)), math.exp(-dt / time)
+        for k in range(1, len(velocity)):
+            state[k] = kept * state[k - 1] + time * (1.0 - kept) * 0.5 * (velocity[k] + velocity[k - 1])
+        return state
+
+
+KINDS: tuple[type[Learned], ...] = (OverPosition, OverVelocity, FrictionOverPosition, DragOverPosition)
+CLOCKS: tuple[type[Learned], ...] = (OverTime, OverPhase)
+RICHER: tuple[type[Learned], ...] = (OverPlane, OverPositionAndPhase, OverHistory)
+"""Tried where curves over one thing do not suffice."""
+
+
+def curves_for(model: Model, *, driven: bool) -> tuple[Learned, ...]:
+    """Return every curve that can be learned in a model: of the motion at each place, of time and drive at the first.
+
+    `driven` says that all recordings have a drive with one frequency.
+    """
+    moving: tuple[type[Learned], ...] = (*KINDS, OverPlane, OverHistory)
+    timed: tuple[type[Learned], ...] = (*CLOCKS, OverPositionAndPhase)
+    own = [kind(at=place.name) for place in model.interfaces for kind in moving]
+    clocks = [kind for kind in timed if driven or "omega" not in kind.needs]
+    return (*own, *(kind(at=model.interfaces[0].name) for kind in clocks))
