@@ -137,6 +137,7 @@ def test_a_slip_of_the_code_is_no_failed_machine(tmp_path):
         Campaign(broken, 3, {}).run(tmp_path, 1)
 
 
+@pytest.mark.slow
 def test_trials_whose_process_is_killed_are_lost_and_no_others(tmp_path):
     """What ran beside them is made again, and they are tried once more by themselves."""
     told = []
@@ -146,6 +147,7 @@ def test_trials_whose_process_is_killed_are_lost_and_no_others(tmp_path):
     assert told == list(range(8))
 
 
+@pytest.mark.slow
 def test_processes_are_renewed_so_that_memory_does_not_grow(tmp_path, monkeypatch):
     monkeypatch.setattr("lostmotion.workflow.campaign.RENEWED", 2)
     made = Campaign(whoami, 9, {}).run(tmp_path, 2)

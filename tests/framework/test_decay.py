@@ -139,6 +139,7 @@ def test_two_modes_are_told_apart(other, loud):
     assert np.median(second.decrement) == pytest.approx(decrement(0.004), rel=0.05)
 
 
+@pytest.mark.slow
 def test_white_noise_steady_sines_and_beats_are_no_decays():
     rng = np.random.default_rng(5)
     assert not [k for k in range(200) if decay_of(rng.normal(size=1000), DT) is not None]

@@ -52,6 +52,7 @@ def test_a_memory_is_measured_and_a_louder_stretch_is_none():
     assert 5 <= memory_of(squares(rng, 6000, 0.9), windows) <= 40
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("memory", [0.0, 0.8])
 def test_chance_is_seldom_taken_for_a_disagreement(memory):
     """At 5 % over all windows, 200 recordings: at most the 99.9 % point of the binomial, 21. Seeded.
@@ -126,6 +127,7 @@ def test_the_level_that_disagrees_most_is_named_and_a_trend_is_told():
     assert by_recording(recordings, {"before": alike}, 3, "translation", rng)["says"] == ""
 
 
+@pytest.mark.slow
 def test_recordings_that_agree_alike_are_seldom_told_apart():
     """Four recordings, 200 times at 5 %: at most the 99.9 % point of the binomial, 21, for each of both tests."""
     rng, wrong, tends = np.random.default_rng(7), 0, 0

@@ -64,6 +64,7 @@ def test_identify_finds_the_damping_of_both_together(place, known):
     assert (place / "posterior" / "report.html").exists()
 
 
+@pytest.mark.slow
 def test_a_map_of_it(place, known):
     table = lostmotion.map(
         "guest_cart", place / "map.nc", axes="c=0.6:0.8:2", sets=("m=1", "k=50"), drive="harmonic:amplitude=1,omega=5",

@@ -46,6 +46,7 @@ def study(tmp_path):
     sys.modules.pop("far_guests")
 
 
+@pytest.mark.slow
 def test_a_far_process_computes_cells_of_a_plugin_file(study, tmp_path):
     texts = {name: text for name, text in sources().items() if name == "far_guests"}
     (tmp_path / "packed").write_bytes(pickle.dumps((texts, pickle.dumps(study), np.array([[0]]))))

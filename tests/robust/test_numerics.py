@@ -168,6 +168,7 @@ class Filter:
         return seen.variances[0, :, 0], kept[1], kept[2][-1, :2], kept[3][-1, :2, :2]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("c", "share", "pace", "noise"),
     [(0.0, math.exp(0.5 * LEAST) * USUAL, 0.0, 1e-9), (8.0, 0.3, 0.0, 1e-9), (0.2, 0.3, 5.0, 1e-5)],

@@ -12,6 +12,7 @@ from lostmotion.inference.setup import problem_of, search, split
 from lostmotion.inference.unexplained import Curves
 from lostmotion.likelihood.system import System
 from lostmotion.registry import Registry
+from lostmotion.workflow.diagnose import run_diagnosis
 from lostmotion.workflow.prepare import prepare
 
 VALUES = {"m": 1.2, "c": 2.0, "k": 300.0}
@@ -34,8 +35,8 @@ def over_one_thing(x, v, z):
     return 1.5 * np.tanh(x / 0.02)
 
 
-def learned(folder, law, seed=0):
-    """Return what is learned where a force is hidden, the library being empty."""
+def hidden_case(folder, law, seed=0):
+    """Return the case of a machine in which a force is hidden."""
     force = multisine(10.0, 0.5, 5.0, seed)
 
     def rates(t, y):
@@ -48,9 +49,12 @@ def learned(folder, law, seed=0):
         "response": {"column": "x", "quantity": "position", "unit": "m"},
     }
     model = model_of("linear_oscillator", VALUES, ("c", "k"))
-    prepared = prepare(
-        case_of(folder, {"t": T, "F": force(T), "x": noisy(x, 0.003, seed)}, recording, model), Registry.discover()
-    )
+    return case_of(folder, {"t": T, "F": force(T), "x": noisy(x, 0.003, seed)}, recording, model)
+
+
+def learned(folder, law, seed=0):
+    """Return what is learned where a force is hidden, the library being empty."""
+    prepared = prepare(hidden_case(folder, law, seed), Registry.discover())
     train, _ = split(prepared.observations)
     system = System(prepared.model)
     nominal = search(problem_of(system, prepared.case, train, jobs=1), np.random.default_rng(seed))
@@ -61,6 +65,7 @@ def depends(found):
     return [name for term in found.terms for name in term.depends]
 
 
+@pytest.mark.slow
 def test_a_force_over_position_and_velocity_is_learned_as_a_map(tmp_path):
     found = learned(tmp_path, twisted)
     assert depends(found) == ["position", "velocity"]
@@ -83,3 +88,14 @@ def test_a_spring_behind_a_dashpot_is_a_force_that_depends_on_the_history(tmp_pa
 @pytest.mark.parametrize("seed", [0, 1])
 def test_a_force_over_one_thing_stays_a_curve(tmp_path, seed):
     assert depends(learned(tmp_path, over_one_thing, seed)) == ["position"]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("law", "names"), [(twisted, ["position", "velocity"]), (yielding, ["history"])])
+def test_beside_the_whole_library_it_stays_unknown_and_is_predicted(tmp_path, law, names):
+    content = run_diagnosis(hidden_case(tmp_path, law), tmp_path / "out", Registry.discover(), jobs=1, propose=False)
+    (found,) = [entry for entry in content["found"] if entry["mechanism"] != "random_force"]
+    assert found["mechanism"] == "unknown"
+    assert found["depends_on"] == names
+    assert content["fit"]["after"]["heldout_nrmse"] < 0.15 * content["fit"]["before"]["heldout_nrmse"]
+    assert np.shape(found["curve"]["force"]) == ((41, 31) if len(names) == 2 else (161,))

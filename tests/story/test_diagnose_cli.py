@@ -128,6 +128,7 @@ def test_everything_is_written(hidden):
     assert 'src="http' not in page
 
 
+@pytest.mark.slow
 def test_one_core_or_two_the_same_bytes(hidden):
     folder, _ = hidden
     done = diagnose(folder / "case.toml", "--out", folder / "again", "--seed", 4, "--jobs", 1)

@@ -17,7 +17,7 @@ from lostmotion.contracts import Array, Interface, place_of
 from lostmotion.inference.fit import Fit, Sensitivity, maximise, restarted, robust_covariance, solved
 from lostmotion.inference.learned import Learned, spread
 from lostmotion.inference.natural import term_of
-from lostmotion.inference.surfaces import OverHistory, Surface, curves_for
+from lostmotion.inference.surfaces import RICHER, OverHistory, Surface, curves_for
 from lostmotion.likelihood.problem import Free, Problem
 from lostmotion.likelihood.system import System, key_of
 
@@ -29,7 +29,9 @@ CHOICES = math.log(len(SIZES) * len(LENGTHS))
 """The log price of a smoothness that was chosen."""
 ROUNDS = 6
 """A curve is nearly linear in its coefficients and begins at a score estimate: a few rounds of scoring settle it."""
-EDGE = 0.02
+EDGE, BEYOND = 0.02, 0.15
+"""How far beyond what was visited a curve goes, over its range: a richer one farther, for a motion leaves a plane, or
+the range of a hidden state, sooner."""
 GRID = (41, 31)
 """Places along both axes at which a surface is told."""
 TIMES = (0.3, 1.0, 3.0, 10.0)
@@ -121,7 +123,8 @@ def _range(fit: Fit, curve: Learned, over: str, moved: Motions, time: float) -> 
         values = [motion[int(over == "velocity")] for motion in seen]
     ends = [_ends(value) for value in values]
     low, high = min(e[0] for e in ends), max(e[1] for e in ends)
-    return low - EDGE * (high - low), high + EDGE * (high - low)
+    margin = (BEYOND if isinstance(curve, RICHER) else EDGE) * (high - low)
+    return low - margin, high + margin
 
 
 def _ends(moved: Array) -> tuple[float, float]:
