@@ -31,6 +31,11 @@ _DOORS = {
 _ROOMS = ("registry", "testing")
 
 
+def __dir__() -> list[str]:
+    """Return the front doors and the rooms beside what has been imported, for completion in a shell."""
+    return sorted({*globals(), *__all__, *_ROOMS})
+
+
 def __getattr__(name: str) -> Any:
     """Return a front door, or the module that holds plugins or the one that checks them, imported now."""
     if name in _ROOMS:

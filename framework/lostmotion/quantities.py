@@ -100,7 +100,7 @@ def _power(symbol: str, power: float) -> str:
 FORCE = Dimension(1, 0, 0)
 LENGTH = Dimension(0, 1, 0)
 TIME = Dimension(0, 0, 1)
-SPEED = Dimension(0, 1, -1)
+SPEED = VELOCITY = Dimension(0, 1, -1)
 INERTIA = Dimension(1, -1, 2)
 DAMPING = Dimension(1, -1, 1)
 STIFFNESS = Dimension(1, -1, 0)

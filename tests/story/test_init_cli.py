@@ -1,9 +1,12 @@
 """`lostmotion init` as a newcomer uses it: a table, a case, and every refusal with what to do."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from click.testing import CliRunner
 
+import lostmotion
 from lostmotion.case import load_case
 from lostmotion.cli import main
 
@@ -62,3 +65,31 @@ def test_what_cannot_be_done_is_told_with_what_to_do(place, options, says):
     code, output = said("my run.csv", *options)
     assert code == 2
     assert says in output
+
+
+def test_a_recording_is_diagnosed_without_a_case_where_its_columns_are_clear(place, monkeypatch):
+    """The case is written as `init` does, into the folder of the results, which has a usual name."""
+    asked = []
+
+    def run_diagnosis(case, out, registry, **options):
+        asked.append((case, out))
+        return {"says": ["Nothing is missing."]}
+
+    monkeypatch.setattr("lostmotion.workflow.diagnose.run_diagnosis", run_diagnosis)
+    result = CliRunner().invoke(main, ["diagnose", "my run.csv", "--model", "duffing", "--quiet"])
+    assert result.exit_code == 0, result.output
+    assert asked == [(Path("lostmotion-diagnose/case.toml"), Path("lostmotion-diagnose"))]
+    case = load_case(place / "lostmotion-diagnose" / "case.toml")
+    assert (case.model, case.recordings[0].time_unit) == ("duffing", "ms")
+
+
+def test_a_model_goes_with_a_recording_and_not_with_a_case(place):
+    assert said("my run.csv")[0] == 0
+    result = CliRunner().invoke(main, ["diagnose", "case.toml", "--model", "duffing"])
+    assert result.exit_code == 2
+    assert "--model goes with a recording" in result.output
+
+
+def test_the_front_doors_are_listed():
+    """For completion in a shell: before anything was used."""
+    assert {"analyse", "diagnose", "identify", "map", "simulate", "registry"} <= set(dir(lostmotion))

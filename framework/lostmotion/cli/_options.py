@@ -10,11 +10,18 @@ import click
 
 Command = Callable[..., Any]
 
+
+def usual_folder() -> Path:
+    """Return the folder in which the results of the running command go where nobody says: `lostmotion-diagnose`."""
+    return Path(f"lostmotion-{click.get_current_context().info_name}")
+
+
 _CASE = click.argument("case", metavar="CASE.toml", type=click.Path(path_type=Path))
 _COMMON = (
     click.option(
         "--out",
-        required=True,
+        default=usual_folder,
+        show_default="lostmotion-COMMAND",
         metavar="DIR",
         type=click.Path(file_okay=False, path_type=Path),
         help="Where the results go.",

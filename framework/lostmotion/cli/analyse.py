@@ -7,6 +7,7 @@ from pathlib import Path
 import click
 
 from lostmotion.cli._lazy import PluginName, examples, registry_of
+from lostmotion.cli._options import usual_folder
 from lostmotion.cli._progress import progress
 
 RATES = ("1/s", "bit/s", "1/period", "bit/period")
@@ -23,7 +24,8 @@ RATES = ("1/s", "bit/s", "1/period", "bit/period")
 @click.argument("recording", metavar="CASE.toml|RECORDING", type=click.Path(path_type=Path))
 @click.option(
     "--out",
-    required=True,
+    default=usual_folder,
+    show_default="lostmotion-analyse",
     metavar="DIR",
     type=click.Path(file_okay=False, path_type=Path),
     help="Where the results go.",

@@ -7,7 +7,7 @@ from typing import Any
 
 import click
 
-from lostmotion.cli._lazy import examples, plain, registry_of
+from lostmotion.cli._lazy import PluginName, examples, plain, registry_of
 from lostmotion.cli._options import on_a_trial
 from lostmotion.cli._progress import counted, progress
 
@@ -17,16 +17,21 @@ from lostmotion.cli._progress import counted, progress
         "lostmotion diagnose case.toml --out result",
         "lostmotion --plugin my_terms.py diagnose case.toml --out result --seed 1",
         "lostmotion diagnose pump.toml crane.toml --out results --jobs 2",
+        "lostmotion diagnose run1.csv --model lin_backlash     a case is written first, as `init` does",
     )
 )
 @click.argument("cases", metavar="CASE.toml...", nargs=-1, required=True, type=click.Path(path_type=Path))
+@click.option("--model", type=PluginName("model"), default="", help="The model, where a recording is given.")
 @on_a_trial
 @click.pass_context
-def command(ctx: click.Context, /, cases: tuple[Path, ...], out: Path, **given: Any) -> None:
+def command(ctx: click.Context, /, cases: tuple[Path, ...], out: Path, model: str, **given: Any) -> None:
     """Locate the mismatch, say which physics was left out, model it, show that the fit improves.
 
     Writes diagnosis.json, arrays.nc and report.html into DIR. The last 30 % of the recording (or of several
     recordings) is seen by no fit. Exit status 0 when a diagnosis was reached, 2 for a case that cannot be used.
+
+    In place of one case there may be a recording whose columns are clear: then DIR/case.toml is written first, with
+    what `lostmotion init` guesses. Check it: wide priors and a usual model stand there.
 
     Of several cases each has a folder in DIR under the name of its file, with those of the folders above in front
     where names clash, and DIR/summary.csv has a line for each. --jobs of them are diagnosed at a time, each on one
@@ -37,7 +42,24 @@ def command(ctx: click.Context, /, cases: tuple[Path, ...], out: Path, **given: 
     if len(cases) > 1:
         _many(ctx, cases, out, **given)
     else:
-        _one(ctx, cases[0], out, **given)
+        _one(ctx, _begun(ctx, cases[0], out, model), out, **given)
+
+
+def _begun(ctx: click.Context, case: Path, out: Path, model: str) -> Path:
+    """Return a case; where a recording was given, one that is written for it into the folder of the results."""
+    from lostmotion.recording import ENDINGS
+    from lostmotion.recording.outline import Wishes
+    from lostmotion.workflow.beginning import begun
+
+    if case.suffix[1:].lower() not in ENDINGS:
+        if model:
+            raise click.UsageError(f"--model goes with a recording: {case.name} is a case, and has its [model]")
+        return case
+    out.mkdir(parents=True, exist_ok=True)
+    draft = begun(case, out / "case.toml", Wishes(None, None, None, None, {}), registry_of(ctx), model, {})
+    for line in (*draft.found, *(f"look at this: {note}" for note in draft.notes)):
+        click.echo(plain(line), err=True)
+    return out / "case.toml"
 
 
 def _one(ctx: click.Context, case: Path, out: Path, *, quiet: bool, seed: int, jobs: int) -> None:

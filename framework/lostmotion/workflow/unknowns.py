@@ -17,10 +17,12 @@ from lostmotion.inference.locate import listed
 from lostmotion.inference.natural import term_of
 from lostmotion.inference.odds import p_values
 from lostmotion.inference.proposal import Axis, proposed
+from lostmotion.inference.selection import DECISIVE
 from lostmotion.inference.shares import LEVEL, SURROGATES
 from lostmotion.inference.surfaces import OverHistory, Surface
 from lostmotion.inference.unexplained import Unknown
 from lostmotion.quantities import LENGTH, NUMBER, SPEED, TIME, Dimension
+from lostmotion.report.words import spoken
 from lostmotion.results import Interval
 from lostmotion.stages.diagnose import Diagnosis, Located
 
@@ -58,7 +60,7 @@ def learned_entry(d: Diagnosis) -> dict[str, Any]:
     share = rms / d.after.problem.scales.force
     size_of = f"{rms:.3g} {unit} rms, {share:.2%} of {d.yardstick}"
     alike, looks = _looks(d)
-    text = f"A force of {size_of}, is missing that no term of the library explains"
+    text = f"A force of {size_of}, is missing {_why_unnamed(d, unknown)}"
     return {
         "mechanism": "unknown",
         "at": unknown.terms[0].at,
@@ -75,6 +77,18 @@ def learned_entry(d: Diagnosis) -> dict[str, Any]:
     }
 
 
+def _why_unnamed(d: Diagnosis, unknown: Unknown) -> str:
+    """Return why a learned force has no name: none explains it, or a smooth force explains as much as the best one."""
+    selection = d.selection
+    as_good = [key for key in selection.unbeaten if selection.gain(key) > unknown.gain - DECISIVE]
+    if not as_good:
+        return "that no term of the library explains"
+    term, _ = term_of(d.before.problem, max(as_good, key=selection.gain))
+    place = f" at {term.at}" if len(d.before.problem.system.model.interfaces) > 1 else ""
+    name = spoken(term.name) + place
+    return f"that has no certain name, since {name} explains it and a smooth force explains as much"
+
+
 def _looks(d: Diagnosis) -> tuple[dict[str, Any], str]:
     """Return what a learned force looks like along the recorded motion: as an entry, and in words; or nothing."""
     if d.learned is None or d.left is None:
@@ -86,7 +100,7 @@ def _looks(d: Diagnosis) -> tuple[dict[str, Any], str]:
         return {}, ""
     terms = [term_of(problem, key)[0] for key in found.keys]
     several = len(problem.system.model.interfaces) > 1
-    names = [term.name.replace("_", " ") + (f" at {term.at}" if several else "") for term in terms]
+    names = [spoken(term.name) + (f" at {term.at}" if several else "") for term in terms]
     entry = {"looks_like": [{"mechanism": t.name, "at": t.at} for t in terms], "share_of_likeness": found.share}
     return entry, f", looks like {' and '.join(names)} ({found.share:.0%} of its variance)"
 
