@@ -54,6 +54,7 @@ def drawn(hidden, said, shares, path):
         axes.set_yticks(range(len(hidden)), [h.replace("_", " ") for h in hidden], fontsize=7)
         axes.set_xticks(np.arange(len(said)) - 0.5, minor=True)
         axes.set_yticks(np.arange(len(hidden)) - 0.5, minor=True)
+        axes.grid(visible=False, which="major")
         axes.grid(which="minor", color="#dddddd", linewidth=0.4)
         axes.tick_params(which="both", length=0)
         axes.set_xlabel("said")
