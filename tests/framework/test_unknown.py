@@ -1,6 +1,7 @@
 """Unknown is an answer: curves that are learned, their kernels, their smoothness, and the formula that is proposed."""
 
 import re
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -9,8 +10,11 @@ from lostmotion.inference.curves import _told_apart
 from lostmotion.inference.learned import OverPhase, OverPosition, names_of, spread
 from lostmotion.inference.proposal import Axis, proposed
 from lostmotion.inference.surfaces import KINDS, OverHistory, Surface, curves_for
+from lostmotion.likelihood.system import System
 from lostmotion.quantities import DAMPING, FORCE, LENGTH, SPEED
 from lostmotion.registry import default
+from lostmotion.workflow import unknowns
+from lostmotion_plugins.terms.friction import CoulombFriction
 
 X = Axis("x", LENGTH, FORCE, "translation")
 INPUT = np.zeros(1)
@@ -147,3 +151,18 @@ def test_what_free_parameters_cover_promises_nothing():
     gradient, information = _told_apart(np.array([1.0, 6.0]), left, own)
     assert gradient == pytest.approx([0.0, 6.0], abs=1e-9)
     assert information == pytest.approx(np.diag([0.0, 3.0]), abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("gain", "says"),
+    [
+        (60.0, "that has no certain name, since Coulomb friction explains it and a smooth force explains as much"),
+        (20.0, "that no term of the library explains"),
+    ],
+)
+def test_an_unknown_says_where_a_law_explains_it_as_well(gain, says):
+    """No report says that no term explains a force, and ranks one above the curve."""
+    system = System(default().make("model", "linear_oscillator"), (CoulombFriction(),))
+    selection = SimpleNamespace(unbeaten={"coulomb_friction"}, gain=lambda key: gain)
+    d = SimpleNamespace(selection=selection, before=SimpleNamespace(problem=SimpleNamespace(system=system)))
+    assert unknowns._why_unnamed(d, SimpleNamespace(gain=58.0)).lower() == says.lower()
