@@ -177,6 +177,7 @@ def test_what_cannot_be_is_refused():
         decay_of(viscous(TIME), 0.0)
 
 
+@pytest.mark.slow
 @pytest.mark.real
 def test_a_bolted_beam_rings_lower_and_dies_faster_in_large_motion(shared):
     place = shared / "data" / "brake_reuss_beam" / "HammerImpact.mat"

@@ -75,6 +75,7 @@ def test_a_motion_that_runs_away_says_so():
         assert "runs away" in estimate.says
 
 
+@pytest.mark.slow
 def test_a_force_that_jumps_in_position_says_so():
     values = {"m": 1.0, "c": 2.0, "k0": 4e3, "x0": 0.02, "mgl": 3.0, "contact_damping@base.coefficient": 5.0}
     flow = flow_of(RobotJoint() + ContactDamping("base"), values, drive=(0.05, 9.7))
@@ -101,6 +102,7 @@ class VanDerPol(LinearOscillator):
         dydt[1] = p[0] * (1.0 - y[0] * y[0]) * y[1] - y[0]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("period", [1.0, 6.6632868593231301, 20.0])
 def test_a_limit_cycle_has_the_dimension_one(period):
     """Looks that keep step with the cycle (6.6633 s) or not; the other exponent is -1.0594 (by Floquet, scipy)."""

@@ -55,6 +55,7 @@ def test_every_mechanism_can_be_hidden(name, tmp_path):
     assert set(case["model"]["known"]) | set(case["model"]["estimate"]) == set(sealed(tmp_path)["machine"]["values"])
 
 
+@pytest.mark.slow
 def test_every_unknown_is_somebodys(tmp_path):
     found = set()
     for number in range(16):

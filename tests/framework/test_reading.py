@@ -19,6 +19,7 @@ def test_what_is_read_of_a_truth_is_corrected_to_that_truth(name):
     assert found.sd == pytest.approx(np.hypot(scale * 0.1, share * 2.4), rel=0.1)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("model", "beat", "kind"),
     [("lin_backlash", Harmonic(0.5, 0.2), "d2"), ("robot_joint", Harmonic(12.5, 0.2), "d2 of a moved base")],

@@ -56,6 +56,7 @@ def test_a_cubic_spring_bends_the_backbone(cubic, kind, noise):
     assert trend.frequency.value == pytest.approx(5.0 * 0.375 * cubic, rel=0.12)
 
 
+@pytest.mark.slow
 def test_a_linear_oscillator_raises_an_alarm_in_one_of_a_hundred_noisy_records_at_most():
     rng, alarms = np.random.default_rng(7), 0
     for _ in range(100):

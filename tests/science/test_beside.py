@@ -66,7 +66,7 @@ FAULTS = {
 }
 
 
-@pytest.mark.parametrize("fault", FAULTS)
+@pytest.mark.parametrize("fault", ["delay", pytest.param("gain", marks=pytest.mark.slow)])
 def test_a_fault_of_the_drive_is_named_and_measured(fault):
     """Each is named alone; the size lies within four standard deviations of the truth. Seeded."""
     key, parameter, truth, response = FAULTS[fault]
@@ -75,6 +75,7 @@ def test_a_fault_of_the_drive_is_named_and_measured(fault):
     assert abs(chosen.values[f"{key}.{parameter}"] - truth) < 4.0 * chosen.sd[f"{key}.{parameter}"]
 
 
+@pytest.mark.slow
 def test_a_gain_of_one_per_cent_stays_open():
     """Mass and stiffness are known within 1 %, and both of them wrong by as much do the same."""
     course = course_of(moved(gain=1.01), seed=3)

@@ -78,6 +78,7 @@ def test_play_of_a_spring_is_found_from_afar(tmp_path):
     assert course.chosen.values["backlash.gap"] == pytest.approx(gap, rel=0.02)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("share", "names"), [(0.8, {"coulomb_friction", "offset_force"}), (0.4, {"directional_friction"})]
 )

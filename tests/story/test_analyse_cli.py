@@ -81,6 +81,7 @@ def test_the_arrays_have_units(done):
         assert {"density", "section", "embedding_e1", "d2_slope", "surrogate_values"} <= set(stored.variables)
 
 
+@pytest.mark.slow
 def test_the_same_seed_gives_the_same_bytes_on_one_core_and_on_two(folder, done, tmp_path):
     again = run(folder / "case.toml", "--out", tmp_path, "--draws", 19, "--quiet", "--jobs", 1)
     assert again.exit_code == 0
