@@ -31,15 +31,12 @@ def _rewritten(fit: Fit, key: str, candidates: Collection[str]) -> Problem | Non
     values = fit.values
     if not all(slot.key in values for slot in slots):
         return None
-    terms = {key_of(t): t for t in fit.problem.system.terms if t.at == term.at}
-    stands = {
-        name: next((k for k, t in terms.items() if t.name == name), "")
-        for name in term.commoner({slot.param.name: values[slot.key] for slot in slots})
-    }
-    if not stands or not set(stands.values()) <= set(candidates) - fit.problem.active:
+    commoner = term.commoner({slot.param.name: values[slot.key] for slot in slots})
+    keys = {t.name: key_of(t) for t in fit.problem.system.terms if t.at == term.at and t.name in commoner}
+    if not commoner or len(keys) < len(commoner) or not set(keys.values()) <= set(candidates) - fit.problem.active:
         return None
     since, problem = onset(fit.problem, key), restarted(fit).reduced(key, values)
-    for name, own in term.commoner({slot.param.name: values[slot.key] for slot in slots}).items():
-        start = {f"{stands[name]}.{param}": value for param, value in own.items()}
-        problem = joined(problem, stands[name], {**start, since_of(stands[name]): since})
+    for name, own in commoner.items():
+        start = {f"{keys[name]}.{param}": value for param, value in own.items()}
+        problem = joined(problem, keys[name], {**start, since_of(keys[name]): since})
     return problem

@@ -245,7 +245,7 @@ def with_curve(problem: Problem, key: str, widths: Array, start: Array) -> Probl
 
 def fit_curve(fit: Fit, shape: Shape) -> Fit:
     """Return the fit with one more curve, begun where its score test points, or with less of it, and fitted again."""
-    base = restarted(fit).knowing(shape.known) if shape.known else restarted(fit)
+    base = restarted(fit).knowing(shape.known)
     problems = [with_curve(base, shape.key, shape.widths, f * shape.start) for f in (1.0, 0.5, 0.2)]
     heights = [p.log_posterior(p.clip(p.start)) for p in problems]
     return maximise(problems[int(np.argmax(heights))], rounds=ROUNDS, tolerance=0.3)

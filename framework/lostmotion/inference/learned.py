@@ -27,7 +27,7 @@ POSITION, VELOCITY, TIME_PASSED, PHASE = range(4)
 ONE, AGAINST_MOTION, DRAG = range(3)
 
 
-def _params(count: int, dimension: Dimension, over: Dimension) -> tuple[Param, ...]:
+def params_of(count: int, dimension: Dimension, over: Dimension) -> tuple[Param, ...]:
     """Return the parameters of a curve: its coefficients, then the middle and the half width of what was visited."""
     weights = tuple(Param(f"v{i}", "coefficient of a learned curve", dimension, null=0.0) for i in range(count))
     middle = Param("middle", "middle of the range of a learned curve", over)
@@ -137,7 +137,7 @@ class OverPosition(Learned):
     count: ClassVar[int] = FINE
     over: ClassVar[str] = "position"
     depends: ClassVar[tuple[str, ...]] = ("position",)
-    params = _params(FINE, FORCE, LENGTH)
+    params = params_of(FINE, FORCE, LENGTH)
 
 
 @dataclass(frozen=True)
@@ -149,7 +149,7 @@ class OverVelocity(Learned):
     formula: ClassVar[str] = "f(v)"
     over: ClassVar[str] = "velocity"
     depends: ClassVar[tuple[str, ...]] = ("velocity",)
-    params = _params(COARSE, FORCE, SPEED)
+    params = params_of(COARSE, FORCE, SPEED)
 
 
 @dataclass(frozen=True)
@@ -162,7 +162,7 @@ class FrictionOverPosition(Learned):
     over: ClassVar[str] = "position"
     depends: ClassVar[tuple[str, ...]] = ("position", "sign of velocity")
     times: ClassVar[str] = "-sign(v)"
-    params = _params(COARSE, FORCE, LENGTH)
+    params = params_of(COARSE, FORCE, LENGTH)
     needs = ("mobility",)
 
 
@@ -176,7 +176,7 @@ class DragOverPosition(Learned):
     over: ClassVar[str] = "position"
     depends: ClassVar[tuple[str, ...]] = ("position", "velocity")
     times: ClassVar[str] = "-v"
-    params = _params(COARSE, DAMPING, LENGTH)
+    params = params_of(COARSE, DAMPING, LENGTH)
 
 
 @dataclass(frozen=True)
@@ -188,7 +188,7 @@ class OverTime(Learned):
     formula: ClassVar[str] = "f(t)"
     over: ClassVar[str] = "time"
     depends: ClassVar[tuple[str, ...]] = ("time",)
-    params = _params(COARSE, FORCE, TIME)
+    params = params_of(COARSE, FORCE, TIME)
 
 
 @dataclass(frozen=True)
@@ -201,7 +201,7 @@ class OverPhase(Learned):
     count: ClassVar[int] = 2 * HARMONICS
     over: ClassVar[str] = "phase"
     depends: ClassVar[tuple[str, ...]] = ("phase",)
-    params = _params(2 * HARMONICS, FORCE, TIME)
+    params = params_of(2 * HARMONICS, FORCE, TIME)
     needs = ("omega",)
 
     @classmethod
@@ -223,11 +223,6 @@ class OverPhase(Learned):
 def _turned(count: int) -> Array:
     """Return phases (count,) that make every other sine a cosine."""
     return np.asarray(np.tile([0.5 * math.pi, 0.0], count // 2), dtype=float)
-
-
-def power_of(count: int, over: Dimension) -> tuple[Param, ...]:
-    """Return the parameters of a curve of a force: coefficients, middle and half width of the range."""
-    return _params(count, FORCE, over)
 
 
 def spread(term: Learned | type[Learned], length: float) -> Array:

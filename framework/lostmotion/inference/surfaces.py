@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
+from scipy.signal import lfilter
 
 from lostmotion.contracts import Array, Model, Param, Values
 from lostmotion.inference.learned import (
@@ -25,20 +26,25 @@ from lostmotion.inference.learned import (
     OverTime,
     OverVelocity,
     looked_up,
-    power_of,
+    params_of,
     spread_of,
 )
-from lostmotion.quantities import LENGTH, SPEED, TIME, Dimension
+from lostmotion.quantities import FORCE, LENGTH, SPEED, TIME, Dimension
 
 WIDE, DEEP = 8, 6
 """Functions along the first and along the second thing on which a force depends."""
+
+
+def angle(at: float, middle: float, half: float) -> float:
+    """Return the angle (rad) of the first sine at a place, which stays within the range of a surface."""
+    return 0.5 * math.pi / WIDER * (min(max((at - middle) / half, -1.0), 1.0) + WIDER)
 
 
 def _surface(second: Dimension) -> tuple[Param, ...]:
     """Return the parameters of a surface: those of a curve over position, and the range of what is second."""
     middle = Param("middle2", "middle of the second range of a learned surface", second)
     half = Param("half2", "half width of the second range of a learned surface", second, low=0.0, scale="log")
-    return (*power_of(WIDE * DEEP, LENGTH), middle, half)
+    return (*params_of(WIDE * DEEP, FORCE, LENGTH), middle, half)
 
 
 @dataclass(frozen=True)
@@ -57,12 +63,6 @@ class Surface(Learned):
         both = (0.5 * math.pi / WIDER * np.arange(1, n + 1) for n in (WIDE, DEEP))
         first, second = (np.asarray(waves, dtype=float) for waves in both)
         return first, second
-
-    @classmethod
-    def waves(cls) -> Array:
-        """Return the larger of both frequencies (count,) of each function."""
-        first, second = cls.lines()
-        return np.asarray(np.maximum.outer(first, second).ravel())
 
     @classmethod
     def spread(cls, length: float) -> Array:
@@ -99,9 +99,7 @@ class OverPlane(Surface):
     def force(self, t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:  # type: ignore[override]
         """Return the surface; the sines come one from another: sin kz = 2 cos z sin (k-1)z - sin (k-2)z."""
         n = self.wide * self.deep
-        turn = 0.5 * math.pi / 1.25
-        one = turn * (min(max((x - p[n]) / p[n + 1], -1.0), 1.0) + 1.25)
-        two = turn * (min(max((v - p[n + 2]) / p[n + 3], -1.0), 1.0) + 1.25)
+        one, two = angle(x, p[n], p[n + 1]), angle(v, p[n + 2], p[n + 3])
         begin, twice, also = math.sin(two), 2.0 * math.cos(one), 2.0 * math.cos(two)
         here, last, total = math.sin(one), 0.0, 0.0
         for i in range(self.wide):
@@ -139,7 +137,7 @@ class OverPositionAndPhase(Surface):
     def force(self, t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:  # type: ignore[override]
         """Return the surface; `p` ends with the frequency of the drive."""
         n = self.wide * self.deep
-        one = 0.5 * math.pi / 1.25 * (min(max((x - p[n]) / p[n + 1], -1.0), 1.0) + 1.25)
+        one = angle(x, p[n], p[n + 1])
         cosine, sine = math.cos(p[n + 4] * t), math.sin(p[n + 4] * t)
         here, last, total, twice = math.sin(one), 0.0, 0.0, 2.0 * math.cos(one)
         for i in range(self.wide):
@@ -165,7 +163,7 @@ class OverHistory(Learned):
     depends: ClassVar[tuple[str, ...]] = ("history",)
     states = ("stretch",)
     params = (
-        *power_of(COARSE, LENGTH),
+        *params_of(COARSE, FORCE, LENGTH),
         Param("time", "time in which a learned force forgets", TIME, low=0.0, scale="log"),
     )
 
@@ -182,10 +180,9 @@ class OverHistory(Learned):
     @staticmethod
     def followed(velocity: Array, dt: float, time: float) -> Array:
         """Return the state (samples,) along a motion of this velocity (samples,), sampled every `dt` s."""
-        state, kept = np.zeros(len(velocity)), math.exp(-dt / time)
-        for k in range(1, len(velocity)):
-            state[k] = kept * state[k - 1] + time * (1.0 - kept) * 0.5 * (velocity[k] + velocity[k - 1])
-        return state
+        kept = math.exp(-dt / time)
+        pushed = time * (1.0 - kept) * 0.5 * (velocity[1:] + velocity[:-1])
+        return np.asarray(lfilter([1.0], [1.0, -kept], np.concatenate([[0.0], pushed])))
 
 
 KINDS: tuple[type[Learned], ...] = (OverPosition, OverVelocity, FrictionOverPosition, DragOverPosition)

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cache, lru_cache
 from typing import Any
 
 import numba
@@ -44,7 +44,6 @@ class Functions:
 
     derive: Any
     observe: Any
-    compiled: bool
     held: tuple[Any, ...] = ()
 
 
@@ -216,7 +215,7 @@ def _address(made: Any) -> int:
     return int(made.library.get_pointer_to_function(made.fndesc.llvm_func_name))
 
 
-@lru_cache(maxsize=1024)
+@cache  # wires hold addresses alone: what stands there has to stay
 def law_kernel(law: Law, inputs: int) -> tuple[int, Any]:
     """Return where the compiled kernel of a law stands in memory, and what keeps it there."""
     numbers = {"fields": law.fields} if law.fields else {}
@@ -234,7 +233,7 @@ def _plain_law(law: Law, inputs: int) -> Callable[..., Any]:
 def functions(plan: Blueprint) -> Functions:
     """Return the compiled functions of a model for many points at once; they serve whatever laws it may have."""
     made = _compiled(model_text(plan), _model_parts(plan), {}, _KERNEL)
-    return Functions(_address(made["derive"]), _address(made["observe"]), True, tuple(made.values()))
+    return Functions(_address(made["derive"]), _address(made["observe"]), tuple(made.values()))
 
 
 @lru_cache(maxsize=64)
@@ -248,4 +247,4 @@ def plain_functions(plan: Blueprint) -> Functions:
 
     given = {**_model_parts(plan), **plain.SPACE, "invoked": invoked, "kernel": plain.jit, "part": plain.jit}
     space = defined(model_text(plan), "<slow twin>", given)
-    return Functions(told(space["derive"]), told(space["observe"]), False)
+    return Functions(told(space["derive"]), told(space["observe"]))

@@ -238,21 +238,22 @@ def simpler(d: Diagnosis, rng: np.random.Generator) -> Diagnosis | None:
     else:
         gone = d.found[-1]
         selection = _shrunk(selection, gone)
-    fit = learned.fit if learned else selection.chosen
-    after = polish(fit) if fit.problem.active else d.before
-    if learned:
-        learned = replace(learned, fit=after)
-    bare = replace(d, after=after, selection=selection, learned=learned, left=None, law=_NO, laws={}, law_curves={})
-    told = replace(bare, random_gain=significant_random_force(after), withdrawn=(*d.withdrawn, gone))
-    return _located(told, rng)
+    return _anew(replace(d, selection=selection, learned=learned), (gone,), rng)
 
 
 def instead(d: Diagnosis, fit: Fit, rng: np.random.Generator) -> Diagnosis:
     """Return the diagnosis with another set of terms that was visited, given by its fit, in place of the chosen one."""
     gone = tuple(key for key in d.named if key not in fit.problem.active)
+    return _anew(replace(d, selection=replace(d.selection, chosen=fit)), gone, rng)
+
+
+def _anew(d: Diagnosis, gone: tuple[str, ...], rng: np.random.Generator) -> Diagnosis:
+    """Return a diagnosis of which the selection or the learned curves changed, fitted and located anew."""
+    fit = d.learned.fit if d.learned else d.selection.chosen
     after = polish(fit) if fit.problem.active else d.before
-    bare = replace(d, after=after, selection=replace(d.selection, chosen=fit), left=None, law=_NO, laws={})
-    told = replace(bare, law_curves={}, random_gain=significant_random_force(after), withdrawn=(*d.withdrawn, *gone))
+    learned = replace(d.learned, fit=after) if d.learned else None
+    bare = replace(d, after=after, learned=learned, left=None, law=_NO, laws={}, law_curves={})
+    told = replace(bare, random_gain=significant_random_force(after), withdrawn=(*d.withdrawn, *gone))
     return _located(told, rng)
 
 

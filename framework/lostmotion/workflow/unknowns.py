@@ -47,12 +47,7 @@ def learned_entry(d: Diagnosis) -> dict[str, Any]:
     if unknown is None:
         raise ValueError("a diagnosis without learned curves has no entry for them")
     bands = [band_of(unknown.fit, key) for key in unknown.keys]
-    known = unknown.fit.problem
-    times = [
-        float(known.known[known.system.index[f"{key}.time"]]) if isinstance(term, OverHistory) else None
-        for key, term in zip(unknown.keys, unknown.terms, strict=True)
-    ]
-    curves = [_curve(d, band, time) for band, time in zip(bands, times, strict=True)]
+    curves = [_curve(d, key, band) for key, band in zip(unknown.keys, bands, strict=True)]
     rms, sd = _size(d, unknown.keys, bands)
     unit = _unit_of(d, Dimension(1, 0, 0))
     size = Interval(rms, max(rms - BAND * sd, 0.0), rms + BAND * sd, unit)
@@ -141,7 +136,7 @@ def _doubt(band: Band) -> float:
     return math.sqrt(max(float(direction @ band.covariance @ direction), 0.0)) / norm
 
 
-def _curve(d: Diagnosis, band: Band, forgets: float | None) -> dict[str, Any]:
+def _curve(d: Diagnosis, key: str, band: Band) -> dict[str, Any]:
     """Return a learned curve with its band of 95 %, as lists in SI units; a surface as lists of lists.
 
     One with a memory tells in which time (s) it forgets.
@@ -163,7 +158,10 @@ def _curve(d: Diagnosis, band: Band, forgets: float | None) -> dict[str, Any]:
         unit = _unit_of(d, OVER[term.beside][1])
         entry |= {"over_too": term.beside, "unit_too": unit, "at_too": band.beside.tolist()}
         entry["visited"] = _visited(d, band, term).tolist()
-    return entry if forgets is None else {**entry, "forgets_in": forgets}
+    if isinstance(term, OverHistory):
+        problem = d.after.problem
+        entry["forgets_in"] = float(problem.known[problem.system.index[f"{key}.time"]])
+    return entry
 
 
 def _visited(d: Diagnosis, band: Band, term: Surface) -> Array:
