@@ -72,7 +72,7 @@ def findings(d):
         "probability": {k: course.inclusion(k) for k in d.after.problem.system.keys},
         "nothing": course.probabilities().get(frozenset(), 0.0),
         "gains": gains,
-        "hints": {k: h.gain for k, h in course.hints.items()},
+        "hints": {h.key: h.gain for h in sorted(course.hints, key=lambda h: h.gain)},
         "evidence": {"+".join(sorted(k)): v.weight for k, v in course.visits.items()},
         "status": {"+".join(sorted(k)): f"{v.fit.status} {v.fit.rounds}" for k, v in course.visits.items()},
         "declined": sorted(course.declined),

@@ -55,6 +55,11 @@ class Hint:
     start: Mapping[str, float]
     distinct: float
 
+    @property
+    def late(self) -> bool:
+        """Whether the term acts from an onset on, and not from the beginning."""
+        return since_of(self.key) in self.start
+
 
 def slopes_of(fit: Fit) -> Sensitivity:
     """Return the sensitivities of a fit, which all its score tests share."""
@@ -66,6 +71,11 @@ def screen(fit: Fit, slopes: Sensitivity, key: str, more: Sequence[Mapping[str, 
 
     `more` are shapes to be tried beyond the usual.
     """
+    return max(screened(fit, slopes, key, more), key=lambda h: h.gain)
+
+
+def screened(fit: Fit, slopes: Sensitivity, key: str, more: Sequence[Mapping[str, float]] = ()) -> list[Hint]:
+    """Return what a term promises that acts from the beginning, and what one with an onset does if that is more."""
     problem = fit.problem
     amplitudes, shapes = sorted_slots(problem, key)
     grids = [tried_of(s.param, problem.scales) for s in shapes]
@@ -77,7 +87,8 @@ def screen(fit: Fit, slopes: Sensitivity, key: str, more: Sequence[Mapping[str, 
         hints.append(_afar(fit, amplitudes[0], key, hints[0].distinct))
     if len(amplitudes) == 1 and amplitudes[0].param.scan:
         hints += _stretched(fit, slopes, key, amplitudes[0])
-    return max(hints, key=lambda h: h.gain)
+    ever = [h for h in hints if not h.late]
+    return [max(kind, key=lambda h: h.gain) for kind in (ever, [h for h in hints if h.late]) if kind]
 
 
 def _late(fit: Fit, key: str, amplitudes: Sequence[Slot], always: Hint, joint: Sensitivity) -> Hint:
@@ -202,7 +213,8 @@ def _scored(fit: Fit, slopes: Sensitivity, key: str, shapes: Sequence[Mapping[st
     hints = [_hint(fit, key, amplitudes, shape, joint) for shape, joint in zip(shapes, joints, strict=True)]
     if can_be_late(fit.problem, key):
         best = max(range(len(hints)), key=lambda i: hints[i].gain)
-        hints.append(_late(fit, key, amplitudes, hints[best], joints[best]))
+        late = _late(fit, key, amplitudes, hints[best], joints[best])
+        hints += [late] if late.late else []
     return hints
 
 

@@ -122,7 +122,7 @@ class Selection:
     nominal: Fit
     chosen: Fit
     visits: dict[frozenset[str], Visit] = field(default_factory=dict)
-    hints: dict[str, Hint] = field(default_factory=dict)
+    hints: tuple[Hint, ...] = ()
     declined: set[str] = field(default_factory=set)
     rivals: dict[frozenset[str], tuple[Fit, Expansion]] = field(default_factory=dict)
     unbeaten: set[str] = field(default_factory=set)
@@ -311,4 +311,4 @@ class Selection:
         alone = self.visits.get(frozenset({key}))
         if alone:
             return alone.fit.log_evidence - self.nominal.log_evidence
-        return self.hints[key].gain - 5.0 if key in self.hints else 0.0
+        return max((hint.gain - 5.0 for hint in self.hints if hint.key == key), default=0.0)

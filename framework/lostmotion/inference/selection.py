@@ -15,6 +15,7 @@ from lostmotion.inference.candidates import (
     fit_with,
     large,
     screen,
+    screened,
     slopes_of,
     with_term,
 )
@@ -31,7 +32,8 @@ from lostmotion.likelihood.problem import RANDOM
 
 PROMISING = 3.0
 """A term is fitted when its score test promises at least this gain in log-likelihood."""
-MOST_FITTED = 6
+MOST_FITTED, MOST_LATE = 6, 2
+"""Terms fitted that act from the beginning, and that begin later: where a motion changes, many promise much then."""
 MOST_TERMS = 5
 CONTESTED = 4
 """So many of the heaviest sets are held against the discrepancy in each round: each costs a hundred filter runs."""
@@ -96,9 +98,10 @@ class Selector:
         """
         new, chosen = set(fresh), course.chosen.problem.active
         kept = {terms: visit for terms, visit in course.visits.items() if terms <= chosen or not terms & new}
-        self.course = replace(course, visits=kept, hints={})
+        self.course = replace(course, visits=kept, hints=())
         self._additions(course.nominal)
-        self.course.hints = {**course.hints, **self.course.hints}
+        again = {hint.key for hint in self.course.hints}
+        self.course.hints += tuple(hint for hint in course.hints if hint.key not in again)
         return self.run()
 
     def _begun(self, fits: Iterable[Fit]) -> None:
@@ -282,7 +285,7 @@ class Selector:
         Those on top of the nominal fit are kept, and made once.
         """
         if self.course.hints and not fit.problem.active:
-            return [h for h in self.course.hints.values() if not self._tried(fit, h.key)]
+            return [h for h in self.course.hints if not self._tried(fit, h.key)]
         slopes, single = slopes_of(fit), alone(fit)
         hints: list[Hint] = []
         untried = [k for k in self.candidates if not self._tried(fit, k)]
@@ -293,17 +296,20 @@ class Selector:
                 keys = [key for key in keys if any(self._related(fit, key, other) for other in promising)]
             if keys:
                 self.say(f"score tests of {', '.join(keys)}")
-            hints += each(lambda key: screen(single, slopes, key, self.shapes.get(key, ())), keys, self.jobs)
+            found = each(lambda key: screened(single, slopes, key, self.shapes.get(key, ())), keys, self.jobs)
+            hints += [hint for of_key in found for hint in of_key]
         if not fit.problem.active:
-            self.course.hints = {h.key: h for h in hints}
+            self.course.hints = tuple(hints)
         return hints
 
     def _additions(self, fit: Fit) -> None:
         """Fit the terms whose score tests promise most on top of a fit, those first that promise most."""
         hints, single = self._screened(fit), alone(fit)
         good = sorted((h for h in hints if h.gain > PROMISING and h.distinct > SAME), key=lambda h: -h.gain)
-        for size in sorted({len(h.start) for h in good[:MOST_FITTED]}):
-            group = [h for h in good[:MOST_FITTED] if len(h.start) == size]
+        late = [h for h in good if h.late][:MOST_LATE]
+        good = [h for h in good if not h.late][:MOST_FITTED] + late
+        for size in sorted({len(h.start) for h in good}):
+            group = [h for h in good if len(h.start) == size]
             self.say(f"fits with {', '.join(h.key for h in group)}")
             self._visit_all(each(partial(self._fitted, single, self._hopeless()), group, self.jobs))
         self._large(fit)
@@ -312,7 +318,7 @@ class Selector:
         """Return whether a term is in a fit already, itself or as a relative, or was tried on top of it."""
         active = fit.problem.active
         known = active | {key} in self.course.visits or active | {key} in self._retold
-        return key in active or self._kin(fit, key) or known
+        return key in active or any(self._related(fit, mine, key) for mine in active) or known
 
     def _visit_all(self, fits: Iterable[Fit]) -> None:
         """Note fits that were made on one core each."""
@@ -388,9 +394,6 @@ class Selector:
     def _rich(fit: Fit, key: str) -> bool:
         """Return whether a term has so many parameters that it is tried only where a simpler relative promises much."""
         return len(term_of(fit.problem, key)[1]) >= RICH
-
-    def _kin(self, fit: Fit, key: str) -> bool:
-        return any(self._related(fit, mine, key) for mine in fit.problem.active)
 
     @staticmethod
     def _related(fit: Fit, mine: str, other: str) -> bool:

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
 from lostmotion.contracts import Array, Param, Term, Values
 from lostmotion.quantities import FORCE, SPEED
+
+NOTHING = 0.01
+"""A part of a friction force below this share of it is told as nothing."""
 
 
 @dataclass(frozen=True)
@@ -49,6 +53,11 @@ class StribeckFriction(Term):
     )
     needs = ("mobility",)
     resembles = ("coulomb_friction", "lugre_friction", "dahl_friction")
+
+    def commoner(self, values: Mapping[str, float]) -> Mapping[str, Mapping[str, float]]:
+        """Return friction of one level where the excess is next to nothing."""
+        level = values["force"]
+        return {"coulomb_friction": {"force": level}} if values["excess"] < NOTHING * level else {}
 
     @staticmethod
     def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:

@@ -9,6 +9,7 @@ from typing import ClassVar
 
 from lostmotion.contracts import Array, Model, Param, Term, Values
 from lostmotion.quantities import FORCE, NUMBER, TIME
+from lostmotion_plugins.terms.friction import NOTHING
 
 OFFSET = 0.25
 """Levels that differ by less than this share of their sum are told as one level and an offset of the drive or of the
@@ -102,6 +103,11 @@ class FrictionDrift(Term):
     )  # fmt: skip
     needs = ("mobility",)
     resembles = ("coulomb_friction",)
+
+    def commoner(self, values: Mapping[str, float]) -> Mapping[str, Mapping[str, float]]:
+        """Return friction of one level where the change is next to nothing."""
+        level = values["force"]
+        return {"coulomb_friction": {"force": level}} if abs(values["change"]) < NOTHING * level else {}
 
     @staticmethod
     def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
