@@ -30,13 +30,14 @@ ANGULAR = {
 }
 ROTATES = dict.fromkeys(SI.values(), "translation") | dict.fromkeys(ANGULAR.values(), "rotation")
 """What motion a unit of a channel or an input belongs to."""
-_NAMED: dict[tuple[str, float, float, float], str] = {
-    ("translation", 1, -1, 2): "kg",
-    ("rotation", 1, -1, 2): "kg m^2",
-    ("translation", 0, 0, 0): "1",
-    ("rotation", 0, 0, 0): "1",
-    ("translation", 0, 0, -1): "Hz",
-    ("rotation", 0, 0, -1): "Hz",
+_NAMED: dict[tuple[str, float, float, float, float], str] = {
+    ("translation", 1, -1, 2, 0): "kg",
+    ("rotation", 1, -1, 2, 0): "kg m^2",
+    ("rotation", 1, 0, 2, -2): "kg",
+    ("translation", 0, 0, 0, 0): "1",
+    ("rotation", 0, 0, 0, 0): "1",
+    ("translation", 0, 0, -1, 0): "Hz",
+    ("rotation", 0, 0, -1, 0): "Hz",
 }
 
 
@@ -54,15 +55,23 @@ QUANTITIES = ("position", "velocity", "acceleration", "force")
 def quantity_of(name: str) -> str:
     """Return what a channel or an input is, by the last part of its name: "second_position" is a position.
 
-    Parts are divided by `_` or `.`, and a torque is the force of a rotation. Any other name raises `DataError`.
+    Parts are divided by `_` or `.`, and a torque is the force of a rotation. A plain name such as "x2" is that of a
+    coordinate, which is a position; one that resembles a quantity raises `DataError`.
     """
     last = re.split(r"[_.]", name)[-1]
-    if (quantity := "force" if last == "torque" else last) in QUANTITIES:
-        return quantity
+    if names_quantity(name):
+        return "force" if last == "torque" else last
+    if last.isidentifier() and not nearest(last, QUANTITIES):
+        return "position"
     raise DataError(
         f"{name!r} ends in none of {', '.join(QUANTITIES)}{nearest(last, QUANTITIES)}: name it so, for instance"
         " 'second_position'"
     )
+
+
+def names_quantity(name: str) -> bool:
+    """Return whether the last part of a name is a quantity."""
+    return re.split(r"[_.]", name)[-1] in (*QUANTITIES, "torque")
 
 
 def unit_of(name: str, motion: str) -> str:
@@ -71,18 +80,22 @@ def unit_of(name: str, motion: str) -> str:
 
 
 class Dimension(NamedTuple):
-    """Powers of generalised force, length and time: `Dimension(1, -1, 1)` is a damping coefficient."""
+    """Powers of generalised force, length and time: `Dimension(1, -1, 1)` is a damping coefficient.
+
+    In rotation, force is torque and length is angle; `metre` counts the length of a lever beside them.
+    """
 
     force: float = 0
     length: float = 0
     time: float = 0
+    metre: float = 0
 
     def unit(self, motion: str) -> str:
         """Return the SI unit, for instance `N s/m` in translation and `N m s/rad` in rotation."""
         named = _NAMED.get((motion, *self))
         if named:
             return named
-        symbols = ("N", "m", "s") if motion == "translation" else ("N m", "rad", "s")
+        symbols = ("N", "m", "s", "m") if motion == "translation" else ("N m", "rad", "s", "m")
         powers = list(zip(symbols, self, strict=True))
         above = [_power(s, n) for s, n in powers if n > 0] or ["1"]
         below = [_power(s, -n) for s, n in powers if n < 0]
@@ -119,6 +132,28 @@ def _registry() -> Any:
     import pint
 
     return pint.UnitRegistry()
+
+
+def unit_powers(unit: str, motion: str) -> tuple[float, float, float, float]:
+    """Return the powers of force, length, time and metre of a unit that is made of SI units without a factor.
+
+    In rotation no power of an angle is told, since a radian is a number. `DataError` for any other unit.
+    """
+    if len(unit) > LONGEST or len(_POWER.findall(unit)) < len(_RAISED.findall(unit)):
+        raise DataError(f"{unit[:LONGEST]!r} is no unit: write for instance 'N/m'")
+    try:
+        base = _registry().Quantity(1.0, _NEWTON_METRE.sub(r"\1 m", unit)).to_base_units()
+    except Exception as err:  # pint fails in every way there is
+        raise DataError(f"{unit!r} is not known as a unit: write for instance 'N/m'") from err
+    powers = {name.strip("[]"): float(power) for name, power in base.dimensionality.items()}
+    if strange := set(powers) - {"mass", "length", "time"}:
+        raise DataError(f"{unit!r} is a unit of {sorted(strange)[0]}: wanted one of mechanics, for instance 'N/m'")
+    if abs(float(base.magnitude) - 1.0) > 1e-9:
+        raise DataError(f"{unit!r} is {base.magnitude:g} times the SI unit: numbers of a case are in SI, write 'N/m'")
+    force, time = powers.get("mass", 0.0), powers.get("time", 0.0) + 2.0 * powers.get("mass", 0.0)
+    if motion == "translation":
+        return force, powers.get("length", 0.0) - force, time, 0.0
+    return force, 0.0, time, powers.get("length", 0.0) - 2.0 * force
 
 
 def si_factor(unit: str, quantity: str) -> tuple[float, str]:

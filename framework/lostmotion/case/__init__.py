@@ -14,6 +14,15 @@ case may hold:
   largest amplitude (SI unit of the excitation; a signal of another form has the rms of such a sine), and
   `max_frequency` (Hz). Twice those of the recording when nothing is said.
 
+In place of `name`, `[model]` may hold the machine itself: `equations`, one for each body, such as `"m*x'' + c*x' + k*x
+= force"`. A prime is d/dt; names that are neither a coordinate, an input nor a known function are parameters, and so
+are all in `known` and `estimate`. Each equation has the second derivative of one coordinate, times one parameter.
+Functions are `gap(x, k, x0)`, `stop(x, k, x0)` (one side), `sat(x, limit)`, `sign`, `abs`, `min`, `max`, `sqrt`, `exp`,
+`log` and those of trigonometry. Dimensions are checked; `units = { m = "kg" }` (SI) tells those that the equations
+leave open. Each coordinate is a channel (`x`, `x.velocity`, `x.acceleration`; the first is `position`, `velocity`,
+`acceleration` too) and a place for terms (`ground` for the first, else its name), as is each pair of coordinates that
+appears as a difference (`x1-x2`).
+
 `motion` is "translation" or "rotation". Where it is not given the units of the recordings tell; where it is, units
 that say otherwise are refused, as are lengths and angles in one case.
 
@@ -61,12 +70,12 @@ and with `each = true` each recording has a value of its own, where otherwise al
 
 from lostmotion.case.channels import check_alike
 from lostmotion.case.levels import Level, Measured
-from lostmotion.case.load import Case, Experiment, Sensor, load_case
+from lostmotion.case.load import WRITTEN, Case, Experiment, Sensor, load_case
 from lostmotion.case.prior import Prior
 from lostmotion.case.write import dump_case
 from lostmotion.recording import Channel, RecordingSpec
 
 __all__ = [
-    "Case", "Channel", "Experiment", "Level", "Measured", "Prior", "RecordingSpec", "Sensor", "check_alike",
+    "WRITTEN", "Case", "Channel", "Experiment", "Level", "Measured", "Prior", "RecordingSpec", "Sensor", "check_alike",
     "dump_case", "load_case",
 ]  # fmt: skip

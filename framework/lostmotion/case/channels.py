@@ -9,7 +9,7 @@ from typing import cast
 
 from lostmotion.case.fields import Fields
 from lostmotion.errors import CaseError, DataError
-from lostmotion.quantities import quantity_of, si_factor
+from lostmotion.quantities import names_quantity, quantity_of, si_factor
 from lostmotion.recording.spec import EXCITATIONS, KINDS, RESPONSES, Channel, Kind
 
 CHANNEL = ("column", "quantity", "unit", "factor")
@@ -73,6 +73,8 @@ def _of(name: str) -> str:
 def _quantity(table: Fields, key: str) -> str:
     try:
         found = quantity_of(table.text(key))
+        if key == "input" and not names_quantity(table.text(key)):
+            raise DataError(f"{table.values[key]!r} ends in none of {', '.join(EXCITATIONS)}")
     except DataError as err:
         raise table.error(f"has a wrong {key}: {err}") from err
     return "base_position" if table.values[key] == "base_position" else found

@@ -5,7 +5,7 @@ from __future__ import annotations
 import tomllib
 from collections import Counter
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Literal, cast, get_args
 
@@ -13,6 +13,7 @@ from lostmotion.case.channels import inputs_of, sensors_of
 from lostmotion.case.fields import Fields
 from lostmotion.case.levels import Level, levels_of
 from lostmotion.case.prior import Prior, Scale
+from lostmotion.equations import equations_of
 from lostmotion.errors import CaseError
 from lostmotion.provenance import digest
 from lostmotion.recording import Hold, RecordingSpec
@@ -22,8 +23,10 @@ RECORDING = (
     "file", "time", "rate", "start", "excitation", "response", "inputs", "sensors", "hold", "t_start", "t_end", "name",
 )  # fmt: skip
 TIME = ("column", "unit")
-MODEL = ("name", "motion", "known", "estimate")
+MODEL = ("name", "equations", "units", "motion", "known", "estimate")
 SENSOR = ("noise", "offset")
+WRITTEN = "equations"
+"""The name of a model that is written down."""
 EXPERIMENT = ("max_level", "max_frequency")
 PRIOR = ("low", "high", "scale", "mean", "sd", "median", "sd_log", "half_sd")
 FORMS = ({"low", "high"}, {"mean", "sd"}, {"median", "sd_log"}, {"half_sd"})
@@ -63,7 +66,8 @@ class Case:
 
     `folder` is where the case file lies: the files of `recordings` and `plugins` are relative to it. `truth` holds
     true values for the report alone. `digest` is the SHA-256 of the case file. A case may be without recordings or
-    without levels: whoever needs them says so.
+    without levels: whoever needs them says so. A model that is written down has `equations` and, where they leave
+    these open, `units` of its parameters.
     """
 
     title: str
@@ -79,6 +83,8 @@ class Case:
     levels: tuple[Level, ...] = ()
     experiment: Experiment = Experiment()
     motion: Motion | None = None
+    equations: tuple[str, ...] = ()
+    units: Mapping[str, str] = field(default_factory=dict)
 
 
 def load_case(path: Path) -> Case:
@@ -87,21 +93,56 @@ def load_case(path: Path) -> Case:
     top = Fields(path.name, "the case", _parse(path)).only(TOP)
     model = top.table("model").only(MODEL)
     known = model.maybe_table("known").numbers()
+    motion = cast(Motion, model.choice("motion", get_args(Motion))) if "motion" in model.values else None
+    name, equations = _model(model)
+    units = {key: model.table("units").text(key) for key in model.maybe_table("units").values}
+    estimate = _estimate(model, known)
+    coordinate = ""
+    if equations:
+        named = {key for key in (*known, *estimate) if "." not in key}
+        try:
+            coordinate = equations_of(equations, units=units, motion=motion, params=named).coordinates[0]
+        except CaseError as err:
+            raise model.error(f"cannot be used: {err}") from err
     return Case(
         title=top.maybe_text("title") or path.stem,
         folder=path.parent,
-        recordings=_recordings(top),
-        model=model.text("name"),
+        recordings=tuple(_aliased(spec, coordinate) for spec in _recordings(top)),
+        model=name,
         known=known,
-        estimate=_estimate(model, known),
+        estimate=estimate,
         truth=top.maybe_table("truth").numbers(),
         plugins=_plugins(top, path.parent),
         digest=digest(path),
         sensor=_sensor(top),
         levels=levels_of(top),
         experiment=_experiment(top),
-        motion=cast(Motion, model.choice("motion", get_args(Motion))) if "motion" in model.values else None,
+        motion=motion,
+        equations=equations,
+        units=units,
     )
+
+
+def _model(model: Fields) -> tuple[str, tuple[str, ...]]:
+    """Return the name of a model, or that of one that is written down, with its equations."""
+    if ("name" in model.values) == ("equations" in model.values):
+        found = "both name and equations" if "name" in model.values else "neither name nor equations"
+        raise model.error(f"has {found}: give the name of a model, or equations = [\"m*x'' + c*x' + k*x = force\"]")
+    if "name" in model.values:
+        if "units" in model.values:
+            raise model.error("has units beside name: they go with equations")
+        return model.text("name"), ()
+    value = model.values["equations"]
+    equations = (model.text("equations"),) if isinstance(value, str) else model.texts("equations")
+    if not equations:
+        raise model.error("has equations = []: give one for each body")
+    return WRITTEN, equations
+
+
+def _aliased(spec: RecordingSpec, coordinate: str) -> RecordingSpec:
+    """Return a recording whose sensors of the first coordinate show `position`, `velocity` or `acceleration`."""
+    same = {coordinate: "position"} | {f"{coordinate}.{rate}": rate for rate in ("velocity", "acceleration")}
+    return replace(spec, sensors=tuple(replace(s, of=same.get(s.of, s.of)) for s in spec.sensors))
 
 
 def _parse(path: Path) -> dict[str, Any]:

@@ -9,6 +9,7 @@ import numpy as np
 
 from lostmotion.contracts import Array
 from lostmotion.inference.fit import Fit, Sensitivity, maximise, restarted
+from lostmotion.inference.standing import standing
 from lostmotion.likelihood.problem import Free, Problem
 from lostmotion.likelihood.system import ALWAYS, since_of
 from lostmotion.results import Interval
@@ -22,6 +23,9 @@ AROUND, GRID, DEPTH = 0.1, 96, 12.0
 those whose log-likelihood is this much lower at the most."""
 PRICE = math.log(TIMES)
 """The log price of an onset that was chosen."""
+
+RARE = math.log(100.0)
+"""The log odds against a machine that changes while it is recorded."""
 
 
 def can_be_late(problem: Problem, key: str) -> bool:
@@ -77,6 +81,21 @@ def refined(fit: Fit, key: str) -> Fit:
     held = restarted(fit).knowing({since_of(key): float(found.theta[-1])})
     late = maximise(held, found.theta[:-1])
     return late if late.local.log_posterior > fit.local.log_posterior else fit
+
+
+def believed(fit: Fit) -> Fit:
+    """Return a fit in which only those onsets are left that are believed; all other terms act from the beginning.
+
+    Few machines change while they are recorded; and where what is left over has a memory, a change wins more than
+    independent samples would let it, by the square of how much wider errors are than usual.
+    """
+    for key in sorted(fit.problem.active):
+        if onset(fit.problem, key) > ALWAYS and fit.status != "diverged":
+            ever = maximise(restarted(fit).knowing({since_of(key): ALWAYS}), fit.theta)
+            needed = (PRICE + RARE) * standing(fit)[1] ** 2
+            if ever.status != "diverged" and not fit.log_evidence - ever.log_evidence > needed:
+                fit = ever
+    return fit
 
 
 def since(fit: Fit, key: str) -> Interval | None:

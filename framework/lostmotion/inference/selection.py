@@ -22,7 +22,7 @@ from lostmotion.inference.candidates import (
 from lostmotion.inference.commoner import in_commoner_terms
 from lostmotion.inference.course import BEAM, CLOSE, Selection, Visit
 from lostmotion.inference.fit import Fit, alone, maximise, restarted, together, warmed
-from lostmotion.inference.late import price_of_onsets
+from lostmotion.inference.late import believed, price_of_onsets
 from lostmotion.inference.leftovers import quiet
 from lostmotion.inference.natural import term_of
 from lostmotion.inference.prices import price_of, related
@@ -159,7 +159,7 @@ class Selector:
 
     def _visit(self, fit: Fit) -> Visit:
         """Note a fitted set in the commonest terms that say it, weighted by evidence and the prices of its terms."""
-        told = in_commoner_terms(fit, self.candidates)
+        told = in_commoner_terms(fit := believed(fit), self.candidates)
         if told is not fit:
             self._retold.add(fit.problem.active)
             fit = told

@@ -9,6 +9,7 @@ import numpy as np
 
 from lostmotion.contracts import Array, SensorTerm
 from lostmotion.likelihood.observation import Observation, static_equilibrium
+from lostmotion.quantities import quantity_of
 
 if TYPE_CHECKING:
     from lostmotion.likelihood.problem import Problem
@@ -34,7 +35,7 @@ def initial(problem: Problem, fulls: Array, gain: Array, offset: Array, index: i
         return _by_force(problem, fulls, offset[:, 0], (mean, cov), index)
     for number, sensor in enumerate(observation.sensors):
         state = model.states.index(sensor.channel) if sensor.channel in model.states else -1
-        if "position" in sensor.channel and state >= 0 and not np.isnan(observation.first[number][0]):
+        if quantity_of(sensor.channel) == "position" and state >= 0 and not np.isnan(observation.first[number][0]):
             _at_reading(observation, number, (state, scales.length), (mean, cov), gain[:, number], offset[:, number])
     return mean, np.tile(cov, (len(fulls), 1, 1))
 
@@ -58,7 +59,7 @@ def _begin_terms(problem: Problem, begun: tuple[Array, Array], gain: Array, offs
 
 def placed(observation: Observation) -> bool:
     """Return whether a sensor tells where the body stands at the first sample."""
-    return any(sensor.channel == "force" or "position" in sensor.channel for sensor in observation.sensors)
+    return any(sensor.channel == "force" or quantity_of(sensor.channel) == "position" for sensor in observation.sensors)
 
 
 def _at_reading(

@@ -10,7 +10,7 @@ import numpy as np
 
 from lostmotion.contracts import Array, Interface, Model
 from lostmotion.errors import DataError
-from lostmotion.quantities import NUMBER, quantity_of
+from lostmotion.quantities import NUMBER, names_quantity, quantity_of
 from lostmotion.testing.probes import Point, blank, compiled, differ, of_model
 from lostmotion.testing.rules import listed, rule
 from lostmotion.testing.shared import repeated
@@ -68,7 +68,7 @@ def inputs_and_channels_are_named(model: Model) -> str:
         return "of base_position and base_velocity one is missing, or they do not stand one behind the other"
     if again := repeated(model.channels) + repeated(model.inputs):
         return f"{listed(again)} stands twice"
-    bad = [name for name in model.channels if not str(name).isidentifier()]
+    bad = [name for name in model.channels if not str(name).replace(".", "_").isidentifier()]
     return f"channel {bad[0]!r} is no identifier" if bad else ""
 
 
@@ -78,7 +78,8 @@ def channels_are_named_by_quantity(model: Model) -> str:
 
     What stands before it says of which body, as in "second_position": units and derivatives follow from the name.
     """
-    bad = [name for name in model.channels if _quantity(name) is None]
+    known = getattr(model, "coordinates", ())
+    bad = [name for name in model.channels if not (names_quantity(name) or name in known)]
     return f"channel {bad[0]!r} names no quantity" if bad else ""
 
 

@@ -70,5 +70,8 @@ def functions_are_static(component: Any) -> str:
 @rule("model", "term", declaration=True)
 def states_are_named(component: Any) -> str:
     """Name each state once, with a word that could be a variable: results and reports call the states so."""
-    again, bad = repeated(component.states), [s for s in component.states if not str(s).isidentifier()]
+    again, bad = (
+        repeated(component.states),
+        [s for s in component.states if not str(s).replace(".", "_").isidentifier()],
+    )
     return f"state {listed(again or bad)} is no name of its own" if again or bad else ""

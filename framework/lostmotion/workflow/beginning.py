@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from lostmotion.contracts import Array, Model
 from lostmotion.errors import CaseError
 from lostmotion.parts import Param
-from lostmotion.quantities import si_factor
+from lostmotion.quantities import LENGTH, si_factor
 from lostmotion.recording.checks import filled
 from lostmotion.recording.outline import Column, Outline, Wishes, outlined
 from lostmotion.registry import Registry
@@ -246,7 +246,7 @@ def _range(param: Param, scales: Scales, forced: bool) -> tuple[float, float, st
     if param.name in scales.straight:
         value = scales.straight[param.name]
         return value / WIDE, value * WIDE, f"about {_figures(value)} by the spectra"
-    if param.dimension == (0, 1, 0):
+    if param.dimension == LENGTH:
         return scales.length / 1e3, 3.0 * scales.length, "beside the size of the motion"
     force = scales.force if forced else scales.length / scales.time**2
     value = param.dimension.scale(force, scales.length, scales.time)

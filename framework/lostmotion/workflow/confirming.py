@@ -24,6 +24,7 @@ from lostmotion.workflow.findings import Outcome
 
 ASKED = 3
 """So many sets of each size are asked what they predict."""
+PART = 0.5
 
 
 def unconfirmed(outcome: Outcome, observations: Sequence[Observation]) -> dict[str, str]:
@@ -70,11 +71,16 @@ def predicted_better(outcome: Outcome, observations: Sequence[Observation]) -> F
 
 
 def _others(selection: Selection, here: Visit) -> list[Visit]:
-    """Return the sets of most weight of each size up to that of a chosen one, but for this one and the empty set."""
-    found = []
+    """Return the sets of most weight of each size up to that of a chosen one, but for this one and the empty set.
+
+    One that wins less than `PART` of what the chosen one wins on the fitted data does not explain these.
+    """
+    found, nothing = [], selection.visits[frozenset()].weight
+    least = nothing + PART * max(here.weight - nothing, 0.0)
     for size in range(1, len(here.terms) + 1):
         same = [v for v in selection.visits.values() if len(v.terms) == size and v.terms != here.terms]
         same = [v for v in same if v.fit.status != "diverged" and not v.terms & selection.declined]
+        same = [v for v in same if v.weight > least]
         found += sorted(same, key=lambda v: -v.weight)[:ASKED]
     return found
 

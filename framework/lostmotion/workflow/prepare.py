@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from lostmotion.case import Case, check_alike, load_case
+from lostmotion.case import WRITTEN, Case, check_alike, load_case
 from lostmotion.contracts import Model, Term
 from lostmotion.errors import CaseError, ContractError
 from lostmotion.likelihood.observation import Observation, observation_of
@@ -16,6 +16,7 @@ from lostmotion.recording.decimation import thinned
 from lostmotion.registry import Registry
 from lostmotion.stages.diagnose import candidates_of
 from lostmotion.workflow.vetting import sound, usable_terms
+from lostmotion.written import model_of
 
 
 @dataclass(frozen=True)
@@ -47,10 +48,13 @@ class Prepared:
 
 
 def case_of(path: Path, registry: Registry) -> Case:
-    """Return the case at `path`; the plugin files it names join the registry."""
+    """Return the case at `path`; the plugin files it names and the model that it writes down join the registry."""
     case = load_case(path)
     for plugin in case.plugins:
         registry.add_file(case.folder / plugin)
+    if case.equations:
+        named = {name for name in (*case.known, *case.estimate) if "." not in name}
+        registry.add(model_of(case.equations, units=case.units, motion=case.motion, params=named), WRITTEN)
     return case
 
 
