@@ -176,11 +176,11 @@ def recorded(machine: Machine, seed: int) -> tuple[Any, Array]:
 
 def case_of(machine: Machine) -> Any:
     """Return the case: what is known, and a decade for what is not."""
-    from lostmotion.case import Case, Prior
+    from lostmotion.case import CaseFile, Prior
 
     priors = {name: Prior(low=low, high=high, scale="log") for name, (low, high) in machine.priors.items()}
     known = {name: value for name, value in machine.values.items() if name not in priors}
-    return Case("study", Path(), (), machine.model, known, priors, {}, (), "")
+    return CaseFile("study", Path(), (), machine.model, known, priors, {}, (), "")
 
 
 def one(seed: int, number: int) -> dict[str, Any]:

@@ -20,7 +20,7 @@ import numba
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from lostmotion.case import Case, Prior
+from lostmotion.case import CaseFile, Prior
 from lostmotion.inference.candidates import fit_with, screen, slopes_of
 from lostmotion.inference.fit import maximise
 from lostmotion.inference.setup import problem_of, search
@@ -137,7 +137,7 @@ def fitted(machine, observation):
     """Return the fits with the true term and with the other one."""
     registry = Registry.discover()
     terms = tuple(registry.make("term", name) for name in (machine.truth, machine.other))
-    case = Case(machine.name, Path(), (), machine.model, machine.known, machine.estimate, {}, (), "")
+    case = CaseFile(machine.name, Path(), (), machine.model, machine.known, machine.estimate, {}, (), "")
     nominal = search(
         problem_of(System(registry.make("model", machine.model), terms), case, (observation,)), np.random.default_rng(0)
     )

@@ -28,7 +28,7 @@ import numpy as np
 from scipy.optimize import minimize
 from scipy.stats import t as student
 
-from lostmotion.case import Case, Prior
+from lostmotion.case import CaseFile, Prior
 from lostmotion.case.levels import Level, Measured
 from lostmotion.contracts import Array, Flow
 from lostmotion.flow import Harmonic, flow_of
@@ -192,11 +192,11 @@ def table2(folder: Path) -> None:
         levels.append(Level(f"{degrees:g} deg", math.radians(degrees), omega, motion, seen, None, "rad"))
     estimate = {"x0": Prior(low=math.radians(0.3), high=math.radians(1.5)), "zeta": Prior(low=0.01, high=0.12)}
     known = {"m": 1.0, "k0": (omega / RATIO) ** 2}
-    case = Case("Table 2", Path(), (), "robot_joint", known, estimate, {}, (), "none", levels=tuple(levels))
+    case = CaseFile("Table 2", Path(), (), "robot_joint", known, estimate, {}, (), "none", levels=tuple(levels))
     sampled(case, {"x0": math.radians(HALF), "zeta": 0.5 * DAMPING}, folder)
 
 
-def sampled(case: Case, truth: Mapping[str, float], folder: Path) -> None:
+def sampled(case: CaseFile, truth: Mapping[str, float], folder: Path) -> None:
     """Print the posterior of a case beside the truth, and what it expects at each level."""
     rng, begin = np.random.default_rng(0), time.perf_counter()
     task = quantifier_task(case, default(), folder, rng, say=progress)
@@ -217,10 +217,10 @@ def sampled(case: Case, truth: Mapping[str, float], folder: Path) -> None:
               f"chaos expected {one.chaotic_share:4.0%}  {expected}")  # fmt: skip
 
 
-def oscillator(estimate: Mapping[str, Prior]) -> Case:
+def oscillator(estimate: Mapping[str, Prior]) -> CaseFile:
     """Return a case of Lin's oscillator, Case 1 of the paper, whose stiffness and mass are known."""
     known = {"m": 1.0, "k0": 4e4, "k1": 0.0}
-    return Case("oscillator", Path(), (), "lin_backlash", known, dict(estimate), {}, (), "none")
+    return CaseFile("oscillator", Path(), (), "lin_backlash", known, dict(estimate), {}, (), "none")
 
 
 def decide(folder: Path) -> None:

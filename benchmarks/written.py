@@ -60,9 +60,7 @@ def main() -> None:
                 times[k].append(time.perf_counter() - begin)
         least = [min(own) for own in times]
         apart = float(np.abs(told[0] - told[1]).max() / np.abs(told[0]).max())
-        print(
-            f"{name}: {least[1] / least[0]:.3f} times the time ({least[0]:.3f} s), values differ by {apart:.0e}"
-        )
+        print(f"{name}: {least[1] / least[0]:.3f} times the time ({least[0]:.3f} s), values differ by {apart:.0e}")
 
 
 if __name__ == "__main__":

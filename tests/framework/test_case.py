@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from lostmotion.case import Case, Measured, Prior, Sensor, dump_case, load_case
+from lostmotion.case import CaseFile, Measured, Prior, Sensor, dump_case, load_case
 from lostmotion.errors import CaseError
 from lostmotion.registry import Registry
 from lostmotion.workflow.prepare import prepare
@@ -50,7 +50,7 @@ c = 8.0
 """
 
 
-def case(folder: Path, text: str = GOOD) -> Case:
+def case(folder: Path, text: str = GOOD) -> CaseFile:
     (folder / "mine.py").touch()
     (folder / "case.toml").write_text(text)
     return load_case(folder / "case.toml")

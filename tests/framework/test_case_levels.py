@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from lostmotion.case import Case, Measured, Prior, load_case
+from lostmotion.case import CaseFile, Measured, Prior, load_case
 from lostmotion.errors import CaseError
 
 LEVELS = """
@@ -56,7 +56,7 @@ WRONG_LEVELS = [
 ]
 
 
-def case(folder: Path, text: str) -> Case:
+def case(folder: Path, text: str) -> CaseFile:
     (folder / "case.toml").write_text(text)
     return load_case(folder / "case.toml")
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from lostmotion.case import Case, Prior
+from lostmotion.case import CaseFile, Prior
 from lostmotion.case.levels import Level, Measured
 from lostmotion.errors import CaseError, DataError
 from lostmotion.likelihood.space import Free
@@ -189,7 +189,7 @@ def test_a_map_without_dimensions_is_refused(tmp_path):
 def test_an_open_stiffness_adds_the_frequency_ratio_to_the_map(tmp_path):
     levels = (Level("a", 0.5, 0.2, "chaotic", unit="N"), Level("b", 0.4, 0.2, "periodic", unit="N"))
     estimate = {"x0": Prior(low=0.8, high=1.3), "c": Prior(low=0.03, high=0.06), "k0": Prior(median=1.0, sd_log=0.02)}
-    case = Case("open", Path(), (), "lin_backlash", {"m": 1.0}, estimate, {}, (), "none", levels=levels)
+    case = CaseFile("open", Path(), (), "lin_backlash", {"m": 1.0}, estimate, {}, (), "none", levels=levels)
     survey = Survey(alpha=16, zeta=4, ratios=3, periods=100, transient=60, starts=1)
     made = inversion_of(case, levels, default(), tmp_path, survey)
     assert made.atlases[0].names == ("alpha", "zeta", "frequency_ratio")
@@ -207,7 +207,7 @@ def test_an_open_stiffness_adds_the_frequency_ratio_to_the_map(tmp_path):
 def test_a_task_is_ready_to_be_sampled_and_changes_with_what_was_seen(tmp_path):
     levels = (Level("a", 0.5, 0.2, "chaotic", unit="N"), Level("b", 0.39, 0.2, "periodic", unit="N"))
     estimate = {"x0": Prior(low=0.8, high=1.3, scale="log"), "zeta": Prior(low=0.015, high=0.03)}
-    case = Case("task", Path(), (), "lin_backlash", {"m": 1.0, "k0": 1.0}, estimate, {}, (), "none", levels=levels)
+    case = CaseFile("task", Path(), (), "lin_backlash", {"m": 1.0, "k0": 1.0}, estimate, {}, (), "none", levels=levels)
     survey = Survey(alpha=16, zeta=4, periods=100, transient=60, starts=1)
     told = []
     task = quantifier_task(case, default(), tmp_path, np.random.default_rng(1), survey, say=lambda *x: told.append(x))
@@ -223,7 +223,7 @@ def test_a_task_is_ready_to_be_sampled_and_changes_with_what_was_seen(tmp_path):
 
 
 def test_a_case_without_levels_is_told_what_is_wanted(tmp_path):
-    case = Case("none", Path(), (), "lin_backlash", {}, {}, {}, (), "none")
+    case = CaseFile("none", Path(), (), "lin_backlash", {}, {}, {}, (), "none")
     with pytest.raises(CaseError, match=r"neither \[\[levels\]\] nor"):
         quantifier_task(case, default(), tmp_path, np.random.default_rng(1))
 
@@ -245,6 +245,6 @@ def test_a_case_without_levels_is_told_what_is_wanted(tmp_path):
 )
 def test_cases_that_cannot_be_inverted_are_refused_in_a_sentence(known, estimate, unit, says):
     levels = (Level("a", 0.5, 0.2, "chaotic", unit=unit),)
-    case = Case("bad", Path(), (), "lin_backlash", known, estimate, {}, (), "none", levels=levels)
+    case = CaseFile("bad", Path(), (), "lin_backlash", known, estimate, {}, (), "none", levels=levels)
     with pytest.raises(CaseError, match=says):
         wanted_of(case, levels, default())

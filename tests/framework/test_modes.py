@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from scipy.linalg import expm
 
-from lostmotion.case import Case, Prior, Sensor
+from lostmotion.case import CaseFile, Prior, Sensor
 from lostmotion.inference.modes import Tried, distinct, one_hill
 from lostmotion.inference.setup import WITHIN, modes, polished, problem_of, search
 from lostmotion.likelihood.observation import Observation
@@ -39,7 +39,7 @@ def ring(*, push: float, seed: int, samples: int) -> Observation:
 
 def problem_for(*observations: Observation):
     priors = {"c": Prior(0.1, 10.0, "log"), "k": Prior(500.0, 1e4, "log")}
-    case = Case("ring", Path(), (), "linear_oscillator", {"m": 1.0}, priors, {}, (), "")
+    case = CaseFile("ring", Path(), (), "linear_oscillator", {"m": 1.0}, priors, {}, (), "")
     return problem_of(System(default().make("model", "linear_oscillator"), ()), case, observations)
 
 
@@ -136,7 +136,7 @@ def test_a_low_narrow_hill_is_started_from_too() -> None:
 def test_a_rough_hill_is_one_mode() -> None:
     """The kink of a backlash makes the posterior rough; two seeds find the same single maximum. No chance."""
     priors = {"c": Prior(0.8, 80.0, "log"), "x0": Prior(5e-4, 5e-2, "log")}
-    case = Case("clatter", Path(), (), "lin_backlash", {"m": 1.0, "k0": 4e4, "k1": 0.0}, priors, {}, (), "")
+    case = CaseFile("clatter", Path(), (), "lin_backlash", {"m": 1.0, "k0": 4e4, "k1": 0.0}, priors, {}, (), "")
     problem = problem_of(System(default().make("model", "lin_backlash"), ()), case, (clatter(),))
     found = [modes(problem, np.random.default_rng(seed)) for seed in range(2)]
     assert [len(f) for f in found] == [1, 1]

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from scipy.linalg import expm
 
-from lostmotion.case import Case, Prior, Sensor
+from lostmotion.case import CaseFile, Prior, Sensor
 from lostmotion.contracts import Param
 from lostmotion.inference.setup import beginnings, free_of, problem_of, search, separated
 from lostmotion.likelihood.lanes import Lanes
@@ -48,9 +48,9 @@ def recorded(name: str, seed: int, *, samples: int = 3000, c: float = C, **how: 
     return Observation.of(name, seen, felt[:, None], DT, "position", held=True)
 
 
-def case_of(estimate: dict[str, Prior]) -> Case:
+def case_of(estimate: dict[str, Prior]) -> CaseFile:
     known = {k: v for k, v in {"m": M, "c": C, "k": K}.items() if k not in estimate}
-    return Case("study", Path(), (), "linear_oscillator", known, estimate, {}, (), "")
+    return CaseFile("study", Path(), (), "linear_oscillator", known, estimate, {}, (), "")
 
 
 def problem_for(*observations: Observation, **estimate: Prior) -> Problem:

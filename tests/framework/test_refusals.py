@@ -10,7 +10,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from lostmotion.case import Case, Prior
+from lostmotion.case import CaseFile, Prior
 from lostmotion.contracts import Param, Term
 from lostmotion.errors import CaseError, ContractError, DataError
 from lostmotion.inference.candidates import _hint
@@ -60,7 +60,7 @@ def oscillator(*terms):
 
 def case_of(known, estimate=None):
     """Return a case without recordings."""
-    return Case("study", Path(), (), "linear_oscillator", known, estimate or {}, {}, (), "")
+    return CaseFile("study", Path(), (), "linear_oscillator", known, estimate or {}, {}, (), "")
 
 
 @pytest.mark.parametrize(("name", "value"), [("m", -1.0), ("m", 0.0), ("c", -8.0), ("k", -1e4)])

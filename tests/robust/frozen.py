@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 
 import lostmotion
-from lostmotion.case import Case, Prior
+from lostmotion.case import CaseFile, Prior
 from lostmotion.inference.setup import problem_of
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.system import System
@@ -47,7 +47,7 @@ def likelihoods(force: np.ndarray, position: np.ndarray, jobs: int) -> list[floa
     system = System(default().make("model", "lin_backlash"), ())
     known = {"m": 1.0, "k0": 4e4, "k1": 0.0}
     estimate = {"c": Prior(0.8, 80.0, "log"), "x0": Prior(1e-3, 2e-2, "log")}
-    case = Case("study", Path(), (), "lin_backlash", known, estimate, {}, (), "")
+    case = CaseFile("study", Path(), (), "lin_backlash", known, estimate, {}, (), "")
     observation = Observation.of("seen", position, force[:, None], 1 / 640, "position")
     problem = problem_of(system, case, (observation,), jobs=jobs)
     start = problem.start

@@ -13,7 +13,7 @@ import numpy as np
 from field import elsewhere
 from truths import system_of
 
-from lostmotion.case import Case, Prior
+from lostmotion.case import CaseFile, Prior
 from lostmotion.likelihood.drive import Tone
 from lostmotion.likelihood.observation import Observation
 from lostmotion.stages.diagnose import diagnose
@@ -47,7 +47,7 @@ def case_of(model, values, unknown):
     """Return a case that knows `values` but for `unknown`: log-uniform priors of a decade about what is given there."""
     priors = {k: Prior(low=v / 3.3, high=v * 3.3, scale="log") for k, v in unknown.items()}
     known = {k: v for k, v in values.items() if k not in unknown}
-    return Case("study", Path(), (), model, known, priors, {}, (), "")
+    return CaseFile("study", Path(), (), model, known, priors, {}, (), "")
 
 
 def diagnosed(model, values, unknown, observation):

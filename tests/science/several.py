@@ -8,7 +8,7 @@ import numpy as np
 from scipy.linalg import expm
 from scipy.signal import lfilter
 
-from lostmotion.case import Case, Prior
+from lostmotion.case import CaseFile, Prior
 from lostmotion.inference.candidates import Hint, with_term
 from lostmotion.inference.fit import maximise, restarted
 from lostmotion.inference.setup import polish, problem_of
@@ -44,7 +44,7 @@ def recorded(name, seed, level=1.0, *, samples=600, c=C, k=K, memory=0.0, slip=S
 def fitted(observations, *terms):
     """Return the fit of an oscillator with damping and stiffness unknown, begun at the truth; `terms` may be tried."""
     system = System(default().make("model", "linear_oscillator"), terms)
-    case = Case("study", Path(), (), "linear_oscillator", {"m": M}, PRIORS, {}, (), "")
+    case = CaseFile("study", Path(), (), "linear_oscillator", {"m": M}, PRIORS, {}, (), "")
     problem = problem_of(system, case, tuple(observations), jobs=1)
     start = problem.start.copy()
     for i, key in enumerate(problem.keys):

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from lostmotion.case import Case, Prior
+from lostmotion.case import CaseFile, Prior
 from lostmotion.case.levels import Level, Measured
 from lostmotion.contracts import Orbit
 from lostmotion.flow import Harmonic, flow_of
@@ -104,7 +104,7 @@ def oscillator(**estimate):
     known = {"m": M, "k0": K0, "k1": 0.0}
     if "zeta" not in estimate:
         known["c"] = 8.0
-    return Case("oscillator", Path(), (), "lin_backlash", known, estimate, {}, (), "none")
+    return CaseFile("oscillator", Path(), (), "lin_backlash", known, estimate, {}, (), "none")
 
 
 def grid_of(inversion, counts):
@@ -185,7 +185,7 @@ def test_table_2_of_the_paper_holds_the_joint_that_was_searched_for(tmp_path):
     )  # fmt: skip
     estimate = {"x0": Prior(low=math.radians(0.3), high=math.radians(1.5)), "zeta": Prior(low=0.01, high=0.12)}
     known = {"m": 1.0, "k0": (omega / RATIO) ** 2}
-    case = Case("table 2", Path(), (), "robot_joint", known, estimate, {}, (), "none", levels=levels)
+    case = CaseFile("table 2", Path(), (), "robot_joint", known, estimate, {}, (), "none", levels=levels)
     inversion = inversion_of(case, levels, REGISTRY, tmp_path, Survey(alpha=80, zeta=10, **QUICK))
     points, weights = grid_of(inversion, (400, 60))
     for column, value in ((0, math.radians(HALF)), (1, 0.5 * DAMPING)):

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 from independent import Machine, recording
 
-from lostmotion.case import Case, Prior
+from lostmotion.case import CaseFile, Prior
 from lostmotion.inference.setup import noise_frees, problem_of
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.system import System
@@ -29,7 +29,7 @@ def case_of(unknown):
     """Return a case with log-uniform priors over two decades for what is unknown."""
     known = {k: v for k, v in TRUE.items() if k not in unknown}
     priors = {k: Prior(low=PRIORS[k][0], high=PRIORS[k][1], scale="log") for k in unknown}
-    return Case("study", Path(), (), "lin_backlash", known, priors, {}, (), "")
+    return CaseFile("study", Path(), (), "lin_backlash", known, priors, {}, (), "")
 
 
 def system_of(name="lin_backlash"):

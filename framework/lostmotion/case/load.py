@@ -61,7 +61,7 @@ class Experiment:
 
 
 @dataclass(frozen=True)
-class Case:
+class CaseFile:
     """What was recorded, what is believed and what is to be estimated, in SI units.
 
     `folder` is where the case file lies: the files of `recordings` and `plugins` are relative to it. `truth` holds
@@ -87,7 +87,7 @@ class Case:
     units: Mapping[str, str] = field(default_factory=dict)
 
 
-def load_case(path: Path) -> Case:
+def load_case(path: Path) -> CaseFile:
     """Return the case that the TOML file `path` describes; `CaseError` for anything that cannot be meant."""
     path = Path(path)
     top = Fields(path.name, "the case", _parse(path)).only(TOP)
@@ -104,7 +104,7 @@ def load_case(path: Path) -> Case:
             coordinate = equations_of(equations, units=units, motion=motion, params=named).coordinates[0]
         except CaseError as err:
             raise model.error(f"cannot be used: {err}") from err
-    return Case(
+    return CaseFile(
         title=top.maybe_text("title") or path.stem,
         folder=path.parent,
         recordings=tuple(_aliased(spec, coordinate) for spec in _recordings(top)),

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from lostmotion.case import Case, Prior, Sensor
+from lostmotion.case import CaseFile, Prior, Sensor
 from lostmotion.contracts import Array
 from lostmotion.errors import CaseError, ContractError
 from lostmotion.inference.candidates import CREEP, steps_for_sticking
@@ -165,7 +165,7 @@ def _free(key: str, unit: str, prior: Prior, bounds: tuple[float, float]) -> Fre
     return Free(key, unit, min(max(start, low), high), low, high, log=log, mean=mean, sd=sd)
 
 
-def known_of(system: System, case: Case) -> Array:
+def known_of(system: System, case: CaseFile) -> Array:
     """Return the full parameter vector of what a case says is known; the rest stands at the middle of its prior."""
     try:
         values = {system.slot(name).key: value for name, value in case.known.items()}
@@ -200,7 +200,7 @@ def _check_bounds(system: System, name: str, low: float, high: float) -> None:
         raise CaseError(f"{name} ({param.meaning}) is {found}, wanted {wanted}: correct it in the case")
 
 
-def problem_of(system: System, case: Case, observations: tuple[Observation, ...], *, jobs: int = 2) -> Problem:
+def problem_of(system: System, case: CaseFile, observations: tuple[Observation, ...], *, jobs: int = 2) -> Problem:
     """Return the problem of a case on the given recordings, with no term active, noise levels shared."""
     known = known_of(system, case)
     scales = scales_of(system, observations, known)

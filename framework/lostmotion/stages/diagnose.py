@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from lostmotion.case import Case
+from lostmotion.case import CaseFile
 from lostmotion.contracts import Array, Interface, Model, SensorTerm, Term, Values, place_of
 from lostmotion.errors import DataError
 from lostmotion.inference.course import RICH, Selection, Visit
@@ -176,7 +176,7 @@ def _beside(term: type[Term], observations: Sequence[Observation]) -> tuple[str,
 
 
 def diagnose(
-    case: Case,
+    case: CaseFile,
     observations: Sequence[Observation],
     system: System,
     *,

@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from lostmotion.case import Case
+from lostmotion.case import CaseFile
 from lostmotion.contracts import Array
 from lostmotion.errors import CaseError
 from lostmotion.likelihood.space import Free
@@ -95,7 +95,7 @@ def run_identification(
     return Identified(result, content, seconds)
 
 
-def route_of(case: Case, order: Order) -> str:
+def route_of(case: CaseFile, order: Order) -> str:
     """Return the route that is asked for, or else the one that the case offers."""
     if order.route == "trajectory" and case.levels and not case.recordings:
         raise CaseError("the case has [[levels]] and no [[recordings]]: take --route quantifiers, or add a recording")
@@ -107,7 +107,7 @@ def route_of(case: Case, order: Order) -> str:
 Asked = tuple[Order, np.random.Generator, Watch]
 
 
-def _by_trajectory(case: Case, out: Path, registry: Registry, asked: Asked) -> Way:
+def _by_trajectory(case: CaseFile, out: Path, registry: Registry, asked: Asked) -> Way:
     order, rng, watch = asked
     prepared = prepared_of(case, registry)
     terms = chosen_terms(prepared, order.terms, registry)
@@ -125,7 +125,7 @@ def _by_trajectory(case: Case, out: Path, registry: Registry, asked: Asked) -> W
     return Way(task_for(prepared, fits, terms), facts)
 
 
-def _by_quantifiers(case: Case, out: Path, registry: Registry, asked: Asked) -> Way:
+def _by_quantifiers(case: CaseFile, out: Path, registry: Registry, asked: Asked) -> Way:
     order, rng, watch = asked
     folder_for(out)
     survey = Survey(maps=order.maps, jobs=order.jobs)
@@ -165,7 +165,7 @@ def _derived(posterior: Inversion, points: Array, result: Identification) -> dic
     return rows
 
 
-def _facts(case: Case, order: Order, settings: Mapping[str, Any], inputs: Mapping[str, str]) -> dict[str, Any]:
+def _facts(case: CaseFile, order: Order, settings: Mapping[str, Any], inputs: Mapping[str, str]) -> dict[str, Any]:
     told = {"model": case.model, "known": dict(case.known), **settings, **asdict(order.plan)}
     return {
         "title": case.title,

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from lostmotion.case import Case, Prior
+from lostmotion.case import CaseFile, Prior
 from lostmotion.case.levels import Level
 from lostmotion.contracts import Array, Model
 from lostmotion.errors import CaseError, ContractError, DataError, nearest
@@ -87,7 +87,7 @@ class Wanted:
 
 
 def quantifier_task(
-    case: Case, registry: Registry, out: Path, rng: np.random.Generator, survey: Survey | None = None,
+    case: CaseFile, registry: Registry, out: Path, rng: np.random.Generator, survey: Survey | None = None,
     *, say: Say = lambda _done, _all: None,
 ) -> Task:  # fmt: skip
     """Return what is to be sampled: the posterior given the levels of a case, typed in or read from its recordings.
@@ -106,7 +106,7 @@ def quantifier_task(
     return Task(posterior, cloud, shown, points[int(np.argmax(heights))], digest_of(posterior))
 
 
-def levels_of(case: Case, registry: Registry, rng: np.random.Generator) -> tuple[Level, ...]:
+def levels_of(case: CaseFile, registry: Registry, rng: np.random.Generator) -> tuple[Level, ...]:
     """Return the levels of a case: those typed in, or else those that its recordings are read as."""
     if case.levels:
         return case.levels
@@ -116,7 +116,7 @@ def levels_of(case: Case, registry: Registry, rng: np.random.Generator) -> tuple
 
 
 def inversion_of(
-    case: Case, levels: tuple[Level, ...], registry: Registry, out: Path, survey: Survey,
+    case: CaseFile, levels: tuple[Level, ...], registry: Registry, out: Path, survey: Survey,
     *, say: Say = lambda _done, _all: None,
 ) -> Inversion:  # fmt: skip
     """Return the posterior given levels, its maps made in the folder `out` or taken from the files of the survey."""
@@ -129,7 +129,7 @@ def inversion_of(
     return Inversion(levels, tuple(atlases), tuple(which[k] for k in range(len(levels))), wanted.laws, wanted.free)
 
 
-def wanted_of(case: Case, levels: tuple[Level, ...], registry: Registry) -> Wanted:
+def wanted_of(case: CaseFile, levels: tuple[Level, ...], registry: Registry) -> Wanted:
     """Return which numbers the levels of a case ask for; raises `CaseError` where they cannot be worked out."""
     model: Model = sound(registry, "model", case.model)
     powers = {group.name: Power.of(group, model) for group in model.groups}
@@ -155,7 +155,7 @@ def _bare(wanted: Wanted) -> Wanted:
                                              for k, laws in enumerate(wanted.laws)}})  # fmt: skip
 
 
-def _known(case: Case, model: Model) -> dict[str, float]:
+def _known(case: CaseFile, model: Model) -> dict[str, float]:
     """Return what a case knows by the model's own names; further parameters that would be estimated are refused."""
     system = System.of(model)
     groups = {group.name for group in model.groups}

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from lostmotion.case import WRITTEN, Case, check_alike, load_case
+from lostmotion.case import WRITTEN, CaseFile, check_alike, load_case
 from lostmotion.contracts import Model, Term
 from lostmotion.errors import CaseError, ContractError
 from lostmotion.likelihood.observation import Observation, observation_of
@@ -26,7 +26,7 @@ class Prepared:
     `origins` are the digests or versions of what other people brought, `aside` sentences on what of it cannot be used.
     """
 
-    case: Case
+    case: CaseFile
     recordings: tuple[Recording, ...]
     observations: tuple[Observation, ...]
     model: Model
@@ -47,7 +47,7 @@ class Prepared:
         return (*of_recordings, *self.aside)
 
 
-def case_of(path: Path, registry: Registry) -> Case:
+def case_of(path: Path, registry: Registry) -> CaseFile:
     """Return the case at `path`; the plugin files it names and the model that it writes down join the registry."""
     case = load_case(path)
     for plugin in case.plugins:
@@ -63,7 +63,7 @@ def prepare(path: Path, registry: Registry) -> Prepared:
     return prepared_of(case_of(path, registry), registry)
 
 
-def prepared_of(case: Case, registry: Registry) -> Prepared:
+def prepared_of(case: CaseFile, registry: Registry) -> Prepared:
     """Return a case with its recordings, its model and its terms."""
     if not case.recordings:
         raise CaseError("the case has no [[recordings]]: add one, with file, time or rate, excitation and response")
@@ -77,7 +77,7 @@ def prepared_of(case: Case, registry: Registry) -> Prepared:
     )
 
 
-def moving(model: Model, case: Case, recordings: Sequence[Recording]) -> Model:
+def moving(model: Model, case: CaseFile, recordings: Sequence[Recording]) -> Model:
     """Return the model in translation or in rotation, as the case says or as the units of the recordings show.
 
     Raises `CaseError` where units do not fit each other, or the model.

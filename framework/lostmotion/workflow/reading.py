@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from lostmotion.case import Case
+from lostmotion.case import CaseFile
 from lostmotion.case.levels import Level, Measured
 from lostmotion.contracts import Array
 from lostmotion.errors import CaseError
@@ -80,7 +80,7 @@ def signals_of(recording: Recording) -> Signals:
     return Signals(recording.name, x[keep], u, recording.dt, str(drive.attrs["units"]))
 
 
-def read_levels(case: Case, registry: Registry, rng: np.random.Generator) -> tuple[Read, ...]:
+def read_levels(case: CaseFile, registry: Registry, rng: np.random.Generator) -> tuple[Read, ...]:
     """Return what the recordings of a case say, one level each."""
     streams = rng.spawn(len(case.recordings))
     loaded = (load_recording(spec, case.folder) for spec in case.recordings)

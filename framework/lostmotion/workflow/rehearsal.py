@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from lostmotion.case import Case
+from lostmotion.case import CaseFile
 from lostmotion.contracts import Array, Model
 from lostmotion.flow import Harmonic, flow_of
 from lostmotion.quantities import unit_of
@@ -50,7 +50,7 @@ def rehearsed(
 
 
 def rehearsed_levels(
-    case: Case,
+    case: CaseFile,
     registry: Registry,
     truth: Mapping[str, float],
     drives: Sequence[tuple[float, float]],

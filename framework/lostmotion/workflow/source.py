@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from lostmotion.case import Case
+from lostmotion.case import CaseFile
 from lostmotion.errors import CaseError, DataError, nearest
 from lostmotion.provenance import digest
 from lostmotion.recording import Table, load_recording, read_table
@@ -72,7 +72,7 @@ def source_of(path: Path, wanted: Wanted, registry: Registry) -> Source:
     )
 
 
-def _of_case(case: Case, wanted: Wanted) -> Source:
+def _of_case(case: CaseFile, wanted: Wanted) -> Source:
     if not case.recordings:
         raise CaseError(f"{case.title!r} has no [[recordings]]: add one, or analyse a recording by itself")
     names, asked = [spec.label for spec in case.recordings], wanted.column

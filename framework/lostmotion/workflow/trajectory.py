@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from lostmotion.case import Case
+from lostmotion.case import CaseFile
 from lostmotion.contracts import Term
 from lostmotion.errors import CaseError, nearest
 from lostmotion.inference.candidates import fit_with, screen, slopes_of
@@ -77,7 +77,7 @@ def best_fits(prepared: Prepared, terms: tuple[Term, ...], rng: np.random.Genera
     return polished([_with_terms(fit, terms, case) for fit in found])
 
 
-def _with_terms(fit: Fit, terms: tuple[Term, ...], case: Case) -> Fit:
+def _with_terms(fit: Fit, terms: tuple[Term, ...], case: CaseFile) -> Fit:
     """Return the fit with the terms, and with the priors and the sensor that the case gives."""
     for term in terms:
         fit = fit_with(fit, screen(fit, slopes_of(fit), key_of(term)))
@@ -86,7 +86,7 @@ def _with_terms(fit: Fit, terms: tuple[Term, ...], case: Case) -> Fit:
     return separated(fit, case.sensor)
 
 
-def _as_the_case_says(fit: Fit, case: Case) -> Fit:
+def _as_the_case_says(fit: Fit, case: CaseFile) -> Fit:
     """Return the fit with the priors and the known values that the case gives to parameters of terms."""
     problem = restarted(fit)
     names = [observation.name for observation in problem.observations]

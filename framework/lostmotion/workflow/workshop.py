@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from lostmotion.case import Case, Prior, load_case
+from lostmotion.case import CaseFile, Prior, load_case
 from lostmotion.contracts import Array, Group, Model, Term
 from lostmotion.errors import CaseError
 from lostmotion.inference.setup import known_of
@@ -79,7 +79,7 @@ class Workshop:
 
     design: Design
     registry: Registry
-    case: Case
+    case: CaseFile
     system: System
     hidden: Mapping[str, float]
     groups: tuple[Group, ...] = ()
@@ -157,7 +157,7 @@ def workshop(design: Design) -> Workshop:
     return Workshop(design, registry, case, system, values, groups)
 
 
-def _plain(case: Case, groups: tuple[Group, ...]) -> Case:
+def _plain(case: CaseFile, groups: tuple[Group, ...]) -> CaseFile:
     """Return the case with parameters in place of dimensionless numbers, at the middle of their priors."""
     numbers = {group.name: case.estimate[group.name].start() for group in groups}
     estimate = {key: prior for key, prior in case.estimate.items() if key not in numbers}
@@ -170,14 +170,14 @@ def _named(system: System, full: Array) -> dict[str, float]:
     return {key: float(full[i]) for key, i in system.index.items()}
 
 
-def _require_values(system: System, case: Case, values: Mapping[str, float]) -> None:
+def _require_values(system: System, case: CaseFile, values: Mapping[str, float]) -> None:
     """Refuse a term that acts in the machines with a parameter that nothing gives a value."""
     given = {system.slot(name).key for name in (*case.known, *case.estimate) if "." in name} | set(values)
     if lacking := [slot.key for slot in system.slots if slot.term is not None and slot.key not in given]:
         raise CaseError(f"{lacking[0]} has no value: add it to --hide, or to the case")
 
 
-def _terms(hidden: tuple[Term, ...], model: Model, case: Case, registry: Registry) -> tuple[Term, ...]:
+def _terms(hidden: tuple[Term, ...], model: Model, case: CaseFile, registry: Registry) -> tuple[Term, ...]:
     """Return the terms that act in every machine: those that are hidden, and those whose parameters the case names."""
     found = {key_of(term): term for term in hidden}
     for key in (name.rpartition(".")[0] for name in (*case.known, *case.estimate) if "." in name):
