@@ -159,15 +159,18 @@ def save_json(path: Path, content: Mapping[str, object]) -> None:
     """Write `content` as JSON that appears whole or not at all; what is not finite becomes null."""
     with whole(path) as spare:
         spare.write_text(
-            json.dumps(_finite(content), indent=2, ensure_ascii=False, allow_nan=False) + "\n", encoding="utf-8"
+            json.dumps(finite(content), indent=2, ensure_ascii=False, allow_nan=False) + "\n", encoding="utf-8"
         )
 
 
-def _finite(value: object) -> object:
+def finite(value: object) -> object:
+    """Return a nested value as JSON has it: what is not finite becomes None, and an array a list."""
+    if isinstance(value, np.ndarray):
+        value = value.tolist()
     if isinstance(value, Mapping):
-        return {str(k): _finite(v) for k, v in value.items()}
+        return {str(k): finite(v) for k, v in value.items()}
     if isinstance(value, list | tuple):
-        return [_finite(v) for v in value]
+        return [finite(v) for v in value]
     if isinstance(value, np.generic):
         value = value.item()
     return None if isinstance(value, float) and not math.isfinite(value) else value
@@ -183,16 +186,21 @@ class Column:
     long_name: str = ""
 
 
-def save_arrays(
-    path: Path, arrays: Mapping[str, Column], coords: Mapping[str, Column], attrs: Mapping[str, str]
-) -> None:
-    """Write arrays with their dimensions and units to a netCDF file that appears whole or not at all."""
+def dataset_of(arrays: Mapping[str, Column], coords: Mapping[str, Column], attrs: Mapping[str, str]) -> xr.Dataset:
+    """Return arrays with their dimensions and units as a dataset."""
     import xarray
 
     def laid_out(table: Mapping[str, Column]) -> dict[str, tuple[tuple[str, ...], object, dict[str, str]]]:
         return {k: (c.dims, c.values, {"units": c.unit, "long_name": c.long_name or k}) for k, c in table.items()}
 
-    save_datasets(path, {None: xarray.Dataset(laid_out(arrays), laid_out(coords), dict(attrs))})
+    return xarray.Dataset(laid_out(arrays), laid_out(coords), dict(attrs))
+
+
+def save_arrays(
+    path: Path, arrays: Mapping[str, Column], coords: Mapping[str, Column], attrs: Mapping[str, str]
+) -> None:
+    """Write arrays with their dimensions and units to a netCDF file that appears whole or not at all."""
+    save_datasets(path, {None: dataset_of(arrays, coords, attrs)})
 
 
 def folder_for(path: Path) -> Path:

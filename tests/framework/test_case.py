@@ -212,3 +212,12 @@ def test_what_is_dumped_is_read_back(tmp_path: Path) -> None:
     assert one.d2 == Measured(2.5, pytest.approx(0.2 / 3.919928))
     assert (two.name, two.unit, two.omega, two.lyapunov, two.motion) == ("0.1 rad", "rad", 2.0, None, "periodic")
     assert got.truth == {"c": 2.0}
+
+
+def test_a_short_form_keeps_its_quantity(tmp_path):
+    (tmp_path / "case.toml").write_text(
+        '[[recordings]]\nfile = "a.csv"\ntime = "t"\nexcitation = "none"\n'
+        'response = { column = "v", quantity = "velocity", unit = "m/s" }\n[model]\nname = "lin_backlash"\n'
+    )
+    (sensor,) = load_case(tmp_path / "case.toml").recordings[0].sensors
+    assert sensor.target == "velocity"

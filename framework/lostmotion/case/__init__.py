@@ -76,6 +76,6 @@ from lostmotion.case.write import dump_case
 from lostmotion.recording import Channel, RecordingSpec
 
 __all__ = [
-    "WRITTEN", "CaseFile", "Channel", "Experiment", "Level", "Measured", "Prior", "RecordingSpec", "Sensor", "check_alike",
-    "dump_case", "load_case",
+    "WRITTEN", "CaseFile", "Channel", "Experiment", "Level", "Measured", "Prior", "RecordingSpec", "Sensor",
+    "check_alike", "dump_case", "load_case",
 ]  # fmt: skip

@@ -125,9 +125,10 @@ def load_case(path: Path) -> CaseFile:
 
 def _model(model: Fields) -> tuple[str, tuple[str, ...]]:
     """Return the name of a model, or that of one that is written down, with its equations."""
-    if ("name" in model.values) == ("equations" in model.values):
-        found = "both name and equations" if "name" in model.values else "neither name nor equations"
-        raise model.error(f"has {found}: give the name of a model, or equations = [\"m*x'' + c*x' + k*x = force\"]")
+    if "name" in model.values and "equations" in model.values:
+        raise model.error("has both name and equations: give one of them")
+    if "name" not in model.values and "equations" not in model.values:
+        raise model.error("lacks 'name': add name = \"lin_backlash\", or equations = [\"m*x'' + c*x' + k*x = force\"]")
     if "name" in model.values:
         if "units" in model.values:
             raise model.error("has units beside name: they go with equations")
@@ -141,6 +142,8 @@ def _model(model: Fields) -> tuple[str, tuple[str, ...]]:
 
 def _aliased(spec: RecordingSpec, coordinate: str) -> RecordingSpec:
     """Return a recording whose sensors of the first coordinate show `position`, `velocity` or `acceleration`."""
+    if not coordinate:
+        return spec
     same = {coordinate: "position"} | {f"{coordinate}.{rate}": rate for rate in ("velocity", "acceleration")}
     return replace(spec, sensors=tuple(replace(s, of=same.get(s.of, s.of)) for s in spec.sensors))
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from lostmotion.errors import DataError, nearest
 from lostmotion.provenance import digest
@@ -23,6 +23,7 @@ from lostmotion.recording.units import note_unit, seconds, time_unit
 
 if TYPE_CHECKING:
     import xarray as xr
+    from matplotlib.figure import Figure
 
 Array = NDArray[np.float64]
 SHOWN = 12
@@ -70,6 +71,129 @@ class Recording:
         table = _numbered("excitation", "input", self.inputs) | _numbered("response", "sensor", self.sensors)
         return xr.Dataset(table)
 
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """Sentences on what looks odd in the recording and was accepted."""
+        return self.notes
+
+    def to_xarray(self) -> xr.Dataset:
+        """Return inputs and sensors (n,) in SI units over `time` (s), by their names, with units as attributes."""
+        import xarray as xr
+
+        named = {str(a.attrs["of"]): a for a in self.inputs}
+        named |= {str(a.attrs["sensor"] or a.attrs["of"]): a for a in self.sensors}
+        return xr.Dataset(named, attrs={"title": self.name, "hold": self.hold})
+
+    def plot(self) -> Figure:
+        """Return a figure of all inputs and sensors over time, one below the other."""
+        from lostmotion.recording.made import drawn
+
+        return drawn(self)
+
+    def __repr__(self) -> str:
+        told = [f"{a.attrs['of']} ({a.attrs['units']})" for a in (*self.inputs, *self.sensors)]
+        length = f"{self.n} samples at {self.rate:.6g} Hz, {self.n * self.dt:.4g} s"
+        return f"<Recording {self.name!r}: {', '.join(told)}; {length}{'; look at .warnings' if self.notes else ''}>"
+
+    @classmethod
+    def from_arrays(
+        cls,
+        time: ArrayLike | None = None,
+        *,
+        sensors: Mapping[str, ArrayLike],
+        inputs: Mapping[str, ArrayLike] | None = None,
+        units: Mapping[str, str],
+        rate: float | None = None,
+        noise: Mapping[str, str] | None = None,
+        hold: Hold = "smooth",
+        name: str = "recording",
+    ) -> Recording:
+        """Return a recording of arrays (n,), by the names that the model has for inputs and channels.
+
+        Give `time` (n,) in s, or in the unit `units["time"]`, or else the `rate` in Hz. `units` has one entry for each
+        array, `noise` the kind of noise of a sensor ("white", "ar1", "quantised"). Without inputs it is a free decay.
+        Raises `DataError` or `CaseError` where the numbers cannot be used.
+        """
+        from lostmotion.recording.made import made
+
+        columns = {**(inputs or {}), **sensors}
+        times = {} if time is None else {"time": time}
+        which = ({name: name for name in inputs or {}}, {name: name for name in sensors})
+        return made({**times, **columns}, which, units, None if time is None else "time", rate, noise or {}, hold, name)
+
+    @classmethod
+    def from_pandas(
+        cls,
+        frame: Any,
+        *,
+        sensors: Mapping[str, str],
+        inputs: Mapping[str, str] | None = None,
+        units: Mapping[str, str],
+        time: str | None = None,
+        rate: float | None = None,
+        noise: Mapping[str, str] | None = None,
+        hold: Hold = "smooth",
+        name: str = "recording",
+    ) -> Recording:
+        """Return a recording of columns of a data frame: `inputs` and `sensors` map names of the model to columns.
+
+        `units` has one entry for each column; that of the time column is s where none is given. Without `time` and
+        `rate` the index is the time, in s.
+        """
+        from lostmotion.recording.made import made
+
+        columns = {str(column): frame[column].to_numpy() for column in frame.columns}
+        if time is None and rate is None:
+            time = str(frame.index.name or "index")
+            columns[time] = frame.index.to_numpy()
+        return made(columns, (inputs or {}, sensors), units, time, rate, noise or {}, hold, name)
+
+    @classmethod
+    def from_xarray(
+        cls,
+        dataset: xr.Dataset,
+        *,
+        sensors: Mapping[str, str],
+        inputs: Mapping[str, str] | None = None,
+        time: str = "time",
+        units: Mapping[str, str] | None = None,
+        noise: Mapping[str, str] | None = None,
+        hold: Hold = "smooth",
+        name: str = "recording",
+    ) -> Recording:
+        """Return a recording of variables of a dataset, with the units of their attributes where none are given."""
+        from lostmotion.recording.made import made
+
+        columns = {str(key): np.asarray(value) for key, value in dataset.variables.items() if value.ndim == 1}
+        told = {
+            str(key): str(value.attrs["units"]) for key, value in dataset.variables.items() if "units" in value.attrs
+        }
+        return made(columns, (inputs or {}, sensors), {**told, **(units or {})}, time, None, noise or {}, hold, name)
+
+    @classmethod
+    def read(
+        cls,
+        path: str | Path,
+        *,
+        sensors: Mapping[str, str],
+        inputs: Mapping[str, str] | None = None,
+        time: str | None = None,
+        rate: float | None = None,
+        units: Mapping[str, str] | None = None,
+        noise: Mapping[str, str] | None = None,
+        hold: Hold = "smooth",
+        name: str = "",
+    ) -> Recording:
+        """Return a recording from a file that the command line reads: .csv, .mat, .nc, .uff, ...
+
+        `inputs` and `sensors` map names of the model to columns; `units` are needed for those that the file does not
+        tell.
+        """
+        from lostmotion.recording.made import read
+
+        which = (inputs or {}, sensors)
+        return read(Path(path), which, units or {}, time, rate, noise or {}, hold, name)
+
 
 def _numbered(first: str, more: str, arrays: Sequence[xr.DataArray]) -> dict[str, xr.DataArray]:
     return {f"{more} {i + 1}" if i else first: array for i, array in enumerate(arrays)}
@@ -78,14 +202,18 @@ def _numbered(first: str, more: str, arrays: Sequence[xr.DataArray]) -> dict[str
 def load_recording(spec: RecordingSpec, folder: Path) -> Recording:
     """Return the recording that `spec` describes, its file taken relative to `folder`; `DataError` if unusable."""
     path = Path(folder) / spec.file
-    table = read_table(path)
-    time, values, told = _samples(spec, table, path.name)
-    check_length(time.size, path.name)
+    return recording_of(spec, read_table(path), path.name, digest(path))
+
+
+def recording_of(spec: RecordingSpec, table: Table, source: str, told_by: str) -> Recording:
+    """Return the recording that `spec` describes in a table of columns; `source` names it, `told_by` is its digest."""
+    time, values, told = _samples(spec, table, source)
+    check_length(time.size, source)
     time, values = _cut(spec, time, values)
-    check_length(time.size, path.name)
-    clock = even_clock(time, path.name) if spec.time else Clock(1.0 / _rate(spec), False, (), float(time[0]))
+    check_length(time.size, source)
+    clock = even_clock(time, source) if spec.time else Clock(1.0 / _rate(spec), False, (), float(time[0]))
     roles = [("excitation", c) for c in spec.inputs] + [("response", c) for c in spec.sensors]
-    channels = [_Read(role, c, spec, path.name) for role, c in roles]
+    channels = [_Read(role, c, spec, source) for role, c in roles]
     read = [channel.on(clock, time, raw) for channel, raw in zip(channels, values, strict=True)]
     count, grid = len(spec.inputs), np.asarray(clock.start + clock.dt * np.arange(time.size))
     arrays = [channel.array(si, grid) for channel, (si, _) in zip(channels, read, strict=True)]
@@ -98,7 +226,7 @@ def load_recording(spec: RecordingSpec, folder: Path) -> Recording:
         tuple(arrays[count:]),
         spec.start or table.starts.get(spec.time or ""),
     )
-    return Recording(spec.label, inputs, sensors, clock.dt, digest(path), path.name, spec.hold, tuple(notes), start)
+    return Recording(spec.label, inputs, sensors, clock.dt, told_by, source, spec.hold, tuple(notes), start)
 
 
 @dataclass(frozen=True)

@@ -71,10 +71,11 @@ def gathered(folder: Path, names: tuple[str, str], command: str) -> Evidence:
     require_files(folder, [page.name], command)
     again = f"run `{' '.join(command.split()[:2])}` again"
     facts = load_json(page, again)
-    return _with_arrays(facts, load_arrays(arrays, again) if arrays.is_file() else xr.Dataset())
+    return evidence_with(facts, load_arrays(arrays, again) if arrays.is_file() else xr.Dataset())
 
 
-def _with_arrays(facts: Mapping[str, Any], data: xr.Dataset) -> Evidence:
+def evidence_with(facts: Mapping[str, Any], data: xr.Dataset) -> Evidence:
+    """Return facts and the arrays of a dataset as figures and pages take them."""
     numeric = {str(n): v for n, v in data.variables.items() if v.dtype.kind in "fiub"}
     text = {str(n): v for n, v in data.variables.items() if v.dtype.kind in "OSUT"}
     return Evidence(

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from lostmotion.case import CaseFile
 from lostmotion.errors import ContractError
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.system import System, key_of
@@ -24,7 +25,7 @@ from lostmotion.stages.compare import (
     worsened,
 )
 from lostmotion.stages.diagnose import Diagnosis, diagnose, instead, simpler
-from lostmotion.storage import folder_for, save_arrays, save_json
+from lostmotion.storage import dataset_of, folder_for, save_datasets, save_json
 from lostmotion.workflow.arrays import arrays_of
 from lostmotion.workflow.attractors import motions_of
 from lostmotion.workflow.confirming import predicted_better, unconfirmed
@@ -40,12 +41,29 @@ from lostmotion.workflow.show import Seen, shown
 from lostmotion.workflow.verdict import verdict
 from lostmotion.workflow.vetting import blamed, raising, theirs, told_aside, within_numbers
 
+if TYPE_CHECKING:
+    import xarray as xr
+
 Say = Callable[[str], None]
 SHOW, NEXT, EVIDENCE, WHEN = 1, 2, 3, 4
 """The streams of random numbers for what is shown, proposed, checked and placed in time: no finding depends on them."""
 
 
-@within_numbers()
+@dataclass(frozen=True, eq=False)
+class Told:
+    """A diagnosis as it is told: the content of `diagnosis.json`, the arrays behind it, and what both are made of."""
+
+    content: Mapping[str, Any]
+    arrays: xr.Dataset
+    outcome: Outcome
+
+    def save(self, folder: Path) -> None:
+        """Write `diagnosis.json`, `arrays.nc` and `report.html` into a folder."""
+        save_datasets(folder / "arrays.nc", {None: self.arrays})
+        save_json(folder / "diagnosis.json", self.content)
+        write_report(folder)
+
+
 def run_diagnosis(
     path: Path,
     out: Path,
@@ -63,6 +81,17 @@ def run_diagnosis(
     say("reading the case")
     prepared = prepare(path, registry)
     folder = folder_for(out)
+    told = told_of(prepared, registry, seed=seed, jobs=jobs, propose=propose, say=say)
+    say("report")
+    told.save(folder)
+    return told.content
+
+
+@within_numbers()
+def told_of(
+    prepared: Prepared, registry: Registry, *, seed: int, jobs: int, propose: bool = True, say: Say = lambda _: None
+) -> Told:
+    """Return the diagnosis of a case, with all that is told of it; nothing is written."""
     diagnosis, prepared, rng = _diagnosed(prepared, registry, seed, jobs=jobs, say=say)
     say("held-out predictions")
     outcome = upheld(diagnosis, prepared, rng, say)
@@ -87,12 +116,8 @@ def run_diagnosis(
         "evidence": evidence,
         **_background(prepared, outcome, seed),
     }
-    say("report")
     variables, coords = arrays_of(outcome, motions)
-    save_arrays(folder / "arrays.nc", variables, coords, {"title": prepared.case.title})
-    save_json(folder / "diagnosis.json", content)
-    write_report(folder)
-    return content
+    return Told(content, dataset_of(variables, coords, {"title": prepared.case.title}), outcome)
 
 
 def _diagnosed(
@@ -157,6 +182,7 @@ def _background(prepared: Prepared, outcome: Outcome, seed: int) -> dict[str, An
     case = prepared.case
     settings = {"model": case.model, "known": dict(case.known), "terms": [f"{t.name}@{t.at}" for t in prepared.terms]}
     return {
+        "machine": _machine(outcome, case),
         "truth": dict(case.truth),
         "recordings": [
             {
@@ -170,6 +196,29 @@ def _background(prepared: Prepared, outcome: Outcome, seed: int) -> dict[str, An
         ],
         "notes": notes_of(outcome, (*prepared.notes, *unused(case.known))),
         "provenance": provenance("diagnose", settings, seed, prepared.inputs),
+    }
+
+
+def _machine(outcome: Outcome, case: CaseFile) -> dict[str, Any]:
+    """Return what it takes to set the model that was fitted in motion again: model, terms, and all values in SI."""
+    problem, theta = outcome.diagnosis.after.problem, outcome.diagnosis.after.theta
+    system, full = problem.system, problem.full(theta)
+    learned = outcome.diagnosis.learned
+    own = {q.name for q in system.model.params}
+    told = {key: float(full[i]) for key, i in system.index.items()}
+    return {
+        "model": case.model,
+        "equations": list(case.equations),
+        "units": dict(case.units),
+        "motion": system.model.motion,
+        "terms": [
+            {"key": key, "name": term.name, "at": term.at}
+            for key, term in zip(system.keys, system.terms, strict=True)
+            if key in problem.active
+        ],
+        "learned": list(learned.keys) if learned else [],
+        "sensors": [{"name": s.name, "channel": s.channel} for s in outcome.diagnosis.shown.sensors],
+        "values": {k: v for k, v in told.items() if k in own or any(k.startswith(f"{a}.") for a in problem.active)},
     }
 
 

@@ -67,9 +67,15 @@ def prepared_of(case: CaseFile, registry: Registry) -> Prepared:
     """Return a case with its recordings, its model and its terms."""
     if not case.recordings:
         raise CaseError("the case has no [[recordings]]: add one, with file, time or rate, excitation and response")
-    recordings = tuple(thinned(load_recording(spec, case.folder)) for spec in case.recordings)
-    model = moving(sound(registry, "model", case.model), case, recordings)
     check_alike(tuple(spec.sensors for spec in case.recordings))
+    recordings = tuple(load_recording(spec, case.folder) for spec in case.recordings)
+    return prepared_with(case, recordings, sound(registry, "model", case.model), registry)
+
+
+def prepared_with(case: CaseFile, loaded: Sequence[Recording], model: Model, registry: Registry) -> Prepared:
+    """Return a case with recordings that were loaded and a model that was made, and with its terms."""
+    recordings = tuple(thinned(one) for one in loaded)
+    model = moving(model, case, recordings)
     observations = tuple(observation_of(r, model, held=r.hold == "step") for r in recordings)
     known, aside = usable_terms(registry)
     return Prepared(

@@ -6,7 +6,7 @@ import functools
 import json
 import math
 import operator
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -68,31 +68,60 @@ class Table:
         save_table(path, self.columns, self.units, self.attrs)
 
 
+@dataclass(frozen=True, eq=False)
+class Moved:
+    """A free motion: `times` (samples,) in s, `inputs` (samples, inputs), the `channels` (samples,) by name."""
+
+    system: System
+    full: Array
+    times: Array
+    inputs: Array
+    channels: Mapping[str, Array]
+    nsub: int
+
+
+def set_in_motion(
+    assembly: Assembly,
+    values: Mapping[str, float],
+    columns: Sequence[Callable[[Array], Array]],
+    samples: int,
+    rate: float,
+    initial: Mapping[str, float],
+) -> Moved:
+    """Return the free motion of a model with its terms; `columns` are the first inputs of the model over time (s).
+
+    Raises `CaseError` where it leaves all bounds or asks for too many steps.
+    """
+    system = System.of(assembly)
+    full, y0 = _parameters(system, values), _initial(assembly.model, initial)
+    times = np.arange(samples) / rate
+    inputs = np.stack([column(times) for column in columns], axis=1)
+    if not np.abs(inputs).max() < HUGE:
+        raise CaseError(f"the drive reaches {np.abs(inputs).max():.3g}: check its unit")
+    nsub = _substeps(system, full, y0, inputs, 1.0 / rate)
+    acting, tone = _acting(system, full, columns, inputs, 1.0 / rate)
+    motion = system.moved(full, y0, acting, Clock(1.0 / rate, nsub, samples), tone)
+    acts = np.stack([column(times) for column in acting], axis=1)
+    packed = system.pack(full[None], 1.0 / (rate * nsub), tone)
+    _, seen = derivatives(system, system.everything, packed, motion.states, acts, times)
+    channels = dict(zip(assembly.model.channels, seen.T, strict=True))
+    if motion.finite < samples or not all(np.abs(x).max() < HUGE for x in channels.values()):
+        raise CaseError(
+            f"the motion left all bounds after {motion.finite / rate:.4g} s of {samples / rate:g} s:"
+            " check the signs and sizes of the parameters"
+        )
+    return Moved(system, full, times, inputs, channels, nsub)
+
+
 def simulate(plan: Plan) -> Table:
     """Return the simulated columns of `plan`, sampled at 0, 1/rate, ... up to but not including `duration`."""
     samples = _samples(plan)
-    system = System.of(plan.assembly)
-    full, y0 = _parameters(system, plan.values), _initial(plan)
     signals = _inputs(plan)
-    times = np.arange(samples) / plan.rate
-    inputs = np.stack([signal.value(times) for signal in signals], axis=1)
-    if not np.abs(inputs).max() < HUGE:
-        raise CaseError(f"the drive reaches {np.abs(inputs).max():.3g}: check its unit")
-    nsub = _substeps(system, full, y0, inputs, 1.0 / plan.rate)
-    acting, tone = _acting(system, full, signals, inputs, 1.0 / plan.rate)
-    motion = system.moved(full, y0, acting, Clock(1.0 / plan.rate, nsub, samples), tone)
-    columns = dict(zip(plan.assembly.model.driven, inputs.T, strict=True))
-    acts = np.stack([column(times) for column in acting], axis=1)
-    packed = system.pack(full[None], 1.0 / (plan.rate * nsub), tone)
-    _, seen = derivatives(system, system.everything, packed, motion.states, acts, times)
-    channels = dict(zip(plan.assembly.model.channels, seen.T, strict=True))
-    if motion.finite < samples or not all(np.abs(x).max() < HUGE for x in channels.values()):
-        raise CaseError(
-            f"the motion left all bounds after {motion.finite / plan.rate:.4g} s of {plan.duration:g} s:"
-            " check the signs and sizes of the parameters"
-        )
-    columns |= _shown(system, full, _noisy(channels, plan), plan)
-    return _table(plan, {"time": times, **columns}, nsub)
+    columns = [signal.value for signal in signals]
+    moved = set_in_motion(plan.assembly, plan.values, columns, samples, plan.rate, plan.initial)
+    shown = dict(zip(plan.assembly.model.driven, moved.inputs.T, strict=True))
+    shown |= _shown(moved.system, moved.full, _noisy(moved.channels, plan), plan)
+    return _table(plan, {"time": moved.times, **shown}, moved.nsub)
 
 
 def assembly_of(
@@ -164,15 +193,13 @@ def _require_bounds(slot: Slot, value: float | None, inertia: bool) -> None:
     raise CaseError(f"{slot.key} ({q.meaning}) is {value:g}: wanted a value {wanted} {slot.unit}")
 
 
-def _initial(plan: Plan) -> Array:
+def _initial(model: Model, initial: Mapping[str, float]) -> Array:
     """Return the state to start from: zero where nothing is given."""
-    states = plan.assembly.model.states
-    for name in plan.initial:
+    states = model.states
+    for name in initial:
         if name not in states:
-            raise CaseError(
-                f"{plan.assembly.model.name} has no state {name!r}{nearest(name, states)}: it has {', '.join(states)}"
-            )
-    return np.array([float(plan.initial.get(name, 0.0)) for name in states])
+            raise CaseError(f"{model.name} has no state {name!r}{nearest(name, states)}: it has {', '.join(states)}")
+    return np.array([float(initial.get(name, 0.0)) for name in states])
 
 
 def _inputs(plan: Plan) -> list[Signal]:
@@ -193,14 +220,13 @@ def _inputs(plan: Plan) -> list[Signal]:
 
 
 def _acting(
-    system: System, full: Array, signals: list[Signal], inputs: Array, dt: float
+    system: System, full: Array, columns: Sequence[Callable[[Array], Array]], inputs: Array, dt: float
 ) -> tuple[list[Callable[[Array], Array]], Tone]:
     """Return the inputs that act, as functions of time, where terms stand between them and what is recorded.
 
     The tone is what a diagnosis would read off the recorded samples.
     """
     tone = tone_of(Observation.of("drive", np.zeros(len(inputs)), inputs, dt, ""))
-    columns = [signal.value for signal in signals]
     acting = system.acting(columns, full, system.shaping(system.everything), tone)
     return [there or recorded for there, recorded in zip(acting, columns, strict=True)], tone
 

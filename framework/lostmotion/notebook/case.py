@@ -1,0 +1,229 @@
+"""A case as an object: recordings, a model, what is known of it and what is to be estimated."""
+
+from __future__ import annotations
+
+import hashlib
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from lostmotion.case import WRITTEN, CaseFile, Experiment, Prior, Sensor, check_alike, dump_case
+from lostmotion.contracts import Model
+from lostmotion.errors import CaseError, PluginError, nearest
+from lostmotion.recording import Recording, load_recording
+from lostmotion.registry import Registry, default
+from lostmotion.storage import folder_for, save_table
+from lostmotion.workflow.prepare import Prepared, case_of, prepared_with
+from lostmotion.workflow.vetting import sound
+from lostmotion.written import Written, model_of
+
+
+def model(text: str | Sequence[str], **options: Any) -> Model:
+    """Return a model by its name, or made of equations of motion: `lm.model("m*x'' + c*x' + k*x = force")`.
+
+    `options` are fields of a model with a name; `units` (SI, by parameter), `motion` and `params` of equations. Raises
+    `PluginError` for an unknown name and `CaseError` for what cannot be read, with the place.
+    """
+    lines = (text,) if isinstance(text, str) else tuple(text)
+    if len(lines) == 1 and "=" not in lines[0]:
+        found: Model = default().make("model", lines[0], **options)
+        return found
+    cls: Any = model_of(lines, **options)
+    made: Model = cls()
+    return made
+
+
+@dataclass(frozen=True, eq=False)
+class Case:
+    """What was recorded, the model, what is known (SI) and the priors of what is to be estimated.
+
+    `recordings` is one recording or several with the same sensors. `model` is a model, a name, or equations. `truth`
+    holds true values, which are drawn and used for nothing else. `sensor` says what several recordings share of noise.
+    Raises `CaseError` where it cannot be meant.
+    """
+
+    recordings: Recording | Sequence[Recording]
+    model: Model | type[Model] | str | Sequence[str]
+    known: Mapping[str, float] = field(default_factory=dict)
+    estimate: Mapping[str, Prior] = field(default_factory=dict)
+    title: str = "case"
+    truth: Mapping[str, float] = field(default_factory=dict)
+    sensor: Sensor = field(default_factory=Sensor)
+    experiment: Experiment = field(default_factory=Experiment)
+    file: CaseFile | None = field(default=None, repr=False)
+
+    def __post_init__(self) -> None:
+        several = (self.recordings,) if isinstance(self.recordings, Recording) else tuple(self.recordings)
+        if not several or not all(isinstance(one, Recording) for one in several):
+            raise CaseError("a case needs a Recording, or a list of them: lm.Recording.from_arrays(...) makes one")
+        object.__setattr__(self, "recordings", several)
+        check_alike(tuple(_sensors_of(one) for one in several))
+        if wrong := [name for name, prior in self.estimate.items() if not isinstance(prior, Prior)]:
+            raise CaseError(
+                f"the prior of {wrong[0]!r} is {self.estimate[wrong[0]]!r}: wanted lm.LogUniform(1, 100) or the like"
+            )
+        if both := sorted(set(self.known) & set(self.estimate)):
+            raise CaseError(f"{both[0]!r} is both known and estimated: take it out of one of the two")
+        object.__setattr__(self, "model", self._made())
+
+    def _made(self) -> Model:
+        given = self.model
+        if isinstance(given, Model):
+            return given
+        if isinstance(given, type):
+            return given()
+        lines = (given,) if isinstance(given, str) else tuple(given)
+        if len(lines) == 1 and "=" not in lines[0]:
+            return model(lines[0])
+        return model(lines, params=[key for key in (*self.known, *self.estimate) if "." not in key])
+
+    @classmethod
+    def read(cls, path: str | Path, registry: Registry | None = None) -> Case:
+        """Return the case of a file `case.toml`, its recordings loaded; `CaseError` or `DataError` if unusable."""
+        known = registry or default()
+        file = case_of(Path(path), known)
+        loaded = tuple(load_recording(spec, file.folder) for spec in file.recordings)
+        made = sound(known, "model", file.model)
+        made = made.turned(file.motion) if file.motion else made
+        return cls(
+            loaded, made, file.known, file.estimate, file.title, file.truth, file.sensor, file.experiment, file=file
+        )
+
+    def write(self, folder: str | Path) -> Path:
+        """Return the path of `case.toml`, written into a folder with a table of each recording, all in SI units."""
+        place = folder_for(Path(folder))
+        entries = [_written(one, place) for one in self._several]
+        content: dict[str, Any] = {"title": self.title, "recordings": entries, "model": self._told()}
+        if self.truth:
+            content["truth"] = dict(self.truth)
+        dump_case(content, place / "case.toml")
+        return place / "case.toml"
+
+    def _told(self) -> dict[str, Any]:
+        """Return the table `[model]`; a model that nobody else could find is refused."""
+        made = self._model
+        if isinstance(made, Written):
+            told: dict[str, Any] = {"equations": list(made.equations), "motion": made.motion}
+            told |= {"units": dict(made.origin[1])} if made.origin[1] else {}
+        else:
+            try:
+                default().entry("model", made.name)
+            except PluginError as err:
+                raise CaseError(f"{made.name} stands in no file: write it into one and name that in plugins") from err
+            told = {"name": made.name, "motion": made.motion}
+        return {**told, "known": dict(self.known), "estimate": {k: _prior(p) for k, p in self.estimate.items()}}
+
+    @property
+    def _several(self) -> tuple[Recording, ...]:
+        return tuple(self.recordings)  # type: ignore[arg-type]
+
+    @property
+    def _model(self) -> Model:
+        return self.model  # type: ignore[return-value]
+
+    def prepared(self, registry: Registry, terms: str | Sequence[str] = "all") -> Prepared:
+        """Return the case as the stages take it, with the terms that are to be tried: "all", or names of terms."""
+        file = self.file or self._as_file()
+        made = self._model
+        if isinstance(made, Written) or made.name not in registry.names("model"):
+            registry.add(
+                type(made) if isinstance(made, Written) else made, WRITTEN if isinstance(made, Written) else None
+            )
+        found = prepared_with(file, self._several, made, registry)
+        return found if terms == "all" else replace(found, terms=_chosen(found, terms))
+
+    def _as_file(self) -> CaseFile:
+        made = self._model
+        told = repr(
+            (self.title, made, sorted(self.known.items()), sorted((k, repr(p)) for k, p in self.estimate.items()))
+        )
+        return CaseFile(
+            title=self.title,
+            folder=Path(),
+            recordings=(),
+            model=made.name,
+            known=dict(self.known),
+            estimate=dict(self.estimate),
+            truth=dict(self.truth),
+            plugins=(),
+            digest=hashlib.sha256(told.encode()).hexdigest(),
+            sensor=self.sensor,
+            experiment=self.experiment,
+            equations=made.equations if isinstance(made, Written) else (),
+            units=dict(made.origin[1]) if isinstance(made, Written) else {},
+        )
+
+    def __repr__(self) -> str:
+        names = ", ".join(one.name for one in self._several)
+        return (
+            f"<Case {self.title!r}: {self._model.name} on {names}; known {[*self.known]}, estimated {[*self.estimate]}>"
+        )
+
+
+def _sensors_of(recording: Recording) -> tuple[Any, ...]:
+    """Return the sensors of a recording as a case file has them."""
+    from lostmotion.recording import Channel
+
+    return tuple(
+        Channel("", str(a.attrs["quantity"]), str(a.attrs["units"]), of=str(a.attrs["of"]), name=str(a.attrs["sensor"]))
+        for a in recording.sensors
+    )
+
+
+def _chosen(found: Prepared, terms: str | Sequence[str]) -> tuple[Any, ...]:
+    """Return the terms of these names."""
+    asked = (terms,) if isinstance(terms, str) else tuple(terms)
+    known = dict.fromkeys(term.name for term in found.terms)
+    for name in asked:
+        if name not in known:
+            raise CaseError(
+                f"no term {name!r} can act in this case{nearest(name, known)}: there are {', '.join(known)}"
+            )
+    return tuple(term for term in found.terms if term.name in asked)
+
+
+def _prior(prior: Prior) -> dict[str, Any]:
+    """Return a prior as a case file has it."""
+    forms: dict[str, dict[str, Any]] = {
+        "uniform": {"low": prior.low, "high": prior.high},
+        "log-uniform": {"low": prior.low, "high": prior.high, "scale": "log"},
+        "normal": {"mean": prior.mean, "sd": prior.sd},
+        "log-normal": {"median": prior.median, "sd_log": prior.sd_log},
+        "half-normal": {"half_sd": prior.half_sd},
+    }
+    return {**forms[prior.kind], **({"each": True} if prior.each else {})}
+
+
+def _written(recording: Recording, folder: Path) -> dict[str, Any]:
+    """Return the entry of a recording in a case file, after its table was written."""
+    name = re.sub(r"[^\w.-]+", "_", recording.name).strip("._") or "recording"
+    first = recording.sensors[0]
+    columns = {"time": np.asarray(first["time"], dtype=float)}
+    columns |= {f"input {a.attrs['of']}": np.asarray(a) for a in recording.inputs}
+    columns |= {str(a.attrs["sensor"] or a.attrs["of"]): np.asarray(a) for a in recording.sensors}
+    save_table(folder / f"{name}.csv", columns, {}, {})
+    return {
+        "file": f"{name}.csv",
+        "name": recording.name,
+        "time": {"column": "time", "unit": "s"},
+        "hold": recording.hold,
+        "start": recording.start,
+        "inputs": [
+            {"input": str(a.attrs["of"]), "column": f"input {a.attrs['of']}", "unit": str(a.attrs["units"])}
+            for a in recording.inputs
+        ],
+        "sensors": [
+            {
+                "channel": str(a.attrs["of"]),
+                "column": str(a.attrs["sensor"] or a.attrs["of"]),
+                "unit": str(a.attrs["units"]),
+                "noise": str(a.attrs["noise"]),
+                **({"name": str(a.attrs["sensor"])} if a.attrs["sensor"] else {}),
+            }
+            for a in recording.sensors
+        ],
+    }

@@ -1,0 +1,239 @@
+"""What a diagnosis found, as an object: in words, numbers, figures, arrays, and as a model that can be run."""
+
+from __future__ import annotations
+
+import html
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from lostmotion.notebook.machine import FittedModel, fitted_of, machine_of
+from lostmotion.registry import Registry, default
+from lostmotion.report import learned, missing, page, portraits, posteriors, prediction, ranking, style
+from lostmotion.report.evidence import Evidence, evidence_with
+from lostmotion.results import FoundMechanism, HeldOut, Interval, Ranked
+from lostmotion.storage import finite, folder_for, load_arrays, load_json, save_datasets, save_json, save_text
+from lostmotion.workflow.diagnose import Told
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+AGAIN = "run `lostmotion diagnose` again"
+
+
+@dataclass(frozen=True, eq=False)
+class DiagnosisPlots:
+    """The figures of a diagnosis; each returns a matplotlib figure."""
+
+    evidence: Evidence
+
+    def prediction(self, ax: Axes | None = None) -> Figure:
+        """Return the recording with free runs over held-out data, before and after; into `ax` alone where given."""
+        if ax is None:
+            return self._drawn(prediction.draw)
+        with style.applied():
+            prediction.draw_window(ax, self.evidence, prediction.window_of(self.evidence))
+            ax.legend()
+        return ax.get_figure(root=True)  # type: ignore[return-value]
+
+    def missing_force(self) -> Figure:
+        """Return the force that the model does not explain, over what it may depend on."""
+        return self._drawn(missing.draw)
+
+    def ranking(self) -> Figure:
+        """Return the candidates with the log evidence that each adds, and their probabilities."""
+        return self._drawn(ranking.draw)
+
+    def parameters(self) -> Figure:
+        """Return the posterior densities of the parameters, before and after."""
+        return self._drawn(posteriors.draw)
+
+    def sections(self) -> Figure:
+        """Return phase portraits and Poincare sections of recording and models."""
+        return self._drawn(portraits.draw)
+
+    def learned_force(self) -> Figure:
+        """Return the force that was learned, with its band; an empty figure where none was."""
+        return self._drawn(learned.draw)
+
+    def _drawn(self, draw: Callable[[Evidence], Figure | None]) -> Figure:
+        """Return a figure; one that says so where there is nothing to be drawn."""
+        with style.applied():
+            made = draw(self.evidence)
+            if made is None:
+                made = style.blank(1.0)
+                made.text(0.5, 0.5, "there is nothing to be drawn here", ha="center", va="center")
+        return made
+
+
+@dataclass(frozen=True, eq=False)
+class DiagnosisResult:
+    """What `lostmotion.diagnose` returns. It shows itself as the answer in words.
+
+    `content` is that of `diagnosis.json`, `arrays` the dataset behind it; `told` is what both were made of, where it
+    was made in this session.
+    """
+
+    content: Mapping[str, Any]
+    arrays: xr.Dataset
+    registry: Registry = field(repr=False)
+    told: Told | None = field(default=None, repr=False)
+
+    @property
+    def verdict(self) -> str:
+        """Whether the model is "adequate", or there is a "mismatch"."""
+        return str(self.content["verdict"])
+
+    @property
+    def says(self) -> tuple[str, ...]:
+        """The answer, in sentences."""
+        return tuple(str(one) for one in self.content["says"])
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """Sentences on the recordings and on what makes the answer less certain."""
+        return tuple(str(one) for one in self.content["notes"])
+
+    @cached_property
+    def found(self) -> tuple[FoundMechanism, ...]:
+        """What the model leaves out, the most probable first."""
+        return tuple(_found(entry) for entry in self.content["found"])
+
+    @cached_property
+    def ranking(self) -> tuple[Ranked, ...]:
+        """All candidates, the best first."""
+        return tuple(
+            Ranked(str(e["mechanism"]), str(e.get("at", "")), float(e["log_evidence_gain"]), float(e["probability"]))
+            for e in self.content["ranking"]
+        )
+
+    @property
+    def parameters_before(self) -> Mapping[str, Interval]:
+        """The parameters of the model as it was, by name."""
+        return _intervals(self.content["parameters"]["before"])
+
+    @property
+    def parameters_after(self) -> Mapping[str, Interval]:
+        """The parameters of the model with what was found, by name."""
+        return _intervals(self.content["parameters"]["after"])
+
+    @property
+    def heldout(self) -> Mapping[str, HeldOut]:
+        """What the models "before" and "after" predict of data that no fit has seen."""
+        fit = self.content["fit"]
+        return {when: _heldout(fit[when], fit) for when in ("before", "after")}
+
+    @cached_property
+    def model(self) -> FittedModel:
+        """The model with what was found, fitted: `.simulate(inputs, duration=..., rate=...)` sets it in motion."""
+        if self.told is not None:
+            return fitted_of(self.told.outcome, self.content["machine"])
+        return machine_of(self.content["machine"], self.registry)
+
+    @cached_property
+    def evidence(self) -> Evidence:
+        """Facts and arrays as figures take them."""
+        facts: Any = finite(self.content)
+        return evidence_with(facts, self.arrays)
+
+    @property
+    def plot(self) -> DiagnosisPlots:
+        """The figures: `plot.prediction()`, `.missing_force()`, `.ranking()`, `.parameters()`, `.sections()`."""
+        return DiagnosisPlots(self.evidence)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the content of `diagnosis.json`."""
+        made: Any = finite(self.content)
+        return dict(made)
+
+    def to_xarray(self) -> xr.Dataset:
+        """Return the arrays behind the diagnosis, with units and coordinates."""
+        return self.arrays
+
+    def to_arviz(self) -> Any:
+        """Return ArviZ's `InferenceData`: draws of the parameters after (one chain), and what was observed."""
+        import arviz
+
+        names = [str(name) for name in self.arrays["parameter_after"].values]
+        draws = np.asarray(self.arrays["posterior_after"], dtype=float)
+        made = arviz.from_dict(
+            posterior={name: draws[None, :, i] for i, name in enumerate(names)},
+            observed_data={"response": np.asarray(self.arrays["response"], dtype=float)},
+            dims={"response": ["time"]},
+            coords={"time": np.asarray(self.arrays["time"], dtype=float)},
+        )
+        for name, told in self.parameters_after.items():
+            if name in made.posterior:
+                made.posterior[name].attrs["units"] = told.unit
+        return made
+
+    def report(self, path: str | Path = "report.html") -> Path:
+        """Return the path of the page that was written: self-contained HTML."""
+        return save_text(Path(path), page.render(self.evidence))
+
+    def save(self, folder: str | Path) -> Path:
+        """Return the folder into which `diagnosis.json`, `arrays.nc` and `report.html` were written, for `load`."""
+        place = folder_for(Path(folder))
+        save_datasets(place / "arrays.nc", {None: self.arrays})
+        save_json(place / "diagnosis.json", self.content)
+        self.report(place / "report.html")
+        return place
+
+    def __repr__(self) -> str:
+        lines = [f"{self.content['title']}: {self.verdict}", *self.says]
+        lines += [f"  {name} = {told}" for name, told in self.parameters_after.items()]
+        return "\n".join(lines)
+
+    def _repr_html_(self) -> str:
+        said = "".join(f"<li>{html.escape(one)}</li>" for one in self.says)
+        with style.applied():
+            drawn = prediction.draw(self.evidence)
+            figure = style.embedded(drawn, "prediction") if drawn else ""
+        title = html.escape(str(self.content["title"]))
+        return f"<h4>{title}: {html.escape(self.verdict)}</h4><ul>{said}</ul>{figure}"
+
+
+def load_diagnosis(folder: Path, registry: Registry | None = None) -> DiagnosisResult:
+    """Return the diagnosis that was saved into a folder; `DataError` where it is absent or damaged."""
+    content = load_json(folder / "diagnosis.json", AGAIN)
+    return DiagnosisResult(content, load_arrays(folder / "arrays.nc", AGAIN), registry or default())
+
+
+def _intervals(told: Mapping[str, Mapping[str, Any]]) -> dict[str, Interval]:
+    return {name: Interval.of(one) for name, one in told.items()}
+
+
+def _heldout(told: Mapping[str, Any], fit: Mapping[str, Any]) -> HeldOut:
+    by_sensor = {str(name): _number(value) for name, value in (told.get("heldout_nrmse_by_sensor") or {}).items()}
+    return HeldOut(
+        _number(told["heldout_nrmse"]),
+        _number(told["heldout_log_score"]),
+        _number(told["horizon"]),
+        str(fit.get("horizon_unit", "")),
+        by_sensor,
+    )
+
+
+def _number(value: Any) -> float:
+    return float("nan") if value is None else float(value)
+
+
+def _found(entry: Mapping[str, Any]) -> FoundMechanism:
+    return FoundMechanism(
+        mechanism=str(entry["mechanism"]),
+        at=str(entry.get("at", "")),
+        probability=_number(entry["probability"]),
+        state=str(entry.get("state", "")),
+        parameters=_intervals(entry.get("parameters") or {}),
+        says=str(entry["says"]),
+        doubts=tuple(str(one) for one in entry.get("doubts") or ()),
+        share_of_drive=_number(entry.get("share_of_drive")),
+        depends_on=tuple(str(one) for one in entry.get("depends_on") or ()),
+        since=Interval.of(entry["since"]) if entry.get("since") else None,
+    )
