@@ -1,8 +1,15 @@
 """lostmotion finds the physics that a machine model leaves out.
 
-The front doors can be had from here, and are imported when they are first used: the commands as functions, `simulate`,
-`diagnose`, `identify`, `analyse` and `map`, and the steps of the chaos laboratory, `embed`, `quantify`, `denoise` and
-`surrogate_test`. What plugins they know is in `lostmotion.registry.default()`.
+A recording and a model make a case, and a case can be diagnosed:
+
+    import lostmotion as lm
+
+    recording = lm.Recording.from_arrays(t, inputs={"force": u}, sensors={"position": x}, units={"force": "N", ...})
+    case = lm.Case(recording, lm.model("lin_backlash"), known={"m": 1.0}, estimate={"c": lm.LogUniform(0.8, 80.0)})
+    found = lm.diagnose(case)
+
+All that stands here is imported when it is first used: objects, the commands as functions, and the steps of the chaos
+laboratory. What plugins they know is in `lostmotion.registry.default()`.
 """
 
 from __future__ import annotations
@@ -11,16 +18,30 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from lostmotion.errors import LostMotionError
+    from lostmotion.errors import LostMotionError as LostmotionError
+    from lostmotion.notebook.case import Case, model
+    from lostmotion.notebook.doors import analyse, diagnose, identify, load, map, simulate
+    from lostmotion.notebook.priors import HalfNormal, LogNormal, LogUniform, Normal, Uniform
+    from lostmotion.recording import Recording
     from lostmotion.stages.denoise import denoise
     from lostmotion.stages.embed import embed
     from lostmotion.stages.quantify import quantify
     from lostmotion.stages.surrogates import surrogate_test
-    from lostmotion.workflow.doors import analyse, diagnose, identify, map, simulate
 
 __version__ = "0.1.0"
-__all__ = ["analyse", "denoise", "diagnose", "embed", "identify", "map", "quantify", "simulate", "surrogate_test"]
+__all__ = [
+    "Case", "HalfNormal", "LogNormal", "LogUniform", "LostMotionError", "LostmotionError", "Normal", "Recording",
+    "Uniform", "analyse", "denoise", "diagnose", "embed", "identify", "load", "map", "model", "quantify", "simulate",
+    "surrogate_test",
+]  # fmt: skip
 _DOORS = {
-    **{name: f"workflow.doors:{name}" for name in ("analyse", "diagnose", "identify", "map", "simulate")},
+    **{name: f"notebook.doors:{name}" for name in ("analyse", "diagnose", "identify", "load", "map", "simulate")},
+    **{name: f"notebook.case:{name}" for name in ("Case", "model")},
+    **{name: f"notebook.priors:{name}" for name in ("HalfNormal", "LogNormal", "LogUniform", "Normal", "Uniform")},
+    "LostMotionError": "errors:LostMotionError",
+    "LostmotionError": "errors:LostMotionError",
+    "Recording": "recording:Recording",
     "denoise": "stages.denoise:denoise",
     "embed": "stages.embed:embed",
     "quantify": "stages.quantify:quantify",

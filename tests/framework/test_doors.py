@@ -49,17 +49,23 @@ def place(tmp_path_factory, known):
 
 
 def test_the_doors_open_when_they_are_used():
-    assert set(lostmotion.__all__) >= {"simulate", "diagnose", "identify", "analyse", "map"}
+    assert set(lostmotion.__all__) >= {"simulate", "diagnose", "identify", "analyse", "map", "Case", "Recording"}
     for name in lostmotion.__all__:
-        assert getattr(lostmotion, name).__doc__.startswith("Return ")
+        door = getattr(lostmotion, name)
+        assert door.__doc__
+        assert isinstance(door, type) or door.__doc__.startswith("Return ")
+    assert lostmotion.LostmotionError is lostmotion.LostMotionError
     assert lostmotion.registry.default() is lostmotion.registry.default()
     assert lostmotion.testing.check
-    with pytest.raises(AttributeError, match="it has analyse, denoise"):
+    with pytest.raises(AttributeError, match="it has Case, HalfNormal"):
         lostmotion.nothing  # noqa: B018
 
 
 def test_identify_finds_the_damping_of_both_together(place, known):
-    done = lostmotion.identify(place / "case.toml", place / "posterior", registry=known, ess=50, max_steps=400, seed=1)
+    done = lostmotion.identify(
+        place / "case.toml", out=place / "posterior", registry=known, ess=50, max_steps=400, seed=1, progress=False
+    )
+    assert abs(done.parameters["c"].median / 0.8 - 1.0) < 0.1
     assert abs(done.content["parameters"]["c"]["median"] / 0.8 - 1.0) < 0.1
     assert (place / "posterior" / "report.html").exists()
 
@@ -76,7 +82,7 @@ def test_a_map_of_it(place, known):
 
 @pytest.mark.slow
 def test_diagnose_knows_the_term(place, known):
-    said = lostmotion.diagnose(place / "case.toml", place / "result", registry=known)
+    said = lostmotion.diagnose(place / "case.toml", out=place / "result", registry=known).to_dict()
     assert "guest_drag@ground" in said["provenance"]["settings"]["terms"]
     assert json.loads((place / "result" / "diagnosis.json").read_text())["title"] == "case"
 
@@ -84,9 +90,9 @@ def test_diagnose_knows_the_term(place, known):
 @pytest.mark.slow
 def test_analyse_uses_every_method(place, known):
     said = lostmotion.analyse(
-        place / "recording.csv", place / "motion", columns="position", embedder="guest_pair", denoiser="guest_mean",
+        place / "recording.csv", out=place / "motion", columns="position", embedder="guest_pair", denoiser="guest_mean",
         quantifiers="guest_crest", surrogates="guest_shuffle", draws=19, registry=known,
-    )  # fmt: skip
+    ).to_dict()  # fmt: skip
     assert said["others"][-1]["name"] == "guest_crest"
     assert said["others"][-1]["status"] == "ok"
     assert [test["method"] for test in said["surrogates"]] == ["guest_shuffle"]

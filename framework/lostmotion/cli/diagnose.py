@@ -18,10 +18,12 @@ from lostmotion.cli._progress import counted, progress
         "lostmotion --plugin my_terms.py diagnose case.toml --out result --seed 1",
         "lostmotion diagnose pump.toml crane.toml --out results --jobs 2",
         "lostmotion diagnose run1.csv --model lin_backlash     a case is written first, as `init` does",
+        "lostmotion diagnose run1.csv --model \"m*x'' + c*x' + k*x = force\"",
     )
 )
 @click.argument("cases", metavar="CASE.toml...", nargs=-1, required=True, type=click.Path(path_type=Path))
-@click.option("--model", type=PluginName("model"), default="", help="The model, where a recording is given.")
+@click.option("--model", type=PluginName("model"), default="", help="The model, or equations of"
+              " motion, where a recording is given.")  # fmt: skip
 @on_a_trial
 @click.pass_context
 def command(ctx: click.Context, /, cases: tuple[Path, ...], out: Path, model: str, **given: Any) -> None:

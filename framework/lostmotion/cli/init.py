@@ -30,7 +30,8 @@ from lostmotion.cli._lazy import PluginName, examples, plain, registry_of
 @click.option("--unit", "units", metavar="COLUMN=UNIT", multiple=True, help="The unit of a column; again for more.")
 @click.option("--factor", "factors", metavar="COLUMN=NUMBER", multiple=True, help="What a column is multiplied by"
               " before its unit, as newtons per volt.")  # fmt: skip
-@click.option("--model", type=PluginName("model"), default="", help="The model of the machine; `plugins` lists them.")
+@click.option("--model", type=PluginName("model"), default="", help="The model of the machine; `plugins` lists"
+              " them. Or equations of motion, with semicolons between them.")  # fmt: skip
 @click.option("--force", is_flag=True, help="Write over a case that is there.")
 @click.pass_context
 def command(

@@ -102,9 +102,7 @@ def _channel(
     """Return an input or a sensor; one without a unit, or with noise of an unknown kind, is refused."""
     unit = units.get(column, units.get(key))
     if unit is None:
-        raise DataError(
-            f"the {role} {key!r} (column {column!r}) has no unit: add units = {{{column!r}: 'N'}} or the like"
-        )
+        raise DataError(f"the {role} {key!r} has no unit: add units = {{{column!r}: 'N'}} or the like")
     if role == "input" and not names_quantity(key):
         raise DataError(f"{key!r} is no input of a model: wanted a name such as 'force' or 'base_acceleration'")
     asked = (noise or {}).get(key, "white")

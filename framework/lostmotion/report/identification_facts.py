@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -13,6 +13,9 @@ from lostmotion.report.posteriors import words_of
 from lostmotion.report.words import Scale, readable, spoken
 from lostmotion.results import Array
 from lostmotion.storage import load_arrays, load_json, require_files
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 AGAIN = "run `lostmotion identify` again"
 MOST = 8
@@ -66,6 +69,10 @@ def read_sampled(folder: Path) -> Sampled:
     """Return what `lostmotion identify` wrote into a folder."""
     require_files(folder, ["identification.json", "posterior.nc"], "lostmotion identify CASE.toml")
     facts = load_json(folder / "identification.json", AGAIN)
-    data = load_arrays(folder / "posterior.nc", AGAIN, group="posterior")
+    return sampled_of(facts, load_arrays(folder / "posterior.nc", AGAIN, group="posterior"))
+
+
+def sampled_of(facts: Mapping[str, Any], data: xr.Dataset) -> Sampled:
+    """Return facts and draws, the group `posterior`, as figures and page take them."""
     draws = {str(name): np.asarray(v.values, dtype=float) for name, v in data.data_vars.items()}
     return Sampled(facts, draws, {str(n): str(v.attrs.get("units", "1")) for n, v in data.data_vars.items()})

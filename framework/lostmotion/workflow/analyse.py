@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import asdict, dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -22,7 +22,7 @@ from lostmotion.stages.denoise import Denoised, denoise
 from lostmotion.stages.embed import embed
 from lostmotion.stages.quantify import quantify
 from lostmotion.stages.surrogates import SurrogateTest, surrogate_test
-from lostmotion.storage import folder_for, save_arrays, save_json
+from lostmotion.storage import dataset_of, folder_for, save_datasets, save_json
 from lostmotion.workflow.analysis_arrays import arrays_of
 from lostmotion.workflow.analysis_words import statement
 from lostmotion.workflow.beat import Beat, Evidence, beat_of, returns
@@ -30,6 +30,9 @@ from lostmotion.workflow.motion import Verdict, judged
 from lostmotion.workflow.signs import CYCLES
 from lostmotion.workflow.source import Source, Wanted, source_of
 from lostmotion.workflow.vetting import Guests
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 Say = Callable[[str], None]
 EXPONENT, DIMENSION, ENTROPY = "lyapunov_kantz", "correlation_dimension", "correlation_entropy"
@@ -100,18 +103,26 @@ def run_analysis(
     source = source_of(path, Wanted(request.columns, request.rate, request.every), registry)
     _require_known(registry, request)
     folder = folder_for(out)
-    analysis = analyse(source, registry, request, say)
+    content, arrays = told_of(source, registry, request, say)
     say("report")
+    save_datasets(folder / "analysis.nc", {None: arrays})
+    save_json(folder / "analysis.json", content)
+    write_analysis(folder)
+    return content
+
+
+def told_of(
+    source: Source, registry: Registry, request: Request, say: Say = lambda _step: None
+) -> tuple[dict[str, Any], xr.Dataset]:
+    """Return the content of `analysis.json` and the arrays behind it; nothing is written."""
+    analysis = analyse(source, registry, request, say)
     settings = {k: v for k, v in asdict(request).items() if k not in ("jobs", "seed")}
     content = {
         **statement(analysis),
         "provenance": provenance("analyse", settings, request.seed, {**registry.origins(), **source.inputs}),
     }
     variables, coords = arrays_of(analysis)
-    save_arrays(folder / "analysis.nc", variables, coords, {"title": source.title})
-    save_json(folder / "analysis.json", content)
-    write_analysis(folder)
-    return content
+    return content, dataset_of(variables, coords, {"title": source.title})
 
 
 def analyse(source: Source, registry: Registry, request: Request, say: Say = lambda _step: None) -> Analysis:

@@ -8,10 +8,12 @@ import os
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from lostmotion.case import WRITTEN
 from lostmotion.contracts import Array, Model
 from lostmotion.errors import CaseError
 from lostmotion.parts import Param
@@ -22,6 +24,7 @@ from lostmotion.registry import Registry
 from lostmotion.signals import refined_period
 from lostmotion.workflow.prepare import prepare
 from lostmotion.workflow.vetting import sound
+from lostmotion.written import Written, model_of
 
 WIDE = 10.0
 """A prior reaches this factor below and above what a straight line through the spectra says."""
@@ -31,7 +34,6 @@ HEARD = 1e-3
 """Lines of the drive count from this share of the strongest on."""
 SPRUNG = 0.02
 """A spring is told from this share of the drive on."""
-INERTIA = "m"
 Waves = NDArray[np.complex128]
 POWERS = {"position": 0, "velocity": 1, "acceleration": 2}
 
@@ -73,11 +75,21 @@ def begun(
     """
     outline, gains = outlined(path, wishes), factors or {}
     scales = scales_of(outline, gains)
-    machine = sound(registry, "model", model or _model_for(outline, scales))
+    machine = (
+        _machine(registry, model) if "=" in model else sound(registry, "model", model or _model_for(outline, scales))
+    )
     _check(outline, machine)
     text = _text(outline, machine, scales, gains, Path(os.path.relpath(path, out.parent)).as_posix())
     out.write_text(text, encoding="utf-8")
     return Draft(text, tuple(_found(outline, machine, gains)), tuple(prepare(out, registry).notes))
+
+
+def _machine(registry: Registry, equations: str) -> Model:
+    """Return a model that is written down, several equations with semicolons between them; the registry learns it."""
+    cls: Any = model_of([text.strip() for text in equations.split(";") if text.strip()])
+    registry.add(cls, WRITTEN)
+    machine: Model = cls()
+    return machine
 
 
 def _model_for(outline: Outline, scales: Scales) -> str:
@@ -111,20 +123,26 @@ def input_of(outline: Outline) -> str:
 
 def scales_of(outline: Outline, factors: Mapping[str, float]) -> Scales:
     """Return the natural sizes of a recording, and mass, damping and stiffness of the straight line through spectra."""
-    seen = _filled(outline.response, factors)
-    spectrum, omega = _spectrum(seen, outline.dt)
-    power = POWERS.get(outline.response.kind, 0)
+    drive = outline.drive
+    pushed = _filled(drive, factors) if drive is not None and drive.kind == "force" else None
+    return sizes_of(_filled(outline.response, factors), outline.response.kind, pushed, outline.dt)
+
+
+def sizes_of(seen: Array, kind: str, pushed: Array | None, dt: float) -> Scales:
+    """Return the natural sizes of a response (n,) of a kind, and of the force (n,) that drives it, both without mean.
+
+    They are in SI units, and sampled every `dt` s.
+    """
+    spectrum, omega = _spectrum(seen, dt)
+    power = POWERS.get(kind, 0)
     motion = spectrum / (1j * omega) ** power
     weight = np.abs(motion) ** 2
     mean = float(np.sum(weight * omega**2) / np.sum(weight))
     pace = math.sqrt(mean) if mean > 0.0 else 1.0
     length = float(np.std(seen)) / pace**power
-    drive = outline.drive
-    if drive is None or drive.kind != "force":
+    if pushed is None:
         return Scales(length * pace**2, length, 1.0 / pace, {})
-    pushed = _filled(drive, factors)
-    force = float(np.std(pushed))
-    return Scales(force, length, 1.0 / pace, _straight(_spectrum(pushed, outline.dt)[0], motion, omega))
+    return Scales(float(np.std(pushed)), length, 1.0 / pace, _straight(_spectrum(pushed, dt)[0], motion, omega))
 
 
 def _filled(column: Column, factors: Mapping[str, float]) -> Array:
@@ -167,10 +185,17 @@ def _text(outline: Outline, machine: Model, scales: Scales, factors: Mapping[str
         *_channels(outline, factors),
         "",
         "[model]",
-        f'name = "{machine.name}"  # `lostmotion plugins show {machine.name}` tells what it is',
+        _named(machine),
         "",
     )
     return "\n".join([*head, *_parameters(outline, machine, scales)]) + "\n"
+
+
+def _named(machine: Model) -> str:
+    """Return the line that says which model it is."""
+    if isinstance(machine, Written):
+        return f"equations = [{', '.join(_quoted(text) for text in machine.equations)}]"
+    return f'name = "{machine.name}"  # `lostmotion plugins show {machine.name}` tells what it is'
 
 
 def _quoted(text: str) -> str:
@@ -220,26 +245,36 @@ def _parameters(outline: Outline, machine: Model, scales: Scales) -> Iterator[st
     """Yield what is known and what is to be estimated; without a force the inertia has to be known."""
     motion = "rotation" if outline.response.turns else "translation"
     forced = "force" in (outline.response.kind, outline.drive.kind if outline.drive else "")
-    known = [p for p in machine.params if (p.name == INERTIA and not forced) or p.scale != "log"]
+    known, ranges = guesses(machine, scales, forced=forced)
+    params = {param.name: param for param in machine.params}
     if known:
         yield "[model.known]"
-        for param in known:
-            unit = param.dimension.unit(motion)
-            value, why = (
-                ("1.0", "only ratios to it can be told: put the true one")
-                if param.scale == "log"
-                else ("0.0", param.meaning)
-            )
-            yield f"{param.name} = {value}  # {unit}: {why}"
+        for name, (value, why) in known.items():
+            yield f"{name} = {value}  # {params[name].dimension.unit(motion)}: {why}"
         yield ""
     yield "[model.estimate]  # wide priors; what a data sheet says belongs into [model.known]"
-    for param in machine.params:
-        if param not in known:
-            low, high, why = _range(param, scales, forced)
-            yield (
-                f'{param.name} = {{ low = {_figures(low)}, high = {_figures(high)}, scale = "log" }}'
-                f"  # {param.dimension.unit(motion)}: {param.meaning}, {why}"
-            )
+    for name, (low, high, why) in ranges.items():
+        yield (
+            f'{name} = {{ low = {_figures(low)}, high = {_figures(high)}, scale = "log" }}'
+            f"  # {params[name].dimension.unit(motion)}: {params[name].meaning}, {why}"
+        )
+
+
+def guesses(
+    machine: Model, scales: Scales, *, forced: bool
+) -> tuple[dict[str, tuple[float, str]], dict[str, tuple[float, float, str]]]:
+    """Return values of parameters that have to be known, and ranges of all others, each with the reason.
+
+    Without a force only ratios to the inertia can be told. All parameters of equations are estimated, as positive.
+    """
+    inertia = machine.interfaces[0].inertia
+    told = isinstance(machine, Written)
+    known = {
+        p.name: (1.0, "only ratios to it can be told: put the true one") if p.scale == "log" else (0.0, p.meaning)
+        for p in machine.params
+        if (p.name == inertia and not forced) or (p.scale != "log" and not told)
+    }
+    return known, {p.name: _range(p, scales, forced) for p in machine.params if p.name not in known}
 
 
 def _range(param: Param, scales: Scales, forced: bool) -> tuple[float, float, str]:
@@ -269,7 +304,7 @@ def _found(outline: Outline, machine: Model, factors: Mapping[str, float]) -> It
         yield f"the drive repeats every {period:.4g} s" if period else "the drive does not repeat"
     else:
         yield "nothing looks like a drive, so this is taken for a free decay: if there is one, give --drive COLUMN"
-    yield f"model: {machine.name}"
+    yield f"model: {'; '.join(machine.equations) if isinstance(machine, Written) else machine.name}"
 
 
 def _described(column: Column, outline: Outline) -> str:

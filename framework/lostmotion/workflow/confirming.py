@@ -17,6 +17,7 @@ from lostmotion.inference.fit import Fit
 from lostmotion.inference.gauges import APART
 from lostmotion.inference.natural import term_of
 from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.problem import RANDOM
 from lostmotion.quantities import TIME
 from lostmotion.stages.compare import CHANCE, confirmed, pieces_of, run_errors
 from lostmotion.stages.diagnose import Diagnosis
@@ -73,16 +74,23 @@ def predicted_better(outcome: Outcome, observations: Sequence[Observation]) -> F
 def _others(selection: Selection, here: Visit) -> list[Visit]:
     """Return the sets of most weight of each size up to that of a chosen one, but for this one and the empty set.
 
-    One that wins less than `PART` of what the chosen one wins on the fitted data does not explain these.
+    One that wins less than `PART` of what the chosen one wins on the fitted data does not explain these, nor does one
+    that leaves more of a random force than the nominal model.
     """
     found, nothing = [], selection.visits[frozenset()].weight
     least = nothing + PART * max(here.weight - nothing, 0.0)
     for size in range(1, len(here.terms) + 1):
         same = [v for v in selection.visits.values() if len(v.terms) == size and v.terms != here.terms]
         same = [v for v in same if v.fit.status != "diverged" and not v.terms & selection.declined]
-        same = [v for v in same if v.weight > least]
+        same = [v for v in same if v.weight > least and _level(v.fit) <= _level(selection.nominal)]
         found += sorted(same, key=lambda v: -v.weight)[:ASKED]
     return found
+
+
+def _level(fit: Fit) -> float:
+    """Return the log level of the random force of a fit; minus infinity where it has none."""
+    keys = fit.problem.keys
+    return float(fit.theta[keys.index(RANDOM)]) if RANDOM in keys else -math.inf
 
 
 def _right(d: Diagnosis, here: Visit) -> bool:

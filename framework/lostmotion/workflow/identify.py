@@ -28,7 +28,7 @@ from lostmotion.study.inversion import Inversion, predicted
 from lostmotion.workflow.identification_words import modes_said, statement
 from lostmotion.workflow.levels import Survey, derived, quantifier_task
 from lostmotion.workflow.notes import fleeting
-from lostmotion.workflow.prepare import case_of, prepared_of
+from lostmotion.workflow.prepare import Prepared, case_of, prepared_of
 from lostmotion.workflow.trajectory import best_fits, chosen_terms, doubts, task_for
 from lostmotion.workflow.vetting import within_numbers
 
@@ -81,18 +81,33 @@ def run_identification(
     A chain that an interrupted run has left there is continued.
     """
     watch(0, "reading the case")
-    case, rng = case_of(path, registry), np.random.default_rng(order.seed)
-    route = route_of(case, order)
-    way = (_by_trajectory if route == "trajectory" else _by_quantifiers)(case, out, registry, (order, rng, watch))
+    done = identified(case_of(path, registry), None, out, registry, order, watch)
+    watch(0, "report")
+    _write(out, done)
+    return done
+
+
+def identified(
+    case: CaseFile,
+    prepared: Prepared | None,
+    out: Path,
+    registry: Registry,
+    order: Order,
+    watch: Watch = lambda _steps, _says: None,
+) -> Identified:
+    """Return what was identified of a case, `prepared` where its recordings are at hand; the chain is kept in `out`."""
+    rng = np.random.default_rng(order.seed)
+    route = "trajectory" if prepared else route_of(case, order)
+    asked = (order, rng, watch)
+    if route == "trajectory":
+        way = _by_trajectory(prepared or prepared_of(case, registry), out, registry, asked)
+    else:
+        way = _by_quantifiers(case, out, registry, asked)
     if order.fresh:
         (out / CHAIN).unlink(missing_ok=True)
     begin = time.perf_counter()
     result = identify(way.task, rng=rng, plan=order.plan, watch=watch, keep=out / CHAIN)
-    seconds = time.perf_counter() - begin
-    watch(0, "report")
-    content = _content(result, route, way)
-    _write(out, result, content)
-    return Identified(result, content, seconds)
+    return Identified(result, _content(result, route, way), time.perf_counter() - begin)
 
 
 def route_of(case: CaseFile, order: Order) -> str:
@@ -107,9 +122,9 @@ def route_of(case: CaseFile, order: Order) -> str:
 Asked = tuple[Order, np.random.Generator, Watch]
 
 
-def _by_trajectory(case: CaseFile, out: Path, registry: Registry, asked: Asked) -> Way:
+def _by_trajectory(prepared: Prepared, out: Path, registry: Registry, asked: Asked) -> Way:
     order, rng, watch = asked
-    prepared = prepared_of(case, registry)
+    case = prepared.case
     terms = chosen_terms(prepared, order.terms, registry)
     folder_for(out)
     watch(0, "looking for the maximum")
@@ -180,9 +195,18 @@ def _content(result: Identification, route: str, way: Way) -> dict[str, Any]:
     return {**statement(result, route), **way.facts, **way.more(result)}
 
 
-def _write(folder: Path, result: Identification, content: Mapping[str, Any]) -> None:
-    attrs = {"title": content["title"], "model": content["model"], "converged": int(result.converged)}
-    told = result.inference_data(attrs)
+def inference_of(done: Identified) -> Any:
+    """Return the draws of an identification as ArviZ's `InferenceData`."""
+    attrs = {
+        "title": done.content["title"],
+        "model": done.content["model"],
+        "converged": int(done.result.converged),
+    }
+    return done.result.inference_data(attrs)
+
+
+def _write(folder: Path, done: Identified) -> None:
+    told, content = inference_of(done), done.content
     save_datasets(folder / "posterior.nc", {name: told[name] for name in told.groups()}, told.attrs)
     save_json(folder / "identification.json", content)
     write_identification(folder)

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from lostmotion.case import CaseFile
 from lostmotion.errors import CaseError, DataError, nearest
 from lostmotion.provenance import digest
-from lostmotion.recording import Table, load_recording, read_table
+from lostmotion.recording import Recording, Table, load_recording, read_table
 from lostmotion.recording.timing import Clock, check_step, even_clock, resampled
 from lostmotion.recording.units import seconds, time_unit
 from lostmotion.registry import Registry
@@ -83,24 +83,31 @@ def _of_case(case: CaseFile, wanted: Wanted) -> Source:
             f"{case.title!r} has no recording or sensor {asked!r}{nearest(asked, known)}: it has {', '.join(known)}"
         )
     chosen = case.recordings[names.index(asked) if asked in names else 0]
-    recording = load_recording(chosen, case.folder)
-    notes = list(recording.notes)
+    notes = []
     if len(names) > 1 and asked not in names:
         notes.append(f"The first of {len(names)} recordings is analysed: name another one with --column.")
     if len(sensors) > 1 and asked not in sensors:
         notes.append(f"The first of {len(sensors)} sensors is analysed: name another one with --column.")
-    response = recording.sensors[sensors.index(asked) if asked in sensors else 0]
+    recording = load_recording(chosen, case.folder)
+    found = source_in(recording, sensors.index(asked) if asked in sensors else 0)
+    inputs = {"case": case.digest, **found.inputs}
+    return replace(found, title=case.title, inputs=inputs, notes=(*found.notes, *notes))
+
+
+def source_in(recording: Recording, sensor: int = 0) -> Source:
+    """Return one sensor of a recording, by its number, as the channel to look at: its longest stretch without a gap."""
+    notes, response = list(recording.notes), recording.sensors[sensor]
     every = _paced(np.asarray(response))
     x = np.asarray(response)[every]
     keep = _whole_stretch(x, notes)
     return Source(
-        title=case.title,
+        title=recording.name,
         x=x[keep],
         dt=recording.dt * (every.step or 1),
         unit=str(response.attrs["units"]),
         label=str(response.attrs["quantity"]),
         excitation=np.asarray(recording.inputs[0])[every][keep] if recording.inputs else None,
-        inputs={"case": case.digest, recording.name: recording.digest},
+        inputs={recording.name: recording.digest},
         notes=tuple(notes),
     )
 

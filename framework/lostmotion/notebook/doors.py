@@ -1,0 +1,287 @@
+"""The commands as functions of objects: `lostmotion.diagnose(case)`, and the same on paths.
+
+Each takes the registry of this process unless it is handed another one: what `registry.default().add(...)` or
+`add_file` has put into it is used everywhere. No file is written unless `out` names a folder.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import fields
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from lostmotion.case import Prior
+from lostmotion.contracts import Model
+from lostmotion.errors import CaseError, DataError, nearest
+from lostmotion.notebook.analysis import AnalysisResult, load_analysis
+from lostmotion.notebook.case import Case, model
+from lostmotion.notebook.diagnosis import DiagnosisResult, load_diagnosis
+from lostmotion.notebook.posterior import IdentificationResult, load_identification
+from lostmotion.recording import Recording
+from lostmotion.recording.checks import filled
+from lostmotion.registry import Registry, default
+from lostmotion.workflow import simulate as _simulate
+
+if TYPE_CHECKING:
+    import xarray
+
+Modelled = Model | type[Model] | str | Sequence[str]
+KINDS: Mapping[str, Callable[[Path], Any]] = {
+    "diagnosis.json": load_diagnosis,
+    "identification.json": load_identification,
+    "analysis.json": load_analysis,
+}
+
+
+def diagnose(
+    case: Case | Recording | str | Path,
+    model: Modelled | None = None,
+    *,
+    known: Mapping[str, float] | None = None,
+    estimate: Mapping[str, Prior] | None = None,
+    terms: str | Sequence[str] = "all",
+    seed: int = 0,
+    jobs: int = 2,
+    progress: bool = True,
+    out: str | Path | None = None,
+    registry: Registry | None = None,
+) -> DiagnosisResult:
+    """Return what the model of a case leaves out, as an object that shows itself in words.
+
+    `case` is a `Case`, the path of a `case.toml`, or a `Recording` with a `model` beside it: then `known` and
+    `estimate` hold values and priors, and what neither names has a wide prior about the natural sizes of the
+    recording. `terms` is "all", or the names of those that are to be tried. The same `seed` gives the same answer.
+    Raises `CaseError` or `DataError` where the case cannot be used, with the sentence of the command line.
+    """
+    from lostmotion.workflow.diagnose import told_of
+
+    known_to = registry or default()
+    asked = case_from(case, model, known, estimate, known_to)
+    with shown("diagnose", progress) as say:
+        told = told_of(asked.prepared(known_to, terms), known_to, seed=seed, jobs=jobs, say=say)
+    found = DiagnosisResult(told.content, told.arrays, known_to, told)
+    if out is not None:
+        found.save(out)
+    return found
+
+
+def identify(
+    case: Case | Recording | str | Path,
+    model: Modelled | None = None,
+    *,
+    known: Mapping[str, float] | None = None,
+    estimate: Mapping[str, Prior] | None = None,
+    terms: str | Iterable[str] = (),
+    progress: bool = True,
+    out: str | Path | None = None,
+    registry: Registry | None = None,
+    seed: int = 0,
+    jobs: int = 2,
+    route: str | None = None,
+    maps: Iterable[str | Path] = (),
+    fresh: bool = False,
+    **sampling: Any,
+) -> IdentificationResult:
+    """Return the posterior of the parameters of a case, with the `terms` added to its model.
+
+    `case` is as for `diagnose`. `sampling` holds fields of `Plan`: `ess`, `max_steps`, `walkers`. `out` is a folder for
+    the results, in which an interrupted chain is continued. `route` is "trajectory" or "quantifiers", which needs the
+    path of a case, and may be given `maps`.
+    """
+    from lostmotion.stages.identify import Plan
+    from lostmotion.workflow.identify import Order, identified, inference_of, route_of
+    from lostmotion.workflow.prepare import case_of
+
+    options = [f.name for f in fields(Plan)]
+    if unknown := [name for name in sampling if name not in options]:
+        raise CaseError(
+            f"identify has no option {unknown[0]!r}{nearest(unknown[0], options)}: it has {', '.join(options)}"
+        )
+    known_to = registry or default()
+    order = Order(_texts(terms), seed, jobs, Plan(**sampling), route, tuple(Path(m) for m in maps), fresh)
+    with shown("identify", progress) as say, TemporaryDirectory() as spare:
+        place = Path(out) if out is not None else Path(spare)
+        file = case_of(Path(case), known_to) if isinstance(case, str | Path) else None
+        if file is not None and route_of(file, order) == "quantifiers":
+            done = identified(file, None, place, known_to, order, lambda _steps, says: say(says))
+        else:
+            prepared = case_from(case, model, known, estimate, known_to).prepared(known_to)
+            done = identified(prepared.case, prepared, place, known_to, order, lambda _steps, says: say(says))
+        data = inference_of(done)
+    found = IdentificationResult(done.content, {name: data[name] for name in data.groups()})
+    if out is not None:
+        found.save(out)
+    return found
+
+
+def analyse(
+    recording: Recording | str | Path,
+    *,
+    channel: str | None = None,
+    progress: bool = True,
+    out: str | Path | None = None,
+    registry: Registry | None = None,
+    **asked: Any,
+) -> AnalysisResult:
+    """Return what kind of motion a recording shows: chaos or noise, exponents, dimensions and surrogate tests.
+
+    `channel` names a sensor of a `Recording`; of a file `columns` does. `asked` are fields of `Request`: `rate`,
+    `embedder`, `denoiser`, `quantifiers`, `surrogates`, `draws`, `unit`, `seed`, `jobs` ...
+    """
+    from lostmotion.workflow.analyse import Request, told_of
+    from lostmotion.workflow.source import Wanted, source_in, source_of
+
+    options = [f.name for f in fields(Request)]
+    if unknown := [name for name in asked if name not in options]:
+        raise CaseError(
+            f"analyse has no option {unknown[0]!r}{nearest(unknown[0], options)}: it has {', '.join(options)}"
+        )
+    several: dict[str, Any] = {
+        key: _texts(asked.pop(key)) for key in ("columns", "quantifiers", "surrogates") if key in asked
+    }
+    request, known_to = Request(**several, **asked), registry or default()
+    if isinstance(recording, Recording):
+        source = source_in(recording, _sensor(recording, channel))
+    else:
+        wanted = Wanted(request.columns or _texts(channel or ()), request.rate, request.every)
+        source = source_of(Path(recording), wanted, known_to)
+    with shown("analyse", progress) as say:
+        content, arrays = told_of(source, known_to, request, say)
+    found = AnalysisResult(content, arrays)
+    if out is not None:
+        found.save(out)
+    return found
+
+
+def load(folder: str | Path) -> Any:
+    """Return the result that a command or `.save` has left in a folder: of a diagnosis, identification or analysis."""
+    place = Path(folder)
+    for name, reader in KINDS.items():
+        if (place / name).is_file():
+            return reader(place)
+    raise DataError(f"{place} holds no result: wanted a folder with {', '.join(KINDS)}")
+
+
+def simulate(
+    model: str,
+    *,
+    terms: str | Iterable[str] = (),
+    drives: str | Iterable[str],
+    motion: str | None = None,
+    registry: Registry | None = None,
+    out: str | Path | None = None,
+    values: Mapping[str, float],
+    **plan: Any,
+) -> _simulate.Table:
+    """Return the table of a simulated machine, each column (samples,) by name; `out` (.csv, .nc) is written too.
+
+    `plan` holds `duration` (s) and `rate` (Hz), and `initial`, `noise` and `seed` if need be; `motion` ("translation",
+    "rotation") turns a model that can be either.
+    """
+    known = registry or default()
+    assembly, told = _simulate.assembly_of(known, model, _texts(terms), motion)
+    used = [("model", model), *(("term", term.name) for term in assembly.terms)]
+    every = {**told, **values}
+    table = _simulate.simulate(_simulate.Plan(assembly, every, _texts(drives), origins=known.origins(*used), **plan))
+    if out is not None:
+        table.save(Path(out))
+    return table
+
+
+def map(
+    model: str,
+    out: str | Path,
+    *,
+    axes: str | Iterable[str],
+    registry: Registry | None = None,
+    jobs: int = 0,
+    refine: int = 0,
+    fresh: bool = False,
+    **asked: Any,
+) -> xarray.Dataset:
+    """Return a map of a model over `axes` (NAME=LOW:HIGH:N), kept in `out` (.zarr, .nc), which it goes on from.
+
+    `asked` are the further fields of `Request`: `sets`, `terms`, `drive`, `quantities`, `periods`, `starts` ...
+    """
+    from lostmotion.study.sweep import Crew
+    from lostmotion.workflow.mapping import How, Request, make_map, study_of
+
+    several: dict[str, Any] = {key: _texts(asked.pop(key)) for key in ("sets", "terms", "quantities") if key in asked}
+    study = study_of(Request(model, _texts(axes), **several, **asked), registry or default())
+    return make_map(study, Path(out), How(Crew(jobs), refine, fresh), lambda _done, _of: None).dataset
+
+
+def case_from(
+    case: Case | Recording | str | Path,
+    given: Modelled | None,
+    known: Mapping[str, float] | None,
+    estimate: Mapping[str, Prior] | None,
+    registry: Registry,
+) -> Case:
+    """Return the case that is meant: itself, that of a file, or one of a recording and a model."""
+    if isinstance(case, Recording):
+        if given is None:
+            raise CaseError("a recording alone is no case: give a model beside it, such as lm.model('lin_backlash')")
+        return _guessed(case, given, known or {}, estimate or {})
+    if given is not None or known or estimate:
+        raise CaseError("the case has a model, known values and priors: change them there, or hand over a recording")
+    return case if isinstance(case, Case) else Case.read(case, registry)
+
+
+def _guessed(recording: Recording, given: Modelled, known: Mapping[str, float], estimate: Mapping[str, Prior]) -> Case:
+    """Return a case of a recording, with wide priors of what is neither known nor estimated."""
+    from lostmotion.workflow.beginning import guesses, sizes_of
+
+    first = Case(recording, given, known, estimate, recording.name)
+    machine: Any = first.model
+    response = recording.sensors[0]
+    pushed = next((a for a in recording.inputs if a.attrs["quantity"] in ("force", "torque")), None)
+    seen, quantity = filled(np.asarray(response, dtype=float)), str(response.attrs["quantity"])
+    drive = None if pushed is None else np.asarray(pushed) - float(pushed.mean())
+    scales = sizes_of(seen - seen.mean(), quantity, drive, recording.dt)
+    values, ranges = guesses(machine, scales, forced=pushed is not None or quantity in ("force", "torque"))
+    told = {name: value for name, (value, _) in values.items() if name not in estimate}
+    priors = {name: Prior(low=a, high=b, scale="log") for name, (a, b, _) in ranges.items() if name not in known}
+    return Case(recording, machine, {**told, **known}, {**priors, **estimate}, recording.name)
+
+
+def _sensor(recording: Recording, channel: str | None) -> int:
+    """Return the number of the sensor of that name or channel; the first where none is named."""
+    if channel is None:
+        return 0
+    for kind in ("sensor", "of"):
+        for number, array in enumerate(recording.sensors):
+            if array.attrs[kind] == channel:
+                return number
+    known = [str(array.attrs["sensor"] or array.attrs["of"]) for array in recording.sensors]
+    raise DataError(f"{recording.name} has no sensor {channel!r}{nearest(channel, known)}: it has {', '.join(known)}")
+
+
+@contextmanager
+def shown(what: str, wanted: bool) -> Iterator[Callable[[str], None]]:
+    """Yield a function that is told each step, and shows it as a line in a terminal or a notebook."""
+    from tqdm.auto import tqdm
+
+    if not wanted:
+        yield lambda _step: None
+        return
+    with tqdm(desc=what, unit=" steps", leave=False, bar_format="{desc} {elapsed} · {n} steps · {postfix}") as bar:
+
+        def say(step: str) -> None:
+            bar.set_postfix_str(step, refresh=False)
+            bar.update()
+
+        yield say
+
+
+def _texts(given: str | Iterable[str]) -> tuple[str, ...]:
+    """Return texts as a tuple; one by itself may be given bare."""
+    return (given,) if isinstance(given, str) else tuple(given)
+
+
+__all__ = ["Case", "Modelled", "analyse", "diagnose", "identify", "load", "map", "model", "simulate"]
