@@ -20,6 +20,11 @@ from numpy.typing import NDArray
 
 from lostmotion.errors import DataError, LostMotionError, PlaceError
 
+try:
+    import fcntl
+except ImportError:  # a system that is not of the family of Unix
+    fcntl = None  # type: ignore[assignment]
+
 if TYPE_CHECKING:
     import xarray as xr
 
@@ -103,6 +108,8 @@ def _clear(path: Path) -> None:
 
 
 def _alive(process: int) -> bool:
+    if os.name == "nt":  # there a signal 0 is sent, and ends the process
+        return True
     try:
         os.kill(process, 0)
     except (ProcessLookupError, OverflowError):
@@ -112,8 +119,29 @@ def _alive(process: int) -> bool:
     return True
 
 
+@contextmanager
+def held(place: Path) -> Iterator[None]:
+    """Hold a folder or file for this process; the hold ends with the process, however that ends.
+
+    `DataError` where another process has it. A system without such holds goes on without one.
+    """
+    if fcntl is None:
+        yield
+        return
+    handle = os.open(place, os.O_RDONLY)
+    try:
+        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        yield
+    except BlockingIOError as err:
+        raise DataError(f"{place} is being written by another run: wait for it, or stop it") from err
+    finally:
+        os.close(handle)
+
+
 def _settle(path: Path) -> None:
-    """Wait until a file or folder is on the disk."""
+    """Wait until a file or folder is on the disk; not every system can open a folder for that."""
+    if os.name == "nt" and path.is_dir():
+        return
     handle = os.open(path, os.O_RDONLY)
     try:
         os.fsync(handle)

@@ -29,6 +29,11 @@ SQUARES = 6
 """Whole powers up to this one are products."""
 
 
+def is_equation(text: str) -> bool:
+    """Return whether a text is meant as an equation, and not as the name of a model."""
+    return bool(set("=*/+^('’′") & set(text))
+
+
 def model_of(
     texts: str | Sequence[str],
     *,

@@ -9,7 +9,6 @@ stand. The copy finds quicker functions under `math`, which the compiler can tur
 from __future__ import annotations
 
 import dis
-import getpass
 import hashlib
 import math
 import os
@@ -98,7 +97,7 @@ _MATH.__dict__.update({name: elementary.QUICK.get(f, f) if callable(f) else f fo
 def folders() -> tuple[Path, ...]:
     """Return where compiled kernels may be kept, best first."""
     home = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "lostmotion"
-    spare = Path(tempfile.gettempdir()) / f"lostmotion-{getpass.getuser()}"
+    spare = Path(tempfile.gettempdir()) / f"lostmotion-{Path.home().name}"
     return (Path(os.environ["LOSTMOTION_CACHE"]), spare) if "LOSTMOTION_CACHE" in os.environ else (home, spare)
 
 

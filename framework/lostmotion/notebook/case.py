@@ -19,7 +19,7 @@ from lostmotion.registry import Registry, default
 from lostmotion.storage import folder_for, save_table
 from lostmotion.workflow.prepare import Prepared, case_of, prepared_with
 from lostmotion.workflow.vetting import sound
-from lostmotion.written import Written, model_of
+from lostmotion.written import Written, is_equation, model_of
 
 
 def model(text: str | Sequence[str], **options: Any) -> Model:
@@ -29,7 +29,7 @@ def model(text: str | Sequence[str], **options: Any) -> Model:
     `PluginError` for an unknown name and `CaseError` for what cannot be read, with the place.
     """
     lines = (text,) if isinstance(text, str) else tuple(text)
-    if len(lines) == 1 and "=" not in lines[0]:
+    if len(lines) == 1 and not is_equation(lines[0]):
         found: Model = default().make("model", lines[0], **options)
         return found
     cls: Any = model_of(lines, **options)
@@ -77,7 +77,7 @@ class Case:
         if isinstance(given, type):
             return given()
         lines = (given,) if isinstance(given, str) else tuple(given)
-        if len(lines) == 1 and "=" not in lines[0]:
+        if len(lines) == 1 and not is_equation(lines[0]):
             return model(lines[0])
         return model(lines, params=[key for key in (*self.known, *self.estimate) if "." not in key])
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 import io
 import json
 import os
-import resource
 import signal
 import subprocess
 import sys
@@ -19,6 +18,11 @@ import numpy as np
 
 from lostmotion.errors import DataError
 from lostmotion.recording.table import Table
+
+try:
+    import resource
+except ImportError:  # a system that is not of the family of Unix: its readers have no bounds but the clock
+    resource = None  # type: ignore[assignment]
 
 ALONE = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "MKL_NUM_THREADS": "1"}
 """The environment of a process that has one core to itself."""
@@ -60,7 +64,11 @@ def _said(path: Path, what: str) -> bytes:
         raise DataError(done.stderr.decode("utf-8", "replace"))
     if done.returncode < 0:
         number = -done.returncode
-        why = "it takes too long" if number == signal.SIGXCPU else f"its reader died of {signal.Signals(number).name}"
+        why = (
+            "it takes too long"
+            if number == getattr(signal, "SIGXCPU", None)
+            else f"its reader died of {signal.Signals(number).name}"
+        )
         raise _given_up(path, why)
     said = done.stderr.decode("utf-8", "replace").strip().splitlines()
     raise _given_up(path, said[-1][:120] if said else f"its reader ended with {done.returncode}")
@@ -91,7 +99,9 @@ def _unpacked(raw: bytes) -> Table:
 
 
 def _limit(path: Path) -> None:
-    """Bound what this process may take from here on."""
+    """Bound what this process may take from here on, where the system can."""
+    if resource is None:
+        return
     used = resource.getrusage(resource.RUSAGE_SELF)
     seconds = int(used.ru_utime + used.ru_stime) + SECONDS + path.stat().st_size // SPEED
     for what, most in ((resource.RLIMIT_CPU, seconds), (resource.RLIMIT_AS, MEMORY), (resource.RLIMIT_CORE, 0)):

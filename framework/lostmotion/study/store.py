@@ -5,9 +5,7 @@
 
 from __future__ import annotations
 
-import fcntl
 import json
-import os
 import shutil
 import warnings
 from collections.abc import Iterator, Mapping
@@ -24,7 +22,7 @@ from lostmotion.errors import DataError
 from lostmotion.recording.apart import walk_apart
 from lostmotion.recording.limits import check_bytes
 from lostmotion.recording.unpacked import RESULT, check_hdf5
-from lostmotion.storage import save_datasets, writing
+from lostmotion.storage import held, save_datasets, writing
 from lostmotion.study.cells import Columns
 from lostmotion.study.layout import SCHEMA, Layout
 
@@ -42,7 +40,7 @@ def opened(path: Path, layout: Layout, *, fresh: bool = False) -> Iterator[Store
     _clear(path, fresh)
     if not path.exists():
         _make(path, layout)
-    with _held(path):
+    with held(path):
         _require_same(path, _require_ours(path), layout)
         for rest in path.rglob("*.partial"):
             rest.unlink()
@@ -227,16 +225,3 @@ def _differences(was: Any, now: Any) -> str:
         return f"{was}, now {now}"
     keys = [key for key in sorted({*was, *now}) if was.get(key) != now.get(key)]
     return ", ".join(f"{key} {was.get(key)}, now {now.get(key)}" for key in keys)
-
-
-@contextmanager
-def _held(path: Path) -> Iterator[None]:
-    """Hold the store for this process; the hold ends with the process, however that ends."""
-    handle = os.open(path, os.O_RDONLY)
-    try:
-        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        yield
-    except BlockingIOError as err:
-        raise DataError(f"{path} is being written by another run: wait for it, or stop it") from err
-    finally:
-        os.close(handle)

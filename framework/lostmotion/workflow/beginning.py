@@ -24,7 +24,7 @@ from lostmotion.registry import Registry
 from lostmotion.signals import refined_period
 from lostmotion.workflow.prepare import prepare
 from lostmotion.workflow.vetting import sound
-from lostmotion.written import Written, model_of
+from lostmotion.written import Written, is_equation, model_of
 
 WIDE = 10.0
 """A prior reaches this factor below and above what a straight line through the spectra says."""
@@ -76,7 +76,9 @@ def begun(
     outline, gains = outlined(path, wishes), factors or {}
     scales = scales_of(outline, gains)
     machine = (
-        _machine(registry, model) if "=" in model else sound(registry, "model", model or _model_for(outline, scales))
+        _machine(registry, model)
+        if is_equation(model)
+        else sound(registry, "model", model or _model_for(outline, scales))
     )
     _check(outline, machine)
     text = _text(outline, machine, scales, gains, Path(os.path.relpath(path, out.parent)).as_posix())

@@ -5,7 +5,6 @@ A trial knows its number and nothing of the others, so neither their order nor t
 
 from __future__ import annotations
 
-import fcntl
 import json
 import multiprocessing
 import os
@@ -15,7 +14,7 @@ import threading
 from collections.abc import Callable, Generator, Iterator, Mapping
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import closing, contextmanager
+from contextlib import closing
 from dataclasses import dataclass
 from functools import partial
 from multiprocessing.connection import Connection
@@ -24,7 +23,7 @@ from typing import Any
 
 from lostmotion.errors import DataError
 from lostmotion.recording.apart import ALONE
-from lostmotion.storage import folder_for, load_json, save_json, writing
+from lostmotion.storage import folder_for, held, load_json, save_json, writing
 
 SCHEMA = "lostmotion.campaign/1"
 PLAN = "campaign.json"
@@ -58,7 +57,7 @@ class Campaign:
 
         Raises `DataError` when the folder holds a campaign of another identity, unless a `fresh` one is wanted.
         """
-        with _held(folder_for(folder)):
+        with held(folder_for(folder)):
             self._claim(folder, fresh)
             missing = [k for k in range(self.count) if _outcome(folder, k) is None]
             say(self.count - len(missing), self.count)
@@ -213,16 +212,3 @@ def _differences(old: Mapping[str, Any], new: Mapping[str, Any]) -> Iterator[str
             yield from _differences(was, now)
         elif was != now:
             yield f"{key} {was}, now {now}"
-
-
-@contextmanager
-def _held(folder: Path) -> Iterator[None]:
-    """Hold the folder for this process; the hold ends with the process, however that ends."""
-    handle = os.open(folder, os.O_RDONLY)
-    try:
-        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        yield
-    except BlockingIOError as err:
-        raise DataError(f"{folder} is being written by another run: wait for it, or stop it") from err
-    finally:
-        os.close(handle)
