@@ -115,5 +115,6 @@ def test_names_tell_quantities_and_units():
     assert unit_of("base_acceleration", "rotation") == "rad/s^2"
     assert unit_of("base_velocity", "translation") == "m/s"
     assert [unit_of("torque", m) for m in ("translation", "rotation")] == ["N", "N m"]
-    with pytest.raises(DataError, match="'heat' ends in none of position, velocity"):
-        quantity_of("heat")
+    assert [quantity_of(name) for name in ("x2", "elbow", "x2.velocity")] == ["position", "position", "velocity"]
+    with pytest.raises(DataError, match=r"'positon' ends in none of position, velocity.*did you mean 'position'"):
+        quantity_of("positon")

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import inspect
+
 import numpy as np
 import pytest
 import xarray as xr
@@ -155,7 +157,9 @@ def test_a_folder_without_a_result_is_refused(tmp_path):
         lm.load(tmp_path)
 
 
-@pytest.mark.parametrize("call", [lm.identify, lm.analyse])
-def test_an_unknown_option_is_refused_with_the_nearest(call):
-    with pytest.raises(lm.LostMotionError, match="did you mean"):
-        call(recording(), drawss=3) if call is lm.analyse else call(recording(), "linear_oscillator", max_step=3)
+@pytest.mark.parametrize("name", lm.__all__)
+def test_no_option_hides_behind_stars(name):
+    door = getattr(lm, name)
+    if not isinstance(door, type) and name != "model":
+        kinds = [one.kind for one in inspect.signature(door).parameters.values()]
+        assert inspect.Parameter.VAR_KEYWORD not in kinds

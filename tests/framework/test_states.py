@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from lostmotion.inference.course import Visit
+from lostmotion.likelihood.problem import RANDOM
 from lostmotion.stages.compare import CHANCE, PARTS, confirmed, worsened
 from lostmotion.workflow import confirming
 from lostmotion.workflow import diagnose as ways
@@ -162,10 +163,14 @@ def test_of_sets_that_explain_what_was_fitted_the_one_that_predicts_better_is_ta
     """Ten parts, errors that scatter by 5 %: one set errs by a tenth less, one by a tenth more, one as much. Seeded."""
     rng = np.random.default_rng(3)
     factors = {"ab": 1.0, "a": 0.9, "b": 1.1, "c": 1.0}
-    visits = {frozenset(k): Visit(frozenset(k), SimpleNamespace(status="converged", key=k), 0.0) for k in factors}
+    problem = SimpleNamespace(keys=(RANDOM,))
+    fits = {k: SimpleNamespace(status="converged", key=k, problem=problem, theta=np.zeros(1)) for k in ("", *factors)}
+    visits = {frozenset(k): Visit(frozenset(k), fit, 50.0 if k else 0.0) for k, fit in fits.items()}
     chosen = SimpleNamespace(problem=SimpleNamespace(active=frozenset("ab")))
     expansion = SimpleNamespace(promise=lambda worse: SimpleNamespace(gain=1e3))
-    selection = SimpleNamespace(chosen=chosen, visits=visits, declined=set(), expansion=lambda visit: expansion)
+    selection = SimpleNamespace(
+        chosen=chosen, nominal=fits[""], visits=visits, declined=set(), expansion=lambda visit: expansion
+    )
     d = SimpleNamespace(selection=selection, learned=None, unexplained=True, held=())
     scatter = np.exp(0.05 * rng.standard_normal((len(factors), PARTS)))
     told = {k: factors[k] * row for k, row in zip(factors, scatter, strict=True)}
@@ -173,6 +178,11 @@ def test_of_sets_that_explain_what_was_fitted_the_one_that_predicts_better_is_ta
     monkeypatch.setattr(confirming, "run_errors", lambda fit, pieces, horizon: told[fit.key])
     outcome = SimpleNamespace(diagnosis=d, horizon=None)
     assert confirming.predicted_better(outcome, ()).key == "a"
+    fits["a"].theta = np.ones(1)
+    assert confirming.predicted_better(outcome, ()) is None, "it leaves more of a random force than the nominal model"
+    fits["a"].theta, visits[frozenset("a")] = np.zeros(1), Visit(frozenset("a"), fits["a"], 20.0)
+    assert confirming.predicted_better(outcome, ()) is None, "it explains less than half of what the chosen set does"
+    visits[frozenset("a")] = Visit(frozenset("a"), fits["a"], 50.0)
     told["a"] = told["c"]
     assert confirming.predicted_better(outcome, ()) is None
     told["a"], d.unexplained = 0.5 * told["c"], False

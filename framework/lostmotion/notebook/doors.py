@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import fields
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
@@ -85,25 +84,22 @@ def identify(
     route: str | None = None,
     maps: Iterable[str | Path] = (),
     fresh: bool = False,
-    **sampling: Any,
+    ess: float = 1000.0,
+    max_steps: int = 2000,
+    walkers: int | None = None,
 ) -> IdentificationResult:
     """Return the posterior of the parameters of a case, with the `terms` added to its model.
 
-    `case` is as for `diagnose`. `sampling` holds fields of `Plan`: `ess`, `max_steps`, `walkers`. `out` is a folder for
-    the results, in which an interrupted chain is continued. `route` is "trajectory" or "quantifiers", which needs the
-    path of a case, and may be given `maps`.
+    `case` is as for `diagnose`. It is sampled until the effective sample size is `ess`, at most `max_steps` of each of
+    the `walkers`. `out` is a folder for the results, in which an interrupted chain is continued unless a `fresh` one is
+    wanted. `route` is "trajectory" or "quantifiers", which needs the path of a case, and may be given `maps`.
     """
     from lostmotion.stages.identify import Plan
     from lostmotion.workflow.identify import Order, identified, inference_of, route_of
     from lostmotion.workflow.prepare import case_of
 
-    options = [f.name for f in fields(Plan)]
-    if unknown := [name for name in sampling if name not in options]:
-        raise CaseError(
-            f"identify has no option {unknown[0]!r}{nearest(unknown[0], options)}: it has {', '.join(options)}"
-        )
     known_to = registry or default()
-    order = Order(_texts(terms), seed, jobs, Plan(**sampling), route, tuple(Path(m) for m in maps), fresh)
+    order = Order(_texts(terms), seed, jobs, Plan(ess, max_steps, walkers), route, tuple(Path(m) for m in maps), fresh)
     with shown("identify", progress) as say, TemporaryDirectory() as spare:
         place = Path(out) if out is not None else Path(spare)
         file = case_of(Path(case), known_to) if isinstance(case, str | Path) else None
@@ -126,25 +122,44 @@ def analyse(
     progress: bool = True,
     out: str | Path | None = None,
     registry: Registry | None = None,
-    **asked: Any,
+    columns: str | Iterable[str] = (),
+    rate: float | None = None,
+    every: int = 1,
+    period: float | None = None,
+    embedder: str = "ami_cao",
+    denoiser: str | None = None,
+    quantifiers: str | Iterable[str] = (),
+    surrogates: str | Iterable[str] = (),
+    draws: int = 99,
+    unit: str = "1/s",
+    seed: int = 0,
+    jobs: int = 2,
 ) -> AnalysisResult:
     """Return what kind of motion a recording shows: chaos or noise, exponents, dimensions and surrogate tests.
 
-    `channel` names a sensor of a `Recording`; of a file `columns` does. `asked` are fields of `Request`: `rate`,
-    `embedder`, `denoiser`, `quantifiers`, `surrogates`, `draws`, `unit`, `seed`, `jobs` ...
+    `channel` names a sensor of a `Recording`; of a file `columns` does, and `rate` (Hz) where it has no time. One
+    sample in `every` is kept. `period` (s) is that of the drive, where it is known. Plugins are named: `embedder`,
+    `denoiser` ("none" for none, None where the noise decides), further `quantifiers`, and `surrogates` with the number
+    of their `draws`. `unit` is that of exponents: "1/s", "bit/s", "1/period" or "bit/period".
     """
     from lostmotion.workflow.analyse import Request, told_of
     from lostmotion.workflow.source import Wanted, source_in, source_of
 
-    options = [f.name for f in fields(Request)]
-    if unknown := [name for name in asked if name not in options]:
-        raise CaseError(
-            f"analyse has no option {unknown[0]!r}{nearest(unknown[0], options)}: it has {', '.join(options)}"
-        )
-    several: dict[str, Any] = {
-        key: _texts(asked.pop(key)) for key in ("columns", "quantifiers", "surrogates") if key in asked
-    }
-    request, known_to = Request(**several, **asked), registry or default()
+    request = Request(
+        columns=_texts(columns),
+        rate=rate,
+        every=every,
+        period=period,
+        embedder=embedder,
+        denoiser=denoiser,
+        quantifiers=_texts(quantifiers),
+        surrogates=_texts(surrogates),
+        draws=draws,
+        unit=unit,
+        seed=seed,
+        jobs=jobs,
+    )
+    known_to = registry or default()
     if isinstance(recording, Recording):
         source = source_in(recording, _sensor(recording, channel))
     else:
@@ -176,18 +191,26 @@ def simulate(
     registry: Registry | None = None,
     out: str | Path | None = None,
     values: Mapping[str, float],
-    **plan: Any,
+    duration: float,
+    rate: float,
+    initial: Mapping[str, float] | None = None,
+    noise: float = 0.0,
+    seed: int = 0,
 ) -> _simulate.Table:
     """Return the table of a simulated machine, each column (samples,) by name; `out` (.csv, .nc) is written too.
 
-    `plan` holds `duration` (s) and `rate` (Hz), and `initial`, `noise` and `seed` if need be; `motion` ("translation",
-    "rotation") turns a model that can be either.
+    `values` and `initial` are those of parameters and states by name, in SI; `drives` texts such as
+    "harmonic:amplitude=1,frequency=2", `duration` in s, `rate` in Hz. `noise` is white, as a share of the standard
+    deviation of each channel. `motion` ("translation", "rotation") turns a model that can be either.
     """
     known = registry or default()
     assembly, told = _simulate.assembly_of(known, model, _texts(terms), motion)
     used = [("model", model), *(("term", term.name) for term in assembly.terms)]
     every = {**told, **values}
-    table = _simulate.simulate(_simulate.Plan(assembly, every, _texts(drives), origins=known.origins(*used), **plan))
+    plan = _simulate.Plan(
+        assembly, every, _texts(drives), duration, rate, initial or {}, noise, seed, known.origins(*used)
+    )
+    table = _simulate.simulate(plan)
     if out is not None:
         table.save(Path(out))
     return table
@@ -202,17 +225,42 @@ def map(
     jobs: int = 0,
     refine: int = 0,
     fresh: bool = False,
-    **asked: Any,
+    sets: str | Iterable[str] = (),
+    terms: str | Iterable[str] = (),
+    drive: str = "",
+    quantities: str | Iterable[str] = (),
+    periods: int = 600,
+    transient: int = 200,
+    starts: int = 4,
+    unit: str = "nat",
+    seed: int = 0,
+    motion: str | None = None,
 ) -> xarray.Dataset:
     """Return a map of a model over `axes` (NAME=LOW:HIGH:N), kept in `out` (.zarr, .nc), which it goes on from.
 
-    `asked` are the further fields of `Request`: `sets`, `terms`, `drive`, `quantities`, `periods`, `starts` ...
+    `sets` are NAME=VALUE, `terms` NAME[@PLACE][:param=value], `drive` a text such as "harmonic:amplitude=1,omega=2",
+    `quantities` names of quantifiers beside the largest exponent, in `unit` ("nat" or "bit") a second. Each cell has so
+    many `starts`, followed over so many `periods`, of which a `transient` is left out; `refine` halves cells so often
+    where neighbours differ.
     """
     from lostmotion.study.sweep import Crew
     from lostmotion.workflow.mapping import How, Request, make_map, study_of
 
-    several: dict[str, Any] = {key: _texts(asked.pop(key)) for key in ("sets", "terms", "quantities") if key in asked}
-    study = study_of(Request(model, _texts(axes), **several, **asked), registry or default())
+    request = Request(
+        model,
+        _texts(axes),
+        periods,
+        transient,
+        starts,
+        _texts(sets),
+        _texts(terms),
+        drive,
+        _texts(quantities),
+        unit,
+        seed,
+        motion,
+    )
+    study = study_of(request, registry or default())
     return make_map(study, Path(out), How(Crew(jobs), refine, fresh), lambda _done, _of: None).dataset
 
 

@@ -1,4 +1,4 @@
-"""The model and the quantifier that the README writes are used by the commands that it writes beside them."""
+"""The model and the quantifier that a page of the docs writes are used by the commands beside them."""
 
 import re
 import sys
@@ -12,12 +12,12 @@ from lostmotion import registry
 from lostmotion.cli import main
 from lostmotion.study.store import load
 
-README = (Path(__file__).parents[2] / "README.md").read_text(encoding="utf-8")
+PAGE = (Path(__file__).parents[2] / "docs" / "howto" / "plugins-in-a-file.md").read_text(encoding="utf-8")
 
 
 def blocks(language, holds):
-    """Return the code blocks of the README in a language that hold a text."""
-    found = re.findall(rf"^```{language}\n(.*?)^```$", README, flags=re.MULTILINE | re.DOTALL)
+    """Return the code blocks of the page in a language that hold a text."""
+    found = re.findall(rf"^```{language}\n(.*?)^```$", PAGE, flags=re.MULTILINE | re.DOTALL)
     return [block for block in found if holds in block]
 
 
