@@ -12,6 +12,16 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 
+def rounded(value: float, digits: int = 2) -> str:
+    """Return a number with so many digits as people write it: 130, and not 1.3e+02."""
+    return f"{float(f'{value:.{digits}g}'):g}"
+
+
+def percent(share: float) -> str:
+    """Return a share in per cent, with two digits or, from one on, whole."""
+    return f"{rounded(100.0 * share)} %" if abs(share) < 1.0 else f"{100.0 * share:.0f} %"
+
+
 @dataclass(frozen=True)
 class Interval:
     """Median and central 95 % interval of a number, with its unit."""

@@ -206,11 +206,11 @@ def finite(value: object) -> object:
 
 @dataclass(frozen=True)
 class Column:
-    """An array to be stored: its dimensions, values, SI unit and what it is."""
+    """An array to be stored: its dimensions, values, SI unit and what it is; what is empty is not written."""
 
     dims: tuple[str, ...]
     values: object
-    unit: str = "1"
+    unit: str = ""
     long_name: str = ""
 
 
@@ -219,7 +219,8 @@ def dataset_of(arrays: Mapping[str, Column], coords: Mapping[str, Column], attrs
     import xarray
 
     def laid_out(table: Mapping[str, Column]) -> dict[str, tuple[tuple[str, ...], object, dict[str, str]]]:
-        return {k: (c.dims, c.values, {"units": c.unit, "long_name": c.long_name or k}) for k, c in table.items()}
+        told = {k: {"units": c.unit, "long_name": c.long_name} for k, c in table.items()}
+        return {k: (c.dims, c.values, {a: v for a, v in told[k].items() if v}) for k, c in table.items()}
 
     return xarray.Dataset(laid_out(arrays), laid_out(coords), dict(attrs))
 

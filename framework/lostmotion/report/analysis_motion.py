@@ -144,11 +144,15 @@ def spectra(evidence: Evidence) -> Figure | None:
     """Return the spectral density with the harmonics of the drive marked, and what is left without them."""
     if not evidence.has("frequency", "density"):
         return None
-    figure = style.blank(3.4)
-    axes = figure.subplots()
     frequency, density = evidence.arrays["frequency"], evidence.arrays["density"]
     rest = evidence.has("density_rest")
     kept = frequency <= _highest(frequency, density, period_of(evidence))
+    whole = bool(kept.all())
+    figure = style.blank(3.4 if whole else 5.0)
+    rows = 1 if whole else 2
+    axes, *below = figure.subplots(rows, 1, squeeze=False, height_ratios=[2.2, 1][:rows])[:, 0]
+    for panel in below:
+        _draw_whole(panel, frequency, density, float(frequency[kept][-1]))
     words = "as recorded" if rest else None
     axes.plot(*_outline(frequency[kept], density[kept]), color=style.BEFORE if rest else style.RECORDED,
               linewidth=0.8, label=words)  # fmt: skip
@@ -166,6 +170,16 @@ def spectra(evidence: Evidence) -> Figure | None:
     if rest:
         style.legend_above(figure, axes)
     return figure
+
+
+def _draw_whole(axes: Axes, frequency: Array, density: Array, edge: float) -> None:
+    """Draw the spectrum up to half the sampling rate, with the part that stands large above shaded."""
+    axes.plot(*_outline(frequency, density), color=style.QUIET, linewidth=0.7)
+    axes.axvspan(0.0, edge, color=style.SHADE, zorder=0)
+    axes.set_yscale("log")
+    axes.set_xlim(0.0, float(frequency[-1]))
+    style.log_ticks(axes.yaxis, 4)
+    axes.set_xlabel("frequency (Hz), up to half the sampling rate; shaded: the part above")
 
 
 def spectra_caption(evidence: Evidence) -> str:
@@ -194,7 +208,7 @@ def _outline(frequency: Array, density: Array) -> tuple[Array, Array]:
 
 
 def _highest(frequency: Array, density: Array, period: float) -> float:
-    """Return the frequency (Hz) up to which the spectrum is worth a look: nearly all of its power, and eight lines."""
+    """Return the frequency (Hz) up to which the spectrum is drawn large: nearly all of its power, and eight lines."""
     power = np.cumsum(np.nan_to_num(density))
     most = frequency[min(int(np.searchsorted(power, 0.99 * power[-1])), len(frequency) - 1)]
     lines = 8.5 / period if math.isfinite(period) else 0.0

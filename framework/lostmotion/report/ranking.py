@@ -39,7 +39,19 @@ def caption(evidence: Evidence) -> str:
     return (
         "Each candidate was fitted with all parameters of the model set free again. The bar is what the log evidence "
         "gains over the model as it stands; a gain of 5 is strong, and one near zero or below says that the term is "
-        "not needed. The column on the right is the posterior probability among all candidates." + cut + rest
+        "not needed. The column on the right is the posterior probability among all candidates, that is of the best sets"
+        f" of terms, each beside a small smooth force that nobody has named{_priced(evidence)}." + cut + rest
+    )
+
+
+def _priced(evidence: Evidence) -> str:
+    """Return what a term costs before the recording is seen, as the end of a sentence."""
+    prices = [float(entry["price"]) for entry in ranked(evidence) if entry.get("price") is not None]
+    if not prices:
+        return ""
+    span = f"{min(prices):.1f}" if max(prices) - min(prices) < 0.05 else f"{min(prices):.1f} to {max(prices):.1f}"
+    return (
+        f", and less the price of a term, which is {span} of log evidence: one of many, and more with more parameters"
     )
 
 

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from lostmotion.contracts import Array
+from lostmotion.inference.fit import Fit
 from lostmotion.quantities import unit_of
 from lostmotion.stages.diagnose import Diagnosis, Located, base_keys
 from lostmotion.storage import Column
@@ -14,6 +15,11 @@ from lostmotion.workflow.attractors import section
 from lostmotion.workflow.findings import Outcome
 
 PORTRAIT = 3000
+WHOSE = {
+    "recorded": "smoothed motion of the recording",
+    "before": "free run of the nominal model",
+    "after": "free run of the augmented model",
+}
 PREDICTED = "free-running prediction of the"
 
 
@@ -35,8 +41,16 @@ def arrays_of(outcome: Outcome, motions: Mapping[str, Array]) -> tuple[dict[str,
         "lag": Column(("lag",), np.arange(1, len(outcome.before.acf) + 1), "1", "lag in samples"),
         "parameter": Column(("parameter",), base_keys(d.before)),
         "parameter_after": Column(("parameter_after",), base_keys(d.after)),
+        "parameter_unit": Column(("parameter",), _units_of(d.before)),
+        "parameter_after_unit": Column(("parameter_after",), _units_of(d.after)),
     }
     return variables, coords
+
+
+def _units_of(fit: Fit) -> list[str]:
+    """Return the SI unit of each physical parameter of a fit."""
+    units = {free.key: free.unit for free in fit.problem.free}
+    return [units[key] for key in base_keys(fit)]
 
 
 def units_of(d: Diagnosis) -> dict[str, str]:
@@ -103,7 +117,7 @@ def _curves(d: Diagnosis) -> dict[str, Column]:
         return np.array([_padded(getattr(located.curves[n], part), width) for n in names])
 
     dims = ("covariate", "bin")
-    table = {"bin_center": Column(dims, stacked(d.located, "center"), "1", "middle of each bin, in covariate_unit")}
+    table = {"bin_center": Column(dims, stacked(d.located, "center"), "see covariate_unit", "middle of each bin")}
     table["covariate_unit"] = Column(("covariate",), [units[n] for n in names])
     for part in ("mean", "low", "high"):
         table[f"before_{part}"] = Column(dims, stacked(d.located, part), force, f"missing force, {part}")
@@ -125,7 +139,7 @@ def _growth(outcome: Outcome) -> dict[str, Column]:
     table = {
         "growth_before": Column(lead, outcome.before.growth, "1", said),
         "acf_before": Column(lag, outcome.before.acf, "1", "autocorrelation of standardised one-step errors"),
-        "acf_limit": Column((), 1.96 / np.sqrt(outcome.diagnosis.held[0].samples)),
+        "acf_limit": Column((), 1.96 / np.sqrt(outcome.diagnosis.held[0].samples), "1", "95 % bound of white errors"),
     }
     if outcome.diagnosis.found:
         table["growth_after"] = Column(lead, outcome.after.growth, "1", said)
@@ -134,9 +148,14 @@ def _growth(outcome: Outcome) -> dict[str, Column]:
 
 
 def _draws(outcome: Outcome) -> dict[str, Column]:
+    told = "draws of the parameters,"
     return {
-        "posterior_before": Column(("draw", "parameter"), outcome.draws_before),
-        "posterior_after": Column(("draw", "parameter_after"), outcome.draws_after),
+        "posterior_before": Column(
+            ("draw", "parameter"), outcome.draws_before, "see parameter_unit", f"{told} nominal model"
+        ),
+        "posterior_after": Column(
+            ("draw", "parameter_after"), outcome.draws_after, "see parameter_after_unit", f"{told} with what was found"
+        ),
     }
 
 
@@ -148,7 +167,8 @@ def _portraits(d: Diagnosis, motions: Mapping[str, Array]) -> dict[str, Column]:
         tail = states[-PORTRAIT:] if period else states[:: max(1, len(states) // PORTRAIT)]
         points = section(states, period) if period else None
         for axis, column, unit in (("x", 0, units["position"]), ("v", 1, units["velocity"])):
-            table[f"portrait_{name}_{axis}"] = Column(("portrait",), tail[:, column], unit)
+            table[f"portrait_{name}_{axis}"] = Column(("portrait",), tail[:, column], unit, WHOSE[name])
             if points is not None:
-                table[f"section_{name}_{axis}"] = Column(("section",), points[:, column], unit)
+                told = f"{WHOSE[name]}, once each drive period"
+                table[f"section_{name}_{axis}"] = Column(("section",), points[:, column], unit, told)
     return table

@@ -17,6 +17,7 @@ from lostmotion.likelihood.predict import free_run, observed
 from lostmotion.quantities import quantity_of, unit_of
 from lostmotion.recording.doubts import is_impulsive
 from lostmotion.report.words import readable, spoken
+from lostmotion.results import percent
 from lostmotion.signals.decay import Decay, decay_of
 from lostmotion.signals.impacts import hits_of, onsets_of
 from lostmotion.signals.trends import says
@@ -173,17 +174,11 @@ def _beside(who: str, seen: Decay, made: Decay | None) -> str:
     if math.isnan(loss):
         return f"{who} shares too few amplitudes with the recording to be compared"
     if loss < NEAR and pitch < CLOSE:
-        return (
-            f"{who} follows the recorded decrement within {_percent(loss)} and the frequency within {_percent(pitch)}"
-        )
+        return f"{who} follows the recorded decrement within {percent(loss)} and the frequency within {percent(pitch)}"
     return (
-        f"{who} decays with {_range(made.decrement, 'a decrement')}, up to {_percent(loss)} from the recorded one, and"
-        f" {_range(made.frequency, 'a frequency', ' Hz')}, up to {_percent(pitch)} from it"
+        f"{who} decays with {_range(made.decrement, 'a decrement')}, up to {percent(loss)} from the recorded one, and"
+        f" {_range(made.frequency, 'a frequency', ' Hz')}, up to {percent(pitch)} from it"
     )
-
-
-def _percent(share: float) -> str:
-    return f"{100.0 * share:.2g} %" if share < 1.0 else f"{100.0 * share:.0f} %"
 
 
 def _range(values: Array, what: str, unit: str = "") -> str:

@@ -16,7 +16,7 @@ from lostmotion.inference.mixture import draws
 from lostmotion.inference.natural import term_of
 from lostmotion.likelihood.predict import Horizon
 from lostmotion.quantities import unit_of
-from lostmotion.results import Interval
+from lostmotion.results import Interval, percent
 from lostmotion.stages.compare import Prediction
 from lostmotion.stages.diagnose import Diagnosis, base_keys
 from lostmotion.workflow.states import LIKELY, NAMED, OPEN, doubts_of, holds
@@ -119,7 +119,6 @@ def _entry(outcome: Outcome, key: str, after: Mapping[str, Interval]) -> dict[st
     if late:
         sentence += f", since {late}"
     share = float(np.max(np.abs(d.laws[key]))) / d.after.problem.scales.force
-    percent, is_sensor = f"{100.0 * share:.2g}" if share < 1.0 else f"{100.0 * share:.0f}", isinstance(term, SensorTerm)
     doubts = doubts_of(d, key) + [doubt for doubt in (outcome.unconfirmed.get(key), why) if doubt]
     return {
         "mechanism": term.name,
@@ -130,7 +129,9 @@ def _entry(outcome: Outcome, key: str, after: Mapping[str, Interval]) -> dict[st
         "parameters": {name: i.as_dict() for name, i in (own | _derived(outcome, term, held)).items()},
         "share_of_drive": share,
         **({"since": late.as_dict()} if late else {}),
-        "says": f"{sentence}." if is_sensor else f"{sentence}, up to {percent} % of {d.yardstick}.",
+        "says": f"{sentence}."
+        if isinstance(term, SensorTerm)
+        else f"{sentence}, up to {percent(share)} of {d.yardstick}.",
     }
 
 

@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 
 from lostmotion.contracts import Series
-from lostmotion.results import Estimate
+from lostmotion.results import Estimate, percent
 from lostmotion.workflow.beat import MOST_PERIODS, Evidence, returned, returns
 from lostmotion.workflow.signs import CYCLES, FEWEST_SAMPLES, Sign, State, grows, signs_of, turn_of
 
@@ -107,9 +107,9 @@ def _periodic(it: Weighed) -> Verdict | None:
     if not times or period is None:
         return None
     cycle = "each period" if times == 1 else f"every {times} periods"
-    noise = f"{100 * left:.2g} %"
+    noise = f"{percent(left)}"
     says = f"The motion repeats itself {cycle} of {period:.4g} s; {noise} of it does not repeat, no more than noise."
-    rests = f"return after {times} periods: {noise}, noise at most {100 * it.evidence.noise:.2g} %"
+    rests = f"return after {times} periods: {noise}, noise at most {percent(it.evidence.noise)}"
     return it.verdict("periodic", says + _all_the_same(it), _unless_growth(it), (rests,))
 
 
@@ -130,9 +130,9 @@ def _quasiperiodic(it: Weighed) -> Verdict | None:
         return it.verdict("undecided", says, "open")
     says = (
         f"Two frequencies, {pair}, and their combinations make up the motion; "
-        f"{100 * found['left']:.2g} % of it is left, no more than noise."
+        f"{percent(found['left'])} of it is left, no more than noise."
     )
-    rests = f"left by two tones: {100 * found['left']:.2g} %, noise at most {100 * evidence.noise:.2g} %"
+    rests = f"left by two tones: {percent(found['left'])}, noise at most {percent(evidence.noise)}"
     return it.verdict("quasiperiodic", says + _all_the_same(it), _unless_growth(it), (rests,))
 
 
@@ -196,7 +196,7 @@ def _jittering(it: Weighed) -> Verdict | None:
         else "neither a growth of small differences nor a dimension can be found in them"
     )
     says = (
-        f"The motion repeats itself with a period of {period:.4g} s but for random fluctuations of {100 * left:.2g} %: "
+        f"The motion repeats itself with a period of {period:.4g} s but for random fluctuations of {percent(left)}: "
         f"{why}."
     )
     return it.verdict("periodic", says + _all_the_same(it), "likely")

@@ -17,7 +17,7 @@ from lostmotion.contracts import Array
 from lostmotion.errors import CaseError
 from lostmotion.recording import Recording, load_recording
 from lostmotion.registry import Registry
-from lostmotion.results import Estimate
+from lostmotion.results import Estimate, percent
 from lostmotion.signals import checked, refined_period
 from lostmotion.stages.embed import embed
 from lostmotion.stages.quantify import quantify
@@ -139,7 +139,7 @@ def harmonic_of(signals: Signals) -> tuple[float, float]:
     rest = float(np.std(signals.u - waves @ found)) / max(float(np.std(signals.u)), 1e-300)
     if rest > HARMONIC:
         raise CaseError(
-            f"the excitation of {signals.name} is no sine: {100 * rest:.2g} % of it is left, {100 * HARMONIC:g} % at "
+            f"the excitation of {signals.name} is no sine: {percent(rest)} of it is left, {100 * HARMONIC:g} % at "
             "most are wanted by the quantifier route"
         )
     return float(math.hypot(found[0], found[1])), omega

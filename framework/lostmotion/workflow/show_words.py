@@ -8,7 +8,7 @@ from typing import Any
 
 from lostmotion.report.words import span
 
-LUCK = 0.01
+LUCK, DOUBTFUL = 0.01, 0.05
 TRANSIENT = "transient"
 """The status of a measure of attractors where the motion dies away: nothing is said of it."""
 Table = Mapping[str, Any]
@@ -72,6 +72,8 @@ def _apart(table: Table, last: str, strobed: bool) -> str:
     closing = "the floor is that between the halves of the recording"
     if entry["p"] < LUCK:
         return f"{opening}: farther apart than chance would have it (p = {entry['p']:.2g}); {closing}."
+    if entry["p"] < DOUBTFUL:
+        return f"{opening}: perhaps farther apart than chance would have it (p = {entry['p']:.2g}); {closing}."
     return f"{opening}: no farther apart than chance would have it (p = {entry['p']:.2g}); {closing}."
 
 
@@ -100,4 +102,6 @@ def _white(table: Table, last: str) -> str:
     p = _number(table, last, "whiteness", "p")
     if p < LUCK:
         return "Ljung-Box test of one-step errors: they still hold something that can be predicted."
+    if p < DOUBTFUL:
+        return f"Ljung-Box test of one-step errors: they may hold something that can be predicted (p = {p:.2g})."
     return "Ljung-Box test of one-step errors: they cannot be told from white noise."

@@ -12,7 +12,7 @@ from typing import Literal
 
 import numpy as np
 
-from lostmotion.results import Estimate
+from lostmotion.results import Estimate, percent
 from lostmotion.signals.tones import TwoTones, two_tones
 from lostmotion.stages.surrogates import SurrogateTest
 from lostmotion.workflow.beat import MOST_PERIODS, SLACK, Evidence, returned
@@ -94,15 +94,15 @@ def _return(evidence: Evidence) -> Sign:
     figures = {"miss": left, "noise": evidence.noise, "periods": many}
     if times:
         cycle = "each period" if times == 1 else f"every {times} periods"
-        return sign("against", f"The motion comes back {cycle}, but for {100 * left:.2g} % of its size.", **figures)
+        return sign("against", f"The motion comes back {cycle}, but for {percent(left)} of its size.", **figures)
     if tones := tones_of(evidence):
-        says = f"Two frequencies make up the motion, but for {100 * tones.left:.2g} % of its size."
+        says = f"Two frequencies make up the motion, but for {percent(tones.left)} of its size."
         return sign("against", says, second=tones.second, left=tones.left, **figures)
     if many < FEWEST_PERIODS:
         return sign("silent", f"The recording holds {many:.0f} periods, and {FEWEST_PERIODS} are wanted.", **figures)
     says = (
-        f"The motion does not come back within {MOST_PERIODS} periods: it misses by {100 * left:.2g} % of its size at "
-        f"best, and its noise is {100 * evidence.noise:.2g} % at most. Noise does not come back either."
+        f"The motion does not come back within {MOST_PERIODS} periods: it misses by {percent(left)} of its size at "
+        f"best, and its noise is {percent(evidence.noise)} at most. Noise does not come back either."
     )
     return sign("for", says, **figures)
 

@@ -11,11 +11,13 @@ import numpy as np
 from lostmotion.contracts import Array
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.natural import term_of
+from lostmotion.inference.prices import price_of
 from lostmotion.likelihood.system import key_of
 from lostmotion.quantities import quantity_of, unit_of
 from lostmotion.report.words import chance, span, spoken
+from lostmotion.results import rounded
 from lostmotion.stages.compare import Prediction
-from lostmotion.stages.diagnose import Diagnosis
+from lostmotion.stages.diagnose import Diagnosis, fitted_keys
 from lostmotion.workflow.findings import (
     Outcome,
     elsewhere,
@@ -29,6 +31,7 @@ from lostmotion.workflow.notes import drowned
 from lostmotion.workflow.sharings import shared_in
 from lostmotion.workflow.states import LIKELY, doubted, in_order, open_of
 from lostmotion.workflow.unknowns import unknown_odds, where
+from lostmotion.written import Written
 
 WORTH_NAMING = 0.01
 MOST_OPEN = 2
@@ -65,8 +68,10 @@ def verdict(outcome: Outcome) -> dict[str, Any]:
 
 
 def label(fit: Fit) -> str:
-    """Return the model with its terms as people write it."""
-    return " + ".join([fit.problem.system.model.name, *sorted(fit.problem.active)])
+    """Return the model with its terms as people write it: its name, or its equations."""
+    model = fit.problem.system.model
+    name = f"({'; '.join(model.equations)})" if isinstance(model, Written) else model.name
+    return " + ".join([name, *sorted(fit.problem.active)])
 
 
 def _setting(outcome: Outcome) -> dict[str, Any]:
@@ -100,11 +105,17 @@ def _setting(outcome: Outcome) -> dict[str, Any]:
     }
 
 
+CERTAIN, DOUBTFUL = 0.01, 0.05
+"""A p-value below the first is told as a finding, one below the second as a doubt."""
+
+
 def _white(p: float) -> str:
-    if p < 0.01:
+    if p < CERTAIN:
         return (
             f"One-step errors are not white (Ljung-Box {chance(p)}): they still hold something that can be predicted."
         )
+    if p < DOUBTFUL:
+        return f"One-step errors may hold something that can be predicted (Ljung-Box p = {p:.2g})."
     return f"One-step errors cannot be told from white noise (Ljung-Box p = {p:.2g})."
 
 
@@ -155,7 +166,7 @@ def told(fit: Fit, draws: Array) -> dict[str, dict[str, Any]]:
 
 
 def _ranking(d: Diagnosis, found: Sequence[dict[str, Any]], *, failed: bool) -> list[dict[str, Any]]:
-    """Return every candidate with its evidence and probability, and beside them "nothing missing" and "unknown".
+    """Return every candidate with its evidence, price and probability, beside them "nothing missing" and "unknown".
 
     A term that was found has the probability that is told of it. Where the model has `failed` on held-out data,
     something is missing, whatever the evidence says. "Unknown" is what the library does not explain: curves that were
@@ -165,7 +176,8 @@ def _ranking(d: Diagnosis, found: Sequence[dict[str, Any]], *, failed: bool) -> 
     unknown, gain = unknown_odds(d)
     unknown = 1.0 if failed and not d.found else unknown
     told = {(entry["mechanism"], entry["at"]): entry["probability"] for entry in found if "at" in entry}
-    rows = []
+    rows: list[dict[str, Any]] = []
+    many = len(fitted_keys(selection.nominal.problem.system))
     for term in selection.nominal.problem.system.terms:
         key = key_of(term)
         p = told[term.name, term.at] if key in d.named else selection.inclusion(key) * (1.0 - unknown)
@@ -175,6 +187,7 @@ def _ranking(d: Diagnosis, found: Sequence[dict[str, Any]], *, failed: bool) -> 
                 "at": term.at,
                 "log_evidence_gain": selection.gain(key),
                 "probability": p,
+                "price": price_of(term, many),
                 "fitted": frozenset({key}) in selection.visits,
             }
         )
@@ -276,16 +289,17 @@ def says(outcome: Outcome, found: list[dict[str, Any]], rest: Sequence[dict[str,
         opening.append(f"The model leaves out {'both' if len(found) == 2 else f'all {len(found)} of them'}.")
     old, new = _unexplained(d, after=False), _unexplained(d, after=True)
     errors = [fit[when]["heldout_nrmse"] for when in ("before", "after")]
+    sizes = [f"{rounded(one['rms'], 3)}" for one in (old, new)]
     verbs = ["rises" if new["rms"] > old["rms"] else "falls", " rises" if errors[1] > errors[0] else " falls"]
     if verbs[1].strip() == verbs[0]:
         verbs[1] = ""
     opening.append(
         f"With {'it' if len(found) == 1 else 'them'} the unexplained force{_taken_as(d)} {verbs[0]} from"
-        f" {old['rms']:.3g} to {new['rms']:.2g} {new['unit']} (rms), and the free-running prediction error of held-out"
+        f" {sizes[0]} to {sizes[1]} {new['unit']} (rms), and the free-running prediction error of held-out"
         f" data over {time}{verbs[1]} from {errors[0]:.1%} to {errors[1]:.1%} of the response; the noise alone is"
         f" {fit['noise_floor_nrmse']:.1%}."
     )
     opening += drowned(outcome)
     if d.unexplained:
-        opening.append(f"A force of {new['rms']:.2g} {new['unit']} rms remains that no term of the library explains.")
+        opening.append(f"A force of {sizes[1]} {new['unit']} rms remains that no term of the library explains.")
     return opening + left
