@@ -139,13 +139,13 @@ class Commands(Written):
 
 
 class Doors(Written):
-    """What `import lostmotion` offers by name, from its own list."""
+    """The functions that `import lostmotion` offers by name, from its own list; its classes have sections."""
 
     def lines(self) -> Iterator[str]:
         """Yield a directive for each name."""
         for name in lostmotion.__all__:
-            kind = "autoclass" if isinstance(getattr(lostmotion, name), type) else "autofunction"
-            yield from (f".. {kind}:: lostmotion.{name}", "")
+            if not isinstance(getattr(lostmotion, name), type):
+                yield from (f".. autofunction:: lostmotion.{name}", "")
 
 
 class Statuses(SphinxDirective):

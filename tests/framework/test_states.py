@@ -148,12 +148,12 @@ def test_what_makes_predictions_worse_is_taken_back_until_they_are_not(monkeypat
         return SimpleNamespace(diagnosis=d, before=prediction(0.3, [0.0]), after=prediction(errors[d.found], [0.0]))
 
     def simpler(d, rng):
-        return SimpleNamespace(found=d.found[:-1], withdrawn=(*d.withdrawn, d.found[-1]))
+        return SimpleNamespace(found=d.found[:-1], withdrawn=(*d.withdrawn, d.found[-1]), explains=True)
 
     monkeypatch.setattr(ways, "judged", judged)
     monkeypatch.setattr(ways, "simpler", simpler)
     monkeypatch.setattr(ways, "predicted_better", lambda outcome, observations: None)
-    start = SimpleNamespace(found=("a", "b", "curve"), withdrawn=())
+    start = SimpleNamespace(found=("a", "b", "curve"), withdrawn=(), explains=True)
     outcome = ways.upheld(start, SimpleNamespace(observations=()), np.random.default_rng(0))
     assert outcome.diagnosis.found == ("a",)
     assert outcome.diagnosis.withdrawn == ("curve", "b")

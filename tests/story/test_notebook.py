@@ -82,3 +82,19 @@ def test_the_posterior_agrees_with_the_diagnosis(run):
     force = space["posterior"].parameters["coulomb_friction.force"]
     assert 1.2 in force
     assert "coulomb_friction.force" in space["posterior"].to_arviz().posterior
+
+
+def test_the_posterior_serves_arviz(run):
+    """Blocks add up to the density that was sampled but for the priors, which are flat but for their coordinates."""
+    import arviz as az
+
+    data = run[0]["posterior"].to_arviz()
+    whole = data.log_likelihood["readings"].sum("block")
+    assert float((data.sample_stats["lp"] - whole).std()) < 0.1 * float(whole.std())
+    left_out = az.loo(data)
+    assert 1.0 < left_out.p_loo < 20.0
+    assert float(left_out.pareto_k.max()) < 0.7
+    inside = data.posterior_predictive["readings"].quantile([0.025, 0.975], dim=("chain", "draw"))
+    seen = data.observed_data["readings"]
+    assert 0.9 < float(((seen > inside[0]) & (seen < inside[1])).mean()) <= 1.0
+    assert {"c", "k"} <= set(data.prior.data_vars)

@@ -116,7 +116,8 @@ class Selection:
 
     `declined` names terms with evidence that was not believed, since what is left over has a memory. `rivals` holds the
     expansions of fits with the discrepancy that every name has to beat, `unbeaten` the terms that did not. `stopped`
-    says that the search ended at its bound.
+    says that the search ended at its bound. `withdrawn` are terms that held-out data spoke against: no set with one of
+    them is weighed.
     """
 
     nominal: Fit
@@ -127,6 +128,7 @@ class Selection:
     rivals: dict[frozenset[str], tuple[Fit, Expansion]] = field(default_factory=dict)
     unbeaten: set[str] = field(default_factory=set)
     stopped: bool = False
+    withdrawn: frozenset[str] = frozenset()
     smooth: dict[frozenset[str], tuple[Fit, Won | None]] = field(default_factory=dict)
     leads: dict[tuple[frozenset[str], frozenset[str]], Lead] = field(default_factory=dict)
     stood: dict[tuple[frozenset[str], frozenset[str]], tuple[Fit, Fit]] = field(default_factory=dict)
@@ -280,7 +282,7 @@ class Selection:
         that they come behind those, and weigh no more than the least of them. No set is ahead of a part of it by more
         than was confirmed.
         """
-        doubted = self.declined - self.chosen.problem.active
+        doubted = (self.declined | self.withdrawn) - self.chosen.problem.active
         believed = {k: v for k, v in self.visits.items() if not k & doubted}
         chosen = self.visits[self.chosen.problem.active]
         heights = {k: v.weight - chosen.weight for k, v in believed.items()}

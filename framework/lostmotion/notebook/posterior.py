@@ -119,5 +119,9 @@ class IdentificationResult:
 def load_identification(folder: Path) -> IdentificationResult:
     """Return the identification that was saved into a folder; `DataError` where it is absent or damaged."""
     content = load_json(folder / "identification.json", AGAIN)
-    groups = {name: load_arrays(folder / "posterior.nc", AGAIN, group=name) for name in ("posterior", "sample_stats")}
+    import h5netcdf
+
+    with h5netcdf.File(folder / "posterior.nc", "r") as file:
+        names = list(file.groups)
+    groups = {name: load_arrays(folder / "posterior.nc", AGAIN, group=name) for name in names}
     return IdentificationResult(content, groups)

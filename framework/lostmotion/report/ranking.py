@@ -39,8 +39,8 @@ def caption(evidence: Evidence) -> str:
     return (
         "Each candidate was fitted with all parameters of the model set free again. The bar is what the log evidence "
         "gains over the model as it stands; a gain of 5 is strong, and one near zero or below says that the term is "
-        "not needed. The column on the right is the posterior probability among all candidates, that is of the best sets"
-        f" of terms, each beside a small smooth force that nobody has named{_priced(evidence)}." + cut + rest
+        "not needed. The column on the right is the posterior probability among all candidates, that is of the best"
+        f" sets of terms, each beside a small smooth force that nobody has named{_priced(evidence)}." + cut + rest
     )
 
 

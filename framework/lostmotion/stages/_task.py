@@ -37,6 +37,10 @@ class Shown:
         """Return numbers in SI units of coordinates of any shape."""
         return np.asarray(self.factor * np.exp(self.power * coordinate) if self.power else coordinate)
 
+    def coordinate(self, value: Array) -> Array:
+        """Return coordinates of numbers in SI units of any shape."""
+        return np.asarray(np.log(value / self.factor) / self.power if self.power else value)
+
 
 @dataclass(frozen=True)
 class Task:
@@ -54,6 +58,10 @@ class Task:
     def values(self, coordinates: Array) -> Array:
         """Return coordinates (..., parameters) as numbers in SI units."""
         return np.stack([one.value(coordinates[..., i]) for i, one in enumerate(self.shown)], axis=-1)
+
+    def coordinates(self, values: Array) -> Array:
+        """Return the coordinates of numbers in SI units (..., parameters)."""
+        return np.stack([one.coordinate(values[..., i]) for i, one in enumerate(self.shown)], axis=-1)
 
 
 def task_of(fits: Sequence[Fit], digest: str = "") -> Task:

@@ -39,6 +39,8 @@ MANY = 2
 """So many terms together may stand in for one curve: then curves are tried although nothing is left over."""
 MARKED = 0.05
 """What marks in the stored values bring with them counts from this share of the noise variance on."""
+RISES = 1.02
+"""A missing force that rises by more than this factor is not explained by what was found."""
 LARGEST = 1e100
 """A missing force beyond this means that the filter ran away: its square could not be taken."""
 
@@ -119,6 +121,13 @@ class Diagnosis:
     def yardstick(self) -> str:
         """What forces are compared with: the drive, or where nothing drives the machine the force of its inertia."""
         return "the inertial force" if self.shown.free else "the drive"
+
+    @property
+    def explains(self) -> bool:
+        """Whether the force that is missing is no larger with what was found than with its forces taken out."""
+        if self.left is None:
+            return True
+        return float(np.std(self.left.missing.force)) <= RISES * float(np.std(self.located.missing.force))
 
     @property
     def unexplained(self) -> bool:
@@ -266,7 +275,7 @@ def _shrunk(selection: Selection, gone: str) -> Selection:
         price = price_of(term_of(chosen.problem, gone)[0], len(fitted_keys(chosen.problem.system)))
         dearer = chosen.log_evidence - visits[chosen.problem.active].weight
         visits = {**visits, terms: Visit(terms, less, less.log_evidence - dearer + price)}
-    return replace(selection, chosen=visits[terms].fit, visits=visits)
+    return replace(selection, chosen=visits[terms].fit, visits=visits, withdrawn=selection.withdrawn | {gone})
 
 
 def _check_moving(held: Sequence[Observation]) -> None:

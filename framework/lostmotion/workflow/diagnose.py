@@ -162,14 +162,14 @@ def upheld(diagnosis: Diagnosis, prepared: Prepared, rng: np.random.Generator, s
     """Return the diagnosis with its predictions, less what held-out data speak against.
 
     They have a veto: where free runs or one-step predictions are worse with what was found than without it, learned
-    curves are taken back first, then one term after the other, the least probable one first. And they choose among sets
-    of terms that explain the fitted data.
+    curves are taken back first, then one term after the other, the least probable one first. So it goes where the force
+    that is missing rises with what was found. And held-out data choose among sets that explain the fitted data.
     """
     outcome = judged(diagnosis, prepared, rng)
     if (better := predicted_better(outcome, prepared.observations)) is not None:
         say(f"held-out predictions with {' and '.join(sorted(better.problem.active))} instead")
         outcome = judged(instead(diagnosis, better, rng.spawn(1)[0]), prepared, rng)
-    while outcome.diagnosis.found and worsened(outcome.before, outcome.after):
+    while outcome.diagnosis.found and (worsened(outcome.before, outcome.after) or not outcome.diagnosis.explains):
         less = simpler(outcome.diagnosis, rng.spawn(1)[0])
         if less is None:
             break

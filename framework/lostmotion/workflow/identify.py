@@ -10,7 +10,7 @@ import time
 from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -28,9 +28,13 @@ from lostmotion.study.inversion import Inversion, predicted
 from lostmotion.workflow.identification_words import modes_said, statement
 from lostmotion.workflow.levels import Survey, derived, quantifier_task
 from lostmotion.workflow.notes import fleeting
+from lostmotion.workflow.predictive import groups_of
 from lostmotion.workflow.prepare import Prepared, case_of, prepared_of
 from lostmotion.workflow.trajectory import best_fits, chosen_terms, doubts, task_for
 from lostmotion.workflow.vetting import within_numbers
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 ROUTES = ("trajectory", "quantifiers")
 CHAIN = "chain.h5"
@@ -56,11 +60,12 @@ class Order:
 
 @dataclass(frozen=True)
 class Identified:
-    """An identification, the content of its JSON file, and the time (s) that the sampling took."""
+    """An identification, the content of its JSON file, the time (s) that the sampling took, and `groups` for ArviZ."""
 
     result: Identification
     content: Mapping[str, Any]
     seconds: float
+    groups: Mapping[str, xr.Dataset] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -107,7 +112,10 @@ def identified(
         (out / CHAIN).unlink(missing_ok=True)
     begin = time.perf_counter()
     result = identify(way.task, rng=rng, plan=order.plan, watch=watch, keep=out / CHAIN)
-    return Identified(result, _content(result, route, way), time.perf_counter() - begin)
+    seconds = time.perf_counter() - begin
+    watch(0, "what the posterior says of the readings")
+    groups = groups_of(way.task, result, case, np.random.default_rng([order.seed, 1]))
+    return Identified(result, _content(result, route, way), seconds, groups)
 
 
 def route_of(case: CaseFile, order: Order) -> str:
@@ -202,7 +210,10 @@ def inference_of(done: Identified) -> Any:
         "model": done.content["model"],
         "converged": int(done.result.converged),
     }
-    return done.result.inference_data(attrs)
+    data = done.result.inference_data(attrs)
+    if done.groups:
+        data.add_groups(dict(done.groups))
+    return data
 
 
 def _write(folder: Path, done: Identified) -> None:

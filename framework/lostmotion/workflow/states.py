@@ -124,7 +124,7 @@ def open_of(d: Diagnosis) -> list[dict[str, Any]]:
     What was found and taken back comes first: it came closest.
     """
     reasons = [
-        (set(d.withdrawn), "held-out data are predicted worse with it"),
+        (set(d.withdrawn), "held-out data are predicted worse with it, or more force is missing with it"),
         (d.selection.unbeaten, "a small smooth force that nobody has named explains as much"),
         (d.selection.declined, "what is left over has a memory, so that this gain is not believed"),
     ]
