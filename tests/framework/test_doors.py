@@ -61,6 +61,7 @@ def test_the_doors_open_when_they_are_used():
         lostmotion.nothing  # noqa: B018
 
 
+@pytest.mark.slow
 def test_identify_finds_the_damping_of_both_together(place, known):
     done = lostmotion.identify(
         place / "case.toml", out=place / "posterior", registry=known, ess=50, max_steps=400, seed=1, progress=False

@@ -83,6 +83,7 @@ def test_a_truth_counts_only_where_it_can_show_itself():
     assert (proposal.gain, proposal.repeat) == (60.0, 0.0)
 
 
+@pytest.mark.slow
 def test_a_louder_drive_is_taken_to_be_noisier(springs):
     *_, (truth, _) = springs
     observation = truth.problem.observations[0]

@@ -65,6 +65,7 @@ def ten(tmp_path_factory):
     return out
 
 
+@pytest.mark.slow
 def test_kinds_of_drives_take_turns(ten):
     kinds = [sealed(ten, number)["world"]["kind"] for number in range(10)]
     assert kinds == [*KINDS, *KINDS]

@@ -72,6 +72,7 @@ def test_a_package_that_does_not_import_is_among_what_was_set_aside(tmp_path, mo
     assert any("could not be imported: ModuleNotFoundError" in said for said in aside)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("cls", "why"), guests.METHODS, ids=[cls.name for cls, _ in guests.METHODS])
 def test_a_method_is_set_aside_and_its_samples_are_as_they_were(known, cls, why):
     x = np.sin(0.3 * np.arange(1200.0)) + 0.1 * np.random.default_rng(0).normal(size=1200)

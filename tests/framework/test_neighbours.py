@@ -71,6 +71,7 @@ def test_neighbours_are_those_of_all_distances_sorted(kind, norm):
         np.testing.assert_allclose(near, far[:, 0], rtol=1e-15)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("norm", ["max", "euclidean"])
 @pytest.mark.parametrize("kind", KINDS)
 def test_balls_hold_what_all_distances_say(kind, norm):

@@ -123,6 +123,12 @@ def test_a_case_that_cannot_be_meant_is_refused(change, says):
         lm.Case(**{**given, **change})
 
 
+def test_the_first_coordinate_of_an_equation_is_the_position():
+    run = lm.Recording.from_arrays(T, inputs={"force": U}, sensors={"x1": X}, units={"force": "N", "x1": "mm"})
+    (sensor,) = lm.Case(run, "m*x1'' + k*x1 = force", {"m": 1.0}, {"k": lm.Uniform(1, 99)}).recordings[0].sensors
+    assert (sensor.attrs["of"], sensor.attrs["sensor"]) == ("position", "x1")
+
+
 def test_a_model_of_ones_own_makes_a_case():
     from guests import Cart
 

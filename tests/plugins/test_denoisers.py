@@ -58,6 +58,7 @@ def test_simple_scheme_is_its_plain_twin(lorenz, period):
     assert np.allclose(ours, plain_simple(x - x.mean(), 7, 3.0 * noise), atol=1e-12)
 
 
+@pytest.mark.slow
 def test_projection_is_the_limit_of_the_weighted_metric(lorenz):
     """Against `eigh` of the covariance with the metric (1000, 1, ..., 1, 1000) of Grassberger et al. (1993)."""
     x, _ = noisy(lorenz[:600], 0.05)

@@ -33,6 +33,7 @@ def test_answers_have_not_changed(here: dict[str, list[float]]) -> None:
     assert here["embedding"] == kept["embedding"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", ["fork", "spawn"])
 def test_another_process_with_other_workers_gives_the_same_bytes(here: dict[str, list[float]], method: str) -> None:
     """A fresh interpreter starts the process: to fork one that has threads is to inherit their locks."""

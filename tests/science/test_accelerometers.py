@@ -50,6 +50,7 @@ def posed(number):
     return machine, problem, problem.clip(true), states, observation
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("number", [0, 3, 5])
 def test_the_size_of_a_motion_is_told_by_its_acceleration(number):
     """Spikes of hits are most of an acceleration, and none of the motion: taken for it they made it far too small."""

@@ -10,6 +10,8 @@ from lostmotion.stages.compare import exponent_of, horizon_for, pieces_of, predi
 from lostmotion.stages.diagnose import diagnose
 from lostmotion.workflow.findings import draws_of, intervals
 
+pytestmark = pytest.mark.slow
+
 
 def diagnosed(force, unknown, **kind):
     """Return the recording and the diagnosis of it."""

@@ -86,6 +86,7 @@ def test_lorenz_entropy(lorenz):
     assert 0.7 < found.value < 1.4
 
 
+@pytest.mark.slow
 def test_roessler():
     """D2 = 1.99 +- 0.08 for a = b = 0.2, c = 5.7: Sprott, Chaos and Time-Series Analysis (2003), table of flows."""
 

@@ -249,6 +249,7 @@ def test_the_general_flow_agrees():
     np.testing.assert_allclose(followed.states, settled.states[-9:], rtol=1e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("phase", [0.0, 1.1])
 def test_a_joint_on_a_moving_base_agrees_with_the_general_flow(phase):
     values = {"m": 1.0, "c": 2.0, "k0": 4e3, "x0": 0.02, "mgl": 0.0}
@@ -263,6 +264,7 @@ def test_a_joint_on_a_moving_base_agrees_with_the_general_flow(phase):
     assert exact_joint({**values, "mgl": 3.0}, drive, start) is None
 
 
+@pytest.mark.slow
 def test_what_is_not_exact_goes_to_the_general_flow():
     machine, values = LinBacklash() + ViscousDamping(), {**CASE_1, "viscous_damping.coefficient": 1.0}
     assert isinstance(flow_of(machine, values, drive=DRIVE), Stepped)

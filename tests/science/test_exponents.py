@@ -59,6 +59,7 @@ def lin():
 EMBEDDED = {50: (3, 5, 50), 200: (14, 5, 200)}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", [Rosenstein(), Kantz()], ids=lambda m: m.name)
 def test_lorenz(lorenz, method):
     got = estimate(method, series(lorenz, 0.02, (8, 4, 100)))

@@ -17,6 +17,7 @@ from lostmotion_plugins.quantifiers.flows import LyapunovMax, LyapunovSpectrum
 RNG = np.random.default_rng(0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("speed", [0.1, 1.0, 3.0])
 @pytest.mark.parametrize("loss", [0.0, 0.2, 1.0])
 def test_restitution_of_the_stop(speed, loss):

@@ -97,6 +97,7 @@ KNOWN = {
 """Exponents (1/s) and Kaplan-Yorke dimensions: Sprott, Chaos and Time-Series Analysis (Oxford, 2003), appendix A."""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", KNOWN)
 def test_spectrum_and_dimension_are_the_known_ones(name):
     """Five standard errors, and what Sprott's last digits leave open."""
@@ -205,6 +206,7 @@ TWINS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", TWINS)
 def test_march_equals_its_slow_twin(name):
     machine, values, drive = TWINS[name]

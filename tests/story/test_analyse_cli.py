@@ -89,6 +89,7 @@ def test_the_same_seed_gives_the_same_bytes_on_one_core_and_on_two(folder, done,
         assert (tmp_path / name).read_bytes() == (done[1] / name).read_bytes()
 
 
+@pytest.mark.slow
 def test_a_bare_recording_is_enough(tmp_path):
     t = 0.01 * np.arange(6000)
     x = np.sin(2 * np.pi * 1.7 * t) + 0.01 * np.random.default_rng(0).normal(size=len(t))

@@ -8,6 +8,8 @@ from click.testing import CliRunner
 
 from lostmotion.cli import main
 
+pytestmark = pytest.mark.slow
+
 CASE = """
 title = "Small Lin"
 [model]

@@ -9,6 +9,8 @@ from lostmotion.cli import main
 from lostmotion.workflow.conceal import FRICTION
 from lostmotion.workflow.demo import judge
 
+pytestmark = pytest.mark.slow
+
 
 def demo(*args):
     """Return the outcome of the command line."""

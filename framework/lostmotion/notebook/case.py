@@ -68,7 +68,10 @@ class Case:
             )
         if both := sorted(set(self.known) & set(self.estimate)):
             raise CaseError(f"{both[0]!r} is both known and estimated: take it out of one of the two")
-        object.__setattr__(self, "model", self._made())
+        made = self._made()
+        object.__setattr__(self, "model", made)
+        if isinstance(made, Written):
+            object.__setattr__(self, "recordings", tuple(_aliased(one, made.coordinates[0]) for one in several))
 
     def _made(self) -> Model:
         given = self.model
@@ -162,6 +165,13 @@ class Case:
         return (
             f"<Case {self.title!r}: {self._model.name} on {names}; known {[*self.known]}, estimated {[*self.estimate]}>"
         )
+
+
+def _aliased(recording: Recording, coordinate: str) -> Recording:
+    """Return a recording whose sensors of the first coordinate show `position`, `velocity` or `acceleration`."""
+    same = {coordinate: "position"} | {f"{coordinate}.{rate}": rate for rate in ("velocity", "acceleration")}
+    sensors = tuple(a.assign_attrs(of=same.get(a.attrs["of"], a.attrs["of"])) for a in recording.sensors)
+    return replace(recording, sensors=sensors)
 
 
 def _sensors_of(recording: Recording) -> tuple[Any, ...]:

@@ -29,9 +29,13 @@ AGAIN = "run `lostmotion diagnose` again"
 
 @dataclass(frozen=True, eq=False)
 class DiagnosisPlots:
-    """The figures of a diagnosis; each returns a matplotlib figure."""
+    """The figures of a diagnosis; each returns a matplotlib figure, and a bare call the prediction."""
 
     evidence: Evidence
+
+    def __call__(self) -> Figure:
+        """Return the recording with free runs over held-out data, before and after."""
+        return self.prediction()
 
     def prediction(self, ax: Axes | None = None) -> Figure:
         """Return the recording with free runs over held-out data, before and after; into `ax` alone where given."""

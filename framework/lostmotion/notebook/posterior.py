@@ -22,9 +22,13 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class PosteriorPlots:
-    """The figures of an identification; each returns a matplotlib figure."""
+    """The figures of an identification; each returns a matplotlib figure, and a bare call the corner."""
 
     sampled: Sampled
+
+    def __call__(self) -> Figure:
+        """Return the parameters drawn one against another."""
+        return self.corner()
 
     def corner(self) -> Figure:
         """Return the parameters drawn one against another."""

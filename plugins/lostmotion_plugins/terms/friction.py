@@ -10,8 +10,8 @@ from typing import ClassVar
 from lostmotion.contracts import Array, Param, Term, Values
 from lostmotion.quantities import FORCE, SPEED
 
-NOTHING = 0.01
-"""A part of a friction force below this share of it is told as nothing."""
+NOTHING = 0.05
+"""A part of a friction force below this share of it is told as nothing, where the evidence is no worse."""
 
 
 @dataclass(frozen=True)
