@@ -25,9 +25,9 @@ from tqdm import tqdm
 
 from lostmotion.case import dump_case
 from lostmotion.stages.identify import Plan
-from lostmotion.workflow.calibrate import run_calibration
-from lostmotion.workflow.machines import Bench
-from lostmotion.workflow.workshop import Design
+from lostmotion_trials.coverage.design import Design
+from lostmotion_trials.coverage.machines import Bench
+from lostmotion_trials.coverage.run import run_calibration
 
 KNOWN = {"m": 1.0, "k1": 0.0, "k0": 4e4}
 PRIORS = {

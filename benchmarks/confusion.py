@@ -16,7 +16,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lostmotion.report import style
-from lostmotion.workflow.oracle import alike
+from lostmotion_trials.blind.bound import alike
 
 NOTHING, UNKNOWN, OTHER = "nothing", "unknown", "random_force"
 NO_NAMES = (UNKNOWN, OTHER, "sensor_quantisation")

@@ -34,7 +34,6 @@ from lostmotion.contracts import Array, Flow
 from lostmotion.flow import Harmonic, flow_of
 from lostmotion.kernels.threads import cores
 from lostmotion.registry import default
-from lostmotion.reproduce.joint import DAMPING, FREQUENCY, HALF, LEVELS, PAPER, RATIO
 from lostmotion.results import Estimate
 from lostmotion.stages.identify import identify
 from lostmotion.study.cells import period_of
@@ -42,6 +41,7 @@ from lostmotion.study.inversion import TAIL, WEAK, Inversion, predicted
 from lostmotion.workflow.levels import Survey, inversion_of, quantifier_task
 from lostmotion.workflow.reading import corrected, read_level
 from lostmotion.workflow.rehearsal import Bench, rehearsed, rehearsed_levels
+from lostmotion_trials.paper.joint import DAMPING, FREQUENCY, HALF, LEVELS, PAPER, RATIO
 
 OMEGA = 40.0
 SD_PAPER = 0.2

@@ -1,6 +1,6 @@
 """How well the terms of the library are named: `python benchmarks/library.py [table|clean] [options]`.
 
-Each term is hidden in a machine by an integrator that shares nothing with the framework (`independent_zoo.move`), under
+Each term is hidden in a machine by an integrator that shares nothing with the framework (`lostmotion_trials.integrators.hidden.move`), under
 a multisine, a sweep or a harmonic, seen by a sensor of position, velocity or acceleration, at a size that is to gain a
 given log-likelihood. Every diagnosis is kept as a row in `OUT/rows.jsonl`, so that a run can be stopped and resumed.
 """
@@ -19,13 +19,13 @@ from pathlib import Path
 import numpy as np
 
 from lostmotion.case import dump_case
-from lostmotion.kernels.independent_zoo import Hidden
 from lostmotion.storage import save_table
-from lostmotion.workflow.hiding import hidden_in
-from lostmotion.workflow.mechanisms import NOISY, TABLE, Effect
-from lostmotion.workflow.oracle import alike, spelled
-from lostmotion.workflow.pilot import Pilot
-from lostmotion.workflow.zoo import USUAL, Meddling, Rig, Signal, drawn_log, moved, sized, wide_prior
+from lostmotion_trials.blind.bound import alike, spelled
+from lostmotion_trials.blind.hiding import hidden_in
+from lostmotion_trials.blind.mechanisms import NOISY, TABLE, Effect
+from lostmotion_trials.blind.pilot import Pilot
+from lostmotion_trials.blind.simulator import USUAL, Meddling, Rig, Signal, drawn_log, moved, sized, wide_prior
+from lostmotion_trials.integrators.hidden import Hidden
 
 SENSORS = ("position", "velocity", "acceleration")
 DRIVES = ("multisine", "sweep", "harmonic")

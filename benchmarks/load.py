@@ -21,7 +21,7 @@ from pathlib import Path
 
 import numpy as np
 
-from lostmotion.workflow.sealing import Blind, concealed, label
+from lostmotion_trials.blind.commitment import Blind, concealed, label
 
 EVERY, SEED = 20, 5
 BREAKS = ("truncated", "unit", "nan", "column")

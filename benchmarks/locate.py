@@ -41,17 +41,17 @@ from lostmotion.inference.candidates import screen, slopes_of
 from lostmotion.inference.odds import Ratio, likely, log_odds
 from lostmotion.inference.setup import problem_of, search, stepped
 from lostmotion.inference.shares import LEVEL
-from lostmotion.kernels.independent_zoo import Hidden
 from lostmotion.likelihood.latent import missing_force
 from lostmotion.likelihood.system import System, key_of
 from lostmotion.registry import default
 from lostmotion.stages.diagnose import locate, plays_of
 from lostmotion.storage import save_table
-from lostmotion.workflow.hiding import hidden_in
-from lostmotion.workflow.mechanisms import LARGEST, TABLE, UNKNOWN, Effect, Pilot
 from lostmotion.workflow.prepare import Prepared, prepare
-from lostmotion.workflow.sealing import RUNAWAY, TOUCHES
-from lostmotion.workflow.zoo import USUAL, Meddling, Rig, draw_rig, moved
+from lostmotion_trials.blind.commitment import RUNAWAY, TOUCHES
+from lostmotion_trials.blind.hiding import hidden_in
+from lostmotion_trials.blind.mechanisms import LARGEST, TABLE, UNKNOWN, Effect, Pilot
+from lostmotion_trials.blind.simulator import USUAL, Meddling, Rig, draw_rig, moved
+from lostmotion_trials.integrators.hidden import Hidden
 
 GAIN = (50.0, 500.0)
 SAMPLES = (1500, 2500)

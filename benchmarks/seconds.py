@@ -1,7 +1,7 @@
 """How long whole commands take, as a user waits for them: `python benchmarks/seconds.py [WORK ...] --out DIR`.
 
-The recordings come from `kernels/independent_zoo.py`, a leapfrog in 40 steps a sample with friction that truly
-sticks: Case 1 of the paper (m 1 kg, c 8 N s/m, contact 4e4 N/m, half gap 5 mm, 100 N at 40 rad/s), 160 samples a
+The recordings come from `lostmotion_trials/integrators/hidden.py`, a leapfrog in 40 steps a sample with friction that
+truly sticks: Case 1 of the paper (m 1 kg, c 8 N s/m, contact 4e4 N/m, half gap 5 mm, 100 N at 40 rad/s), 160 samples a
 period, 1 % noise. Each command runs as a process of its own, caches as they are; with `--cold` in an empty cache.
 Results go to DIR/seconds.jsonl, a line for each run: wall and processor seconds, and what was found.
 """
@@ -21,7 +21,7 @@ from pathlib import Path
 
 import numpy as np
 
-from lostmotion.kernels.independent_zoo import BOUC_WEN, LUGRE, Body, Hidden, move
+from lostmotion_trials.integrators.hidden import BOUC_WEN, LUGRE, Body, Hidden, move
 
 ROOT = Path(__file__).resolve().parents[1]
 BODY = Body(m=1.0, c=8.0, k=0.0, k0=4e4, x0=0.005)

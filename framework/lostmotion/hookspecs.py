@@ -53,3 +53,9 @@ def lostmotion_denoisers() -> Mapping[str, str]:
 def lostmotion_engines() -> Mapping[str, str]:
     """Return `{"name": "package.module:Class"}` for each `Engine`."""
     raise NotImplementedError
+
+
+@hookspec
+def lostmotion_commands() -> Mapping[str, tuple[str, str]]:
+    """Return `{"name": ("package.module:command", "One line of help.")}` for each `click.Command`."""
+    raise NotImplementedError

@@ -19,7 +19,7 @@ from lostmotion.workflow import batch
 from lostmotion.workflow.batch_table import lines_of, row_of
 from lostmotion.workflow.campaign import Campaign
 from lostmotion.workflow.prepare import case_of
-from lostmotion.workflow.sealing import Blind, concealed
+from lostmotion_trials.blind.commitment import Blind, concealed
 
 CASE = """
 title = "{name}"

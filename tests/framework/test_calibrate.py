@@ -15,13 +15,13 @@ from toy_campaign import COUNT, buried, campaign, deadly, placed, whoami
 
 from lostmotion.case import Prior
 from lostmotion.errors import DataError
-from lostmotion.inference.ranks import DRAWS, coverage_limits, ecdf, ecdf_band
-from lostmotion.report.calibration import write_calibration
 from lostmotion.storage import save_json
-from lostmotion.workflow.calibrate import _save_csv, sound, summary
 from lostmotion.workflow.campaign import Campaign
-from lostmotion.workflow.machines import Bench
-from lostmotion.workflow.workshop import Design, workshop
+from lostmotion_trials.coverage.design import Design, workshop
+from lostmotion_trials.coverage.machines import Bench
+from lostmotion_trials.coverage.page import write_calibration
+from lostmotion_trials.coverage.ranks import DRAWS, coverage_limits, ecdf, ecdf_band
+from lostmotion_trials.coverage.run import _save_csv, sound, summary
 
 PERFECT = 2000
 TOY = """

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from lostmotion.case import load_case
-from lostmotion.workflow.conceal import FREQUENCY, FRICTION, HIDDEN, JOINT, conceal_joint, joint_motion, write_case
+from lostmotion_trials.demo.conceal import FREQUENCY, FRICTION, HIDDEN, JOINT, conceal_joint, joint_motion, write_case
 
 RATE = 200.0
 PERIOD = round(RATE / FREQUENCY)

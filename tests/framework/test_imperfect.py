@@ -11,11 +11,10 @@ from click.testing import CliRunner
 from lostmotion.cli import main
 from lostmotion.contracts import Array
 from lostmotion.errors import DataError
-from lostmotion.kernels.independent_rough import CELLS, REACH
-from lostmotion.kernels.independent_zoo import Hidden
-from lostmotion.report.proof import render
-from lostmotion.workflow import judging, proof
-from lostmotion.workflow.imperfect import (
+from lostmotion_trials.blind import judging
+from lostmotion_trials.blind import score as proof
+from lostmotion_trials.blind.commitment import Blind, concealed, label
+from lostmotion_trials.blind.imperfect import (
     CYCLE,
     FITTED,
     IMPACTS,
@@ -30,9 +29,11 @@ from lostmotion.workflow.imperfect import (
     draw_world,
     recorded_roughly,
 )
-from lostmotion.workflow.mechanisms import NAMES, Pilot
-from lostmotion.workflow.sealing import Blind, concealed, label
-from lostmotion.workflow.zoo import Meddling, moved
+from lostmotion_trials.blind.mechanisms import NAMES, Pilot
+from lostmotion_trials.blind.page import render
+from lostmotion_trials.blind.simulator import Meddling, moved
+from lostmotion_trials.integrators.hidden import Hidden
+from lostmotion_trials.integrators.imperfect import CELLS, REACH
 
 SHORT = 600
 ROUGH = Blind(most=SHORT, world="imperfect")

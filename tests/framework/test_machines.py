@@ -6,9 +6,9 @@ import pytest
 from lostmotion.errors import CaseError
 from lostmotion.likelihood.system import Clock, System
 from lostmotion.registry import default
-from lostmotion.workflow import machines
 from lostmotion.workflow.drives import signal_of
-from lostmotion.workflow.machines import Bench, recorded
+from lostmotion_trials.coverage import machines
+from lostmotion_trials.coverage.machines import Bench, recorded
 
 LIN = {"m": 1.0, "c": 8.0, "k1": 0.0, "k0": 4e4, "x0": 0.005}
 JOINT = {"m": 0.05, "c": 0.15, "k0": 180.0, "x0": 0.0131, "mgl": 0.3}

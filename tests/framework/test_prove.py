@@ -10,16 +10,17 @@ import pytest
 from toy_campaign import whoami
 
 from lostmotion.errors import DataError
-from lostmotion.report.proof import render
-from lostmotion.workflow import judging, proof
 from lostmotion.workflow.campaign import Campaign
-from lostmotion.workflow.hiding import hidden_in
-from lostmotion.workflow.mechanisms import NAMES, UNKNOWN, Pilot
-from lostmotion.workflow.oracle import spelled
-from lostmotion.workflow.pilot import Draft
-from lostmotion.workflow.prove import Diagnoser
-from lostmotion.workflow.sealing import VARIANTS, Blind, concealed, label, publish, unsealed
-from lostmotion.workflow.zoo import Meddling, draw_rig, moved
+from lostmotion_trials.blind import judging
+from lostmotion_trials.blind import score as proof
+from lostmotion_trials.blind.bound import spelled
+from lostmotion_trials.blind.commitment import VARIANTS, Blind, concealed, label, publish, unsealed
+from lostmotion_trials.blind.hiding import hidden_in
+from lostmotion_trials.blind.mechanisms import NAMES, UNKNOWN, Pilot
+from lostmotion_trials.blind.page import render
+from lostmotion_trials.blind.pilot import Draft
+from lostmotion_trials.blind.run import Diagnoser
+from lostmotion_trials.blind.simulator import Meddling, draw_rig, moved
 
 SHORT = 600
 AGREED = {

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.stats import binom, norm
 
-from lostmotion.inference.ranks import (
+from lostmotion_trials.coverage.ranks import (
     DRAWS,
     bins_for,
     chi_square,

@@ -6,8 +6,10 @@ import sys
 from types import ModuleType, SimpleNamespace
 
 import pytest
+from click.testing import CliRunner
 
 from lostmotion import contracts, hookspecs, registry
+from lostmotion.cli import main
 from lostmotion.contracts import Model, Term
 from lostmotion.errors import PluginError
 from lostmotion.registry import Entry, Registry
@@ -94,7 +96,7 @@ def test_the_built_in_plugins_are_found_through_their_entry_point():
 
 def test_kinds_and_hooks_agree_with_the_contracts():
     assert set(registry.KINDS) == set(contracts.KINDS)
-    assert {f"lostmotion_{kind}s" for kind in registry.KINDS} == {
+    assert {f"lostmotion_{kind}s" for kind in (*registry.KINDS, "command")} == {
         name for name in vars(hookspecs) if name.startswith("lostmotion_")
     }
 
@@ -285,3 +287,63 @@ def test_a_file_that_is_not_there_is_refused(tmp_path):
 
 def test_the_default_registry_is_made_once():
     assert registry.default() is registry.default()
+
+
+GREETING = """
+import click
+
+@click.command()
+def greet():
+    click.echo("good day")
+"""
+COMMANDS = HOOK + "@hookimpl\ndef lostmotion_commands():\n    return {}\n"
+
+
+def test_a_package_adds_a_command(installed):
+    installed("polite", COMMANDS.replace("{}", '{"greet": ("polite_words:greet", "Say good day.")}'))
+    added = Registry.discover().commands()
+    assert added["greet"] == Entry("command", "greet", "polite", "1.0", "polite_words:greet", about="Say good day.")
+    assert {"demo", "prove", "calibrate", "reproduce"} <= set(added)
+
+
+@pytest.fixture
+def forgetful():
+    """Let this process forget what was added to its registry."""
+    registry.default.cache_clear()
+    yield
+    registry.default.cache_clear()
+
+
+@pytest.mark.usefixtures("forgetful")
+def test_a_command_in_a_file_runs_and_a_name_of_ours_stays_ours(file):
+    answer = '{"greet": ("rude:greet", "Say good day."), "map": ("rude:greet", "Draw.")}'
+    rude = str(file("rude.py", COMMANDS.replace("{}", answer) + GREETING))
+    run = CliRunner()
+    assert run.invoke(main, ["--plugin", rude, "greet"]).output == "good day\n"
+    assert "Map the largest Lyapunov" in run.invoke(main, ["--plugin", rude, "map", "--help"]).output
+    assert "greet      Say good day." in run.invoke(main, ["--plugin", rude, "--help"]).output
+
+
+@pytest.mark.usefixtures("forgetful")
+def test_a_command_of_two_owners_is_told_as_a_clash(file):
+    answer = '{"greet": ("twice_one:greet", "Say good day.")}'
+    files = [str(file(f"{name}.py", COMMANDS.replace("{}", answer) + GREETING)) for name in ("twice_one", "twice_two")]
+    done = CliRunner().invoke(main, ["--plugin", files[0], "--plugin", files[1], "greet"])
+    assert done.exit_code == 2
+    assert "command 'greet' is offered by" in done.output
+
+
+@pytest.mark.usefixtures("forgetful")
+@pytest.mark.parametrize("target", ["rude_two:nothing", "rude_two:HOOK"])
+def test_a_command_that_is_none_is_told_in_a_sentence(file, target):
+    answer = f'{{"grunt": ("{target}", "Grunt.")}}'
+    rude = str(file("rude_two.py", COMMANDS.replace("{}", answer) + "HOOK = 3\n"))
+    done = CliRunner().invoke(main, ["--plugin", rude, "grunt"])
+    assert done.exit_code == 2
+    assert f"points to {target}, and there is no such Command" in done.output
+
+
+@pytest.mark.parametrize("answer", ['{"a": "m:a"}', '{"a": ("m:a",)}', '{"a": ("m:a", 3)}', '{"a": ("m", "b")}', "[1]"])
+def test_a_wrong_answer_about_commands_is_refused(installed, answer):
+    installed("odd_one", COMMANDS.replace("{}", answer))
+    assert "hook 'lostmotion_commands' returned" in aside("odd_one").why

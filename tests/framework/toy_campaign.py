@@ -7,8 +7,8 @@ from functools import partial
 
 import numpy as np
 
-from lostmotion.inference.ranks import rank_of
 from lostmotion.workflow.campaign import Campaign
+from lostmotion_trials.coverage.ranks import rank_of
 
 COUNT = 12
 

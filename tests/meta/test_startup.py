@@ -9,6 +9,7 @@ import time
 from importlib.util import find_spec
 from pathlib import Path
 
+import click
 import pytest
 
 from lostmotion import hookspecs
@@ -37,7 +38,7 @@ def test_listing_loads_nothing_heavy(args):
 
 
 def test_help_imports_no_command():
-    commands = {target.partition(":")[0] for target, _ in main.table.values()}
+    commands = {target.partition(":")[0] for target, _ in COMMANDS.values()}
     assert loaded_after("--help") & commands == set()
 
 
@@ -53,11 +54,12 @@ def timed():
     return time.perf_counter() - start
 
 
-@pytest.mark.parametrize("name", list(main.table))
+COMMANDS = main.commands_of(click.Context(main))
+
+
+@pytest.mark.parametrize("name", list(COMMANDS))
 def test_every_command_stands_where_the_table_says(name):
-    module, _, attribute = main.table[name][0].partition(":")
-    if find_spec(module) is None:
-        pytest.skip(f"{module} is not written yet")
+    module, _, attribute = COMMANDS[name][0].partition(":")
     assert attribute in {target for node in tree(Path(find_spec(module).origin)).body for target in bound(node)}
 
 
@@ -76,7 +78,7 @@ def bound(node):
 def test_every_hook_is_documented(hook):
     doc = inspect.getdoc(getattr(hookspecs, hook))
     assert doc
-    assert "package.module:Class" in doc
+    assert "package.module:" in doc
     assert f"`{hook}`" in (ROOT / "plugins" / "template" / "README.md").read_text(encoding="utf-8")
 
 

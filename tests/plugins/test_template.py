@@ -1,6 +1,7 @@
 """The template is a living package: built, installed beside ours, listed, checked."""
 
 import json
+import math
 import shutil
 import subprocess
 import sys
@@ -57,10 +58,20 @@ def ours(fresh, tmp_path):
 def test_its_names_are_listed(ours):
     listing = json.loads(ours("plugins", "--json"))
     mine = {e["name"]: e for e in listing["plugins"] if e["owner"] == "lostmotion-mine"}
-    assert set(mine) == set(NAMES)
+    assert set(mine) == {*NAMES, "crest"}
     assert {e["state"] for e in mine.values()} == {"ready"}
     assert {e["version"] for e in mine.values()} == {"0.1.0"}
     assert "lin_backlash" in {e["name"] for e in listing["plugins"]}
+
+
+def test_its_command_runs(ours, tmp_path):
+    """The crest factor of a sine is the root of two."""
+    rows = [f"{k / 100.0},{math.sin(0.3 * k)}" for k in range(4000)]
+    (tmp_path / "sine.csv").write_text("\n".join(["time,x", *rows]), encoding="utf-8")
+    assert "crest" in ours("--help")
+    assert "crest factor 1.41" in ours(
+        "crest", "sine.csv", "--time", "time", "--sensor", "position=x", "--unit", "position=mm"
+    )
 
 
 def test_it_keeps_every_rule(ours):

@@ -17,13 +17,13 @@ from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.reference import Reference
 from lostmotion.likelihood.sensors import AR1, Sensor
 from lostmotion.likelihood.system import Clock, System
-from lostmotion.workflow.conceal import FRICTION, HIDDEN, JOINT, joint_motion
 from lostmotion_plugins.models.basic import RigidDrive
 from lostmotion_plugins.models.joint import RobotJoint
 from lostmotion_plugins.models.lin import LinBacklash
 from lostmotion_plugins.terms.friction import CoulombFriction, StribeckFriction
 from lostmotion_plugins.terms.memory import DahlFriction
 from lostmotion_plugins.terms.viscous import QuadraticDamping, ViscousDamping
+from lostmotion_trials.demo.conceal import FRICTION, HIDDEN, JOINT, joint_motion
 
 CASE_1 = {"m": 1.0, "c": 8.0, "k1": 0.0, "k0": 4e4, "x0": 0.005}
 PERIOD = 2.0 * math.pi / 40.0

@@ -174,7 +174,7 @@ def test_dimension_decides_between_two_gaps_that_the_exponents_leave(tmp_path):
 @pytest.mark.slow
 def test_table_2_of_the_paper_holds_the_joint_that_was_searched_for(tmp_path):
     """Half gap 0.7589 degrees and 2 zeta = 0.1116 (`reproduce/joint.py`), of a machine that no one has seen."""
-    from lostmotion.reproduce.joint import DAMPING, FREQUENCY, HALF, LEVELS, PAPER, RATIO
+    from lostmotion_trials.paper.joint import DAMPING, FREQUENCY, HALF, LEVELS, PAPER, RATIO
 
     omega = 2.0 * math.pi * FREQUENCY
     levels = tuple(

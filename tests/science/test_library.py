@@ -20,8 +20,6 @@ from lostmotion.likelihood.engine import Innovations
 from lostmotion.likelihood.problem import Free
 from lostmotion.likelihood.system import ALWAYS, System
 from lostmotion.registry import Registry
-from lostmotion.workflow.mechanisms import TABLE
-from lostmotion.workflow.oracle import alike, spelled
 from lostmotion.workflow.prepare import prepare
 from lostmotion_plugins.terms.elastic import CubicStiffness, LinearStiffness, OffsetForce
 from lostmotion_plugins.terms.friction import CoulombFriction
@@ -30,6 +28,8 @@ from lostmotion_plugins.terms.lag import ActuatorLag, SensorLag, lagged
 from lostmotion_plugins.terms.play import Backlash, EndStop
 from lostmotion_plugins.terms.sensor import PositionRipple
 from lostmotion_plugins.terms.viscous import QuadraticDamping
+from lostmotion_trials.blind.bound import alike, spelled
+from lostmotion_trials.blind.mechanisms import TABLE
 
 VALUES = {"m": 1.2, "c": 0.8, "k": 300.0}
 T = np.arange(0.0, 12.0, 0.02)

@@ -5,10 +5,10 @@ import json
 import pytest
 
 from lostmotion.registry import default
-from lostmotion.workflow.judging import judged
-from lostmotion.workflow.oracle import yardstick
 from lostmotion.workflow.prepare import prepare
-from lostmotion.workflow.sealing import Blind, concealed, publish
+from lostmotion_trials.blind.bound import yardstick
+from lostmotion_trials.blind.commitment import Blind, concealed, publish
+from lostmotion_trials.blind.judging import judged
 
 pytestmark = pytest.mark.slow
 

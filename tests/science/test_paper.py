@@ -11,10 +11,10 @@ import pytest
 
 from lostmotion.flow import flow_of
 from lostmotion.registry import default
-from lostmotion.reproduce import experiment, noisy, portraits, sweeps
-from lostmotion.reproduce.cases import CASES, PRINTED
-from lostmotion.reproduce.joint import LEVELS, PAPER, SUSPECT, motions
-from lostmotion.reproduce.lab import Lab, period_of
+from lostmotion_trials.paper import experiment, noisy, portraits, sweeps
+from lostmotion_trials.paper.cases import CASES, PRINTED
+from lostmotion_trials.paper.joint import LEVELS, PAPER, SUSPECT, motions
+from lostmotion_trials.paper.lab import Lab, period_of
 
 
 @pytest.fixture(scope="module")

@@ -6,13 +6,14 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from lostmotion.kernels.independent_rough import CELLS, REACH, Flaws, _read, move_rough
-from lostmotion.kernels.independent_zoo import BOUC_WEN, DAHL, LUGRE, Body, Hidden, move
-from lostmotion.workflow import imperfect, zoo
-from lostmotion.workflow.hiding import hidden_in
-from lostmotion.workflow.imperfect import KINDS, draw_effect, draw_machine, draw_world, moved_roughly
-from lostmotion.workflow.mechanisms import Pilot
-from lostmotion.workflow.zoo import Meddling, moved
+from lostmotion_trials.blind import imperfect
+from lostmotion_trials.blind import simulator as zoo
+from lostmotion_trials.blind.hiding import hidden_in
+from lostmotion_trials.blind.imperfect import KINDS, draw_effect, draw_machine, draw_world, moved_roughly
+from lostmotion_trials.blind.mechanisms import Pilot
+from lostmotion_trials.blind.simulator import Meddling, moved
+from lostmotion_trials.integrators.hidden import BOUC_WEN, DAHL, LUGRE, Body, Hidden, move
+from lostmotion_trials.integrators.imperfect import CELLS, REACH, Flaws, _read, move_rough
 
 BODY = Body(m=2.0, c=3.0, k=60.0, k0=800.0, x0=0.02)
 DRIVE, OMEGA = 30.0, 7.0

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from lostmotion.kernels.independent_zoo import BOUC_WEN, DAHL, LUGRE, Body, Hidden, _levels, move
-from lostmotion.workflow.zoo import Meddling, Rig, Signal, moved
+from lostmotion_trials.blind.simulator import Meddling, Rig, Signal, moved
+from lostmotion_trials.integrators.hidden import BOUC_WEN, DAHL, LUGRE, Body, Hidden, _levels, move
 
 BODY = Body(m=2.0, c=3.0, k=0.0, k0=800.0, x0=0.02)
 DRIVE, OMEGA = 30.0, 7.0

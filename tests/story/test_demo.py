@@ -6,8 +6,8 @@ import pytest
 from click.testing import CliRunner
 
 from lostmotion.cli import main
-from lostmotion.workflow.conceal import FRICTION
-from lostmotion.workflow.demo import judge
+from lostmotion_trials.demo.conceal import FRICTION
+from lostmotion_trials.demo.run import judge
 
 pytestmark = pytest.mark.slow
 
@@ -75,7 +75,7 @@ def test_a_wrong_answer_is_called_wrong(found, clean, right):
 
 
 def test_a_miss_ends_with_status_1(monkeypatch, tmp_path):
-    from lostmotion.workflow import demo as workflow
+    from lostmotion_trials.demo import run as workflow
 
     missed = workflow.Judged(("found      nothing: this should not happen",), {"found": []}, right=False)
     monkeypatch.setattr(workflow, "run_demo", lambda *_, **__: missed)

@@ -7,7 +7,7 @@ import pytest
 from click.testing import CliRunner
 
 from lostmotion.cli import main
-from lostmotion.workflow.prove import Diagnoser
+from lostmotion_trials.blind.run import Diagnoser
 
 WHAT = ("proof.json", "report.html", "seal.json")
 

@@ -8,8 +8,8 @@ from click.testing import CliRunner
 from PIL import Image
 
 from lostmotion.cli import main
-from lostmotion.report.paper_page import DRAWINGS
-from lostmotion.reproduce.run import ITEMS, chosen
+from lostmotion_trials.paper.page import DRAWINGS
+from lostmotion_trials.paper.run import ITEMS, chosen
 
 VERDICTS = {"reproduced", "reproduced in part", "not reproduced", "beyond the paper"}
 

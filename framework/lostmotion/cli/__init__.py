@@ -1,4 +1,7 @@
-"""The command line: `main` knows its commands by name and imports one when it runs."""
+"""The command line: `main` knows its commands by name and imports one when it runs.
+
+Packages add commands by a hook: `demo`, `prove`, `calibrate` and `reproduce` of `lostmotion_trials` come so.
+"""
 
 from __future__ import annotations
 
@@ -17,14 +20,10 @@ __all__ = ["PluginName", "examples", "main", "registry_of"]
 class _Commands(LazyGroup):
     table: ClassVar[Mapping[str, tuple[str, str]]] = {
         "analyse": ("lostmotion.cli.analyse:command", "Tell whether a recorded motion is periodic, chaotic or noise."),
-        "calibrate": ("lostmotion.cli.calibrate:command", "See whether the intervals of identify hold the truth."),
-        "demo": ("lostmotion.cli.demo:command", "See it work: a robot joint hides friction, and it is found."),
         "diagnose": ("lostmotion.cli.diagnose:command", "Find the physics that the model of a case leaves out."),
         "identify": ("lostmotion.cli.identify:command", "Estimate the parameters of a case, with their intervals."),
         "init": ("lostmotion.cli.init:command", "Look at a recording and write a first case for it."),
         "map": ("lostmotion.cli.map:command", "Map an exponent, or anything else, over parameters."),
-        "prove": ("lostmotion.cli.prove:command", "Hide effects from it in a blind trial, and score what it finds."),
-        "reproduce": ("lostmotion.cli.reproduce:command", "Redo the paper of 2007: its figures and tables."),
         "simulate": ("lostmotion.cli.simulate:command", "Simulate a machine with or without extra terms."),
         "plugins": ("lostmotion.cli.plugins:command", "List, show and check the models, terms and methods."),
     }

@@ -14,6 +14,8 @@ from click.shell_completion import CompletionItem
 
 from lostmotion.errors import LostMotionError, PluginWarning, nearest
 from lostmotion.registry import KINDS, Registry, default
+from lostmotion.registry.classes import imported
+from lostmotion.registry.hooks import COMMAND
 
 INTERRUPTED = 130
 LONGEST = 1500
@@ -60,20 +62,32 @@ def _warnings_told() -> Iterator[None]:
 
 
 class LazyGroup(click.Group):
-    """A group whose `table` says for each command where it stands and what its one line of help is."""
+    """A group whose `table` says for each command where it stands and what its one line of help is.
+
+    Packages add commands of their own by the hook `lostmotion_commands`; a name of the `table` stays what it is.
+    """
 
     table: ClassVar[Mapping[str, tuple[str, str]]] = {}
 
+    def commands_of(self, ctx: click.Context) -> dict[str, tuple[str, str]]:
+        """Return target and line of help of all commands by name, in the order of the alphabet."""
+        added = {e.name: (e.target, e.about) for e in registry_of(ctx).commands().values()}
+        return dict(sorted({**added, **self.table}.items()))
+
     def list_commands(self, ctx: click.Context) -> list[str]:
-        """Return the names of the commands in the order of the table."""
-        return list(self.table)
+        """Return the names of the commands."""
+        return list(self.commands_of(ctx))
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
         """Return the command, imported now, or None when there is no such name."""
-        if cmd_name not in self.table:
+        if cmd_name in self.table:
+            module, _, attribute = self.table[cmd_name][0].partition(":")
+            own: click.Command = getattr(import_module(module), attribute)
+            return own
+        added = registry_of(ctx).commands()
+        if cmd_name not in added:
             return None
-        module, _, attribute = self.table[cmd_name][0].partition(":")
-        command: click.Command = getattr(import_module(module), attribute)
+        command: click.Command = imported(added[cmd_name].target, added[cmd_name].whose, click.Command)
         return command
 
     def resolve_command(
@@ -81,17 +95,23 @@ class LazyGroup(click.Group):
     ) -> tuple[str | None, click.Command | None, list[str]]:
         """Return name, command and the arguments left; an unknown name is told with the nearest known one."""
         if args[0] not in self.table and not args[0].startswith("-"):
-            raise click.UsageError(f"there is no command {args[0]!r}{nearest(args[0], self.table)}", ctx)
+            known = self.commands_of(ctx)
+            for entry in registry_of(ctx).entries():
+                if (entry.kind, entry.name) == (COMMAND, args[0]) and entry.why:
+                    raise SentenceError(entry.why)
+            if args[0] not in known:
+                raise click.UsageError(f"there is no command {args[0]!r}{nearest(args[0], known)}", ctx)
         return super().resolve_command(ctx, args)
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
-        """Write the one-line helps, from the table alone."""
+        """Write the one-line helps; no command is imported for that."""
         with formatter.section("Commands"):
-            formatter.write_dl([(name, text) for name, (_, text) in self.table.items()])
+            formatter.write_dl([(name, text) for name, (_, text) in self.commands_of(ctx).items()])
 
     def shell_complete(self, ctx: click.Context, incomplete: str) -> list[CompletionItem]:
-        """Return the commands that begin with what is typed, from the table alone, then the options."""
-        found = [CompletionItem(n, help=text) for n, (_, text) in self.table.items() if n.startswith(incomplete)]
+        """Return the commands that begin with what is typed, then the options; no command is imported for that."""
+        known = self.commands_of(ctx).items()
+        found = [CompletionItem(n, help=text) for n, (_, text) in known if n.startswith(incomplete)]
         return found + click.Command.shell_complete(self, ctx, incomplete)
 
     def invoke(self, ctx: click.Context) -> object:

@@ -7,8 +7,8 @@ from pathlib import Path
 import click
 
 from lostmotion.cli._lazy import PluginName, examples, registry_of
-from lostmotion.cli._options import usual_folder
-from lostmotion.cli._progress import progress
+from lostmotion.cli.options import usual_folder
+from lostmotion.cli.progress import progress
 
 RATES = ("1/s", "bit/s", "1/period", "bit/period")
 

@@ -8,8 +8,8 @@ from typing import Any
 import click
 
 from lostmotion.cli._lazy import PluginName, examples, plain, registry_of
-from lostmotion.cli._options import on_a_trial
-from lostmotion.cli._progress import counted, progress
+from lostmotion.cli.options import on_a_trial
+from lostmotion.cli.progress import counted, progress
 
 
 @click.command(

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import click
 
 from lostmotion.cli._lazy import PluginName, examples, registry_of
-from lostmotion.cli._options import on_a_case
+from lostmotion.cli.options import on_a_case
 
 if TYPE_CHECKING:
     from lostmotion.workflow.identify import Identified

@@ -88,7 +88,7 @@ def _spec(
     name: str,
 ) -> RecordingSpec:
     if (time is None) == (rate is None):
-        raise DataError(f"{name} has {'both' if time else 'neither'} time and rate: give one of them")
+        raise DataError(f"{name} has {'both time and' if time else 'neither time nor'} rate: give one of them")
     if not which[1]:
         raise DataError(f"{name} has no sensor: give sensors = {{channel of the model: data}}")
     inputs = tuple(_channel("input", key, column, units) for key, column in which[0].items())

@@ -29,7 +29,7 @@ from lostmotion.registry.classes import (
     require,
     sources,
 )
-from lostmotion.registry.hooks import FAILURES, KINDS, Host, RefusedError, guarded, said
+from lostmotion.registry.hooks import COMMAND, FAILURES, KINDS, Host, RefusedError, guarded, said
 
 __all__ = ["KINDS", "Entry", "Registry", "default", "import_texts", "sources"]
 
@@ -41,7 +41,8 @@ _PACKAGE = "package"
 class Entry:
     """One offered name, or a package that offers nothing because something is wrong with it (kind "package").
 
-    `state` is "ready", "broken", "clash" or "misspelt hook"; `why` is one sentence when it is not "ready".
+    `state` is "ready", "broken", "clash" or "misspelt hook"; `why` is one sentence when it is not "ready". `about` is
+    the line of help of a command.
     """
 
     kind: str
@@ -51,6 +52,7 @@ class Entry:
     target: str
     state: str = "ready"
     why: str = ""
+    about: str = ""
 
     @property
     def whose(self) -> str:
@@ -118,9 +120,13 @@ class Registry:
 
     def entries(self) -> tuple[Entry, ...]:
         """Return everything that is offered, by kind and name, with what is wrong with it if something is."""
-        order = {kind: i for i, kind in enumerate((*KINDS, _PACKAGE))}
+        order = {kind: i for i, kind in enumerate((*KINDS, COMMAND, _PACKAGE))}
         judged = (self._judged(e) for e in self._offers)
         return tuple(sorted(judged, key=lambda e: (order[e.kind], e.name, e.owner)))
+
+    def commands(self) -> dict[str, Entry]:
+        """Return the commands that packages add to the command line and that are ready, by name."""
+        return {e.name: e for e in self.entries() if e.kind == COMMAND and e.state == "ready"}
 
     def entry(self, kind: str, name: str) -> Entry:
         """Return who offers a name; raise `PluginError` when it is unknown or contested."""
@@ -172,8 +178,8 @@ class Registry:
             self._offers.append(Entry(_PACKAGE, point.name, owner, version, point.value, err.state, str(err)))
 
     def _ask(self, plugin: object, owner: str, version: str) -> None:
-        for kind, name, target in self._host.ask(plugin, owner):
-            self._offers.append(Entry(kind, name, owner, version, target))
+        for offer in self._host.ask(plugin, owner):
+            self._offers.append(Entry(offer.kind, offer.name, owner, version, offer.target, about=offer.about))
 
     def _give(self, obj: Any, owner: str) -> None:
         kind, cls = kind_of(obj), class_of(obj)

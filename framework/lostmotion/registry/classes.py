@@ -48,17 +48,20 @@ def clocked(whose: str) -> Iterator[None]:
         warnings.warn(says, PluginWarning, stacklevel=3)
 
 
-def imported(target: str, whose: str) -> type[Any]:
-    """Return the class that `target` ("package.module:Class") points to; `whose` begins the sentence if it fails."""
+def imported(target: str, whose: str, wanted: type[Any] = type) -> Any:
+    """Return what `target` ("package.module:name") points to, which has to be a class, or whatever else is `wanted`.
+
+    `whose` begins the sentence if it fails.
+    """
     module, _, attribute = target.partition(":")
     try:
         found = importlib.import_module(module)
     except FAILURES as err:
         raise PluginError(f"{whose} could not be imported from {module}: {said(err)}: tell its author") from err
-    if not isinstance(cls := getattr(found, attribute, None), type):
-        near = nearest(attribute, vars(found))
-        raise PluginError(f"{whose} points to {target}, and there is no such class{near}: mend its hook")
-    return cls
+    if not isinstance(thing := getattr(found, attribute, None), wanted):
+        near, what = nearest(attribute, vars(found)), "class" if wanted is type else f"{wanted.__name__}"
+        raise PluginError(f"{whose} points to {target}, and there is no such {what}{near}: mend its hook")
+    return thing
 
 
 def require(cls: type[Any], kind: str, name: str, whose: str) -> None:

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping
-from typing import Any
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any, NamedTuple
 
 import pluggy
 
@@ -12,13 +12,20 @@ from lostmotion import hookspecs
 from lostmotion.errors import nearest
 
 KINDS = ("model", "term", "embedder", "quantifier", "surrogate", "denoiser", "engine")
-HOOKS = {f"lostmotion_{kind}s": kind for kind in KINDS}
+COMMAND = "command"
+HOOKS = {f"lostmotion_{kind}s": kind for kind in (*KINDS, COMMAND)}
 FAILURES = (Exception, SystemExit)
 """What code of other people may raise while it is imported or asked; Ctrl-C is not among them."""
 _TARGET = re.compile(r"[^\W\d]\w*(\.[^\W\d]\w*)*:[^\W\d]\w*")
 
-Offer = tuple[str, str, str]
-"""Kind, name and target."""
+
+class Offer(NamedTuple):
+    """One name that a plugin offers; `about` is the line of help of a command, and empty for all else."""
+
+    kind: str
+    name: str
+    target: str
+    about: str = ""
 
 
 class RefusedError(Exception):
@@ -76,7 +83,7 @@ class Host:
         for impl in getattr(self._plugins.hook, hook).get_hookimpls():
             if impl.plugin_name == label:
                 offer = guarded(impl.function, f"hook {hook!r} failed")
-                answers += [(kind, name, target) for name, target in _checked(offer, hook).items()]
+                answers += _checked(offer, hook, kind)
         return answers
 
 
@@ -94,12 +101,15 @@ def guarded(function: Callable[[], Any], complaint: str) -> Any:
         raise RefusedError("broken", f"{complaint}: {said(err)}") from err
 
 
-def _checked(offer: Any, hook: str) -> Mapping[str, str]:
-    """Return the answer to a hook if it is a mapping of names to targets, else refuse it."""
-    wanted = 'return {"name": "package.module:Class"}'
+def _checked(offer: Any, hook: str, kind: str) -> Iterator[Offer]:
+    """Yield what a hook was answered with, if it is a mapping of names to targets, else refuse it."""
+    told = ("package.module:command", "One line of help.")
+    wanted = f'return {{"name": {told}}}' if kind == COMMAND else 'return {"name": "package.module:Class"}'
     if not isinstance(offer, Mapping):
         raise RefusedError("broken", f"hook {hook!r} returned {type(offer).__name__}: {wanted}")
-    for name, target in offer.items():
-        if not isinstance(name, str) or not isinstance(target, str) or not _TARGET.fullmatch(target):
-            raise RefusedError("broken", f"hook {hook!r} returned {{{name!r}: {target!r}}}: {wanted}")
-    return offer
+    for name, said_of in offer.items():
+        parts = tuple(said_of) if kind == COMMAND and isinstance(said_of, (tuple, list)) else (said_of,)
+        texts = all(isinstance(text, str) for text in (name, *parts))
+        if not texts or len(parts) != (2 if kind == COMMAND else 1) or not _TARGET.fullmatch(parts[0]):
+            raise RefusedError("broken", f"hook {hook!r} returned {{{name!r}: {said_of!r}}}: {wanted}")
+        yield Offer(kind, name, *parts)

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import NamedTuple
 
-from jinja2 import Environment, PackageLoader, StrictUndefined, Template
+from jinja2 import ChoiceLoader, Environment, PackageLoader, StrictUndefined, Template
 from matplotlib.figure import Figure
 
 from lostmotion.errors import DataError, LostMotionError
@@ -38,10 +38,14 @@ def written(page: Path, render: Callable[[], str], source: str) -> Path:
     return save_text(page, text)
 
 
-def template(name: str) -> Template:
-    """Return a page template that escapes every string and stumbles over every name it does not know."""
+def template(name: str, package: str = "lostmotion.report") -> Template:
+    """Return a page template that escapes every string and stumbles over every name it does not know.
+
+    It lies in a `package`, and may include what lies beside the pages of the framework, such as the style sheet.
+    """
+    folders = dict.fromkeys((package, "lostmotion.report"))
     pages = Environment(
-        loader=PackageLoader("lostmotion.report", "."),
+        loader=ChoiceLoader([PackageLoader(folder, ".") for folder in folders]),
         autoescape=True,
         undefined=StrictUndefined,
         trim_blocks=True,

@@ -15,3 +15,9 @@ def lostmotion_models() -> dict[str, str]:
 def lostmotion_terms() -> dict[str, str]:
     """Return the terms of this package."""
     return {"maxwell_element": f"{_HERE}.terms:MaxwellElement"}
+
+
+@hookimpl
+def lostmotion_commands() -> dict[str, tuple[str, str]]:
+    """Return the commands of this package, each with its line in `lostmotion --help`."""
+    return {"crest": (f"{_HERE}.commands:crest", "Tell how far the peaks of a recording reach beyond its rms.")}

@@ -1,0 +1,1 @@
+"""`lostmotion prove`: effects are hidden in machines, diagnosed blind, and scored."""

@@ -1,0 +1,97 @@
+"""`lostmotion prove`: a blind trial; one process conceals, another diagnoses, a third unseals and scores."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import click
+
+from lostmotion.cli import PluginName, examples
+from lostmotion.cli.options import on_a_trial
+
+
+@click.command(
+    epilog=examples(
+        "lostmotion prove --cases 200 --out proof",
+        "lostmotion prove --cases 40 --only coulomb_friction --only lugre_friction --out friction",
+        "lostmotion prove --cases 300 --clean --out clean     false alarms, some with coloured noise and outliers",
+        "lostmotion prove --world imperfect --cases 200 --samples 3000 --out rough     no model is right",
+    )
+)
+@click.option("--cases", default=200, show_default=True, type=click.IntRange(1), help="How many cases to conceal.")
+@click.option(
+    "--only",
+    metavar="NAME",
+    type=PluginName("term"),
+    multiple=True,
+    help="Hide nothing but this mechanism; may be given again.",
+)
+@click.option("--clean", is_flag=True, help="Hide nothing at all: a study of false alarms.")
+@click.option(
+    "--world",
+    default="perfect",
+    show_default=True,
+    type=click.Choice(["perfect", "imperfect"]),
+    help="In an imperfect world machines have flaws that no term describes, kinds of drives take turns, and names"
+    " stated with more than 0.95 are counted.",
+)
+@click.option(
+    "--samples", default=20_000, show_default=True, type=click.IntRange(500), help="Samples of the longest recording."
+)
+@click.option("--fresh", is_flag=True, help="Throw away the trial that is there, instead of continuing it.")
+@on_a_trial
+@click.pass_context
+def command(ctx: click.Context, /, out: Path, only: tuple[str, ...], **given: Any) -> None:
+    """Prove it: a blind trial of `diagnose` on machines that hide what one process knows and another has to find.
+
+    Machines are drawn at random, moved by an integrator that shares nothing with the fit, and their truths sealed: the
+    digests are published before the first diagnosis. Processes that know the cases alone diagnose them. Then truths are
+    unsealed, checked against the digests, and scored beside what the true model reaches.
+
+    Writes cases/, sealed/, seal.json, proof.json and report.html into DIR. The same command continues a trial that was
+    interrupted, at any moment, or enlarges it by more --cases; the bytes depend neither on that nor on --jobs. Exit
+    status 0 when the trial ended, whatever it says; 2 for what cannot be used, and when a truth is not the sealed one.
+    """
+    from lostmotion_trials.blind.commitment import Blind
+    from lostmotion_trials.blind.run import run_proof
+
+    plugins = tuple(str(Path(file).absolute()) for file in ctx.find_root().params.get("plugin") or ())
+    blind = Blind(given["seed"], given["samples"], only, given["clean"], given["world"])
+    with _bar(given["cases"], quiet=given["quiet"]) as say:
+        options = {key: given[key] for key in ("cases", "jobs", "fresh")}
+        content = run_proof(blind, out, plugins=plugins, say=say, **options)
+    for line in (*content["says"], *map(_line, content["targets"])):
+        click.echo(line)
+    click.echo(str(out / "report.html"))
+
+
+@contextmanager
+def _bar(cases: int, *, quiet: bool) -> Iterator[Callable[[str, int, int], None]]:
+    """Yield a function that is told which step is being made, and how many of its cases are done."""
+    from tqdm import tqdm
+
+    with tqdm(desc="prove", total=cases, unit=" cases", leave=False, disable=True if quiet else None) as bar:
+        told: list[str] = []
+
+        def say(step: str, done: int, _of: int) -> None:
+            if step not in told:
+                told.append(step)
+                bar.set_description(step, refresh=False)
+                bar.reset()
+                bar.initial = done
+            bar.n = done
+            bar.refresh()
+
+        yield say
+
+
+def _line(target: Mapping[str, Any]) -> str:
+    """Return one target with what was reached."""
+    if not target["of"]:
+        return f"{target['state']:<9}  {target['what']}"
+    share = f"{target['hits']}/{target['of']} = {target['share']:.0%} [{target['low']:.0%}, {target['high']:.0%}]"
+    wanted = f"{target['at_least']:.0%} to {target['at_most']:.0%}"
+    return f"{target['state']:<9}  {target['what']}: {share}, wanted {wanted}"

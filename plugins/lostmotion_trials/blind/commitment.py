@@ -1,0 +1,257 @@
+"""The first and the last step of a blind trial: truths that are sealed before anybody looks, and opened afterwards.
+
+Of each case there is `cases/NNN` for the one who diagnoses, and `sealed/NNN.json` with the truth and a random salt, so
+that nobody can find a truth by trying. `seal.json` holds the digests of both, and is there before the first diagnosis.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import asdict, dataclass
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from lostmotion.case import dump_case
+from lostmotion.contracts import Array
+from lostmotion.errors import DataError
+from lostmotion.provenance import digest
+from lostmotion.storage import folder_for, save_json, save_table, whole
+from lostmotion_trials.blind.hiding import hidden_in
+from lostmotion_trials.blind.imperfect import (
+    CYCLE,
+    IMPACTS,
+    KINDS,
+    World,
+    draw_effect,
+    draw_machine,
+    draw_world,
+    moved_roughly,
+    recorded_roughly,
+)
+from lostmotion_trials.blind.mechanisms import NAMES, SPRUNG, TABLE, Effect, Pilot, drawn
+from lostmotion_trials.blind.simulator import USUAL, Meddling, Rig, draw_rig, moved
+from lostmotion_trials.integrators.hidden import Hidden
+
+CLEAN, SEVERAL = 0.25, 0.15
+"""Shares of the cases that hide nothing, and that hide two or three things."""
+RARE = 0.5
+"""How much rarer than any other mechanism is one that no library has, of which there are several kinds."""
+PLAIN, COLOURED, OUTLIERS = "plain", "coloured", "outliers"
+VARIANTS: Mapping[str, float] = {PLAIN: 0.6, COLOURED: 0.2, OUTLIERS: 0.2}
+"""The measurement noise of clean cases: white; with a memory; white with outliers. All others have white noise."""
+TOUCHES = (0.05, 0.98)
+"""A machine with a gap is in contact for a share of time between these."""
+RUNAWAY = 4.0
+"""A softening spring may throw a machine out of its range: then another one is drawn."""
+TRIES = 2000
+PERFECT, IMPERFECT = "perfect", "imperfect"
+WORLDS = (PERFECT, IMPERFECT)
+
+
+@dataclass(frozen=True)
+class Blind:
+    """What is concealed: the seed, the longest recording (samples), if need be only some mechanisms, or none at all.
+
+    In an imperfect world machines have flaws beside what is hidden (`imperfect.py`), and kinds of drives take turns.
+    """
+
+    seed: int = 0
+    most: int = 20_000
+    only: tuple[str, ...] = ()
+    clean: bool = False
+    world: str = PERFECT
+
+    def check(self) -> None:
+        """Refuse names that no mechanism has, and wishes that exclude one another."""
+        for name in self.only:
+            if name not in NAMES:
+                raise DataError(f"no mechanism is called {name!r}: there are {', '.join(NAMES)}")
+        if self.world not in WORLDS:
+            raise DataError(f"no world is called {self.world!r}: there are {', '.join(WORLDS)}")
+        if self.only and self.clean:
+            raise DataError("clean cases hide nothing: give either --clean or --only")
+
+
+def label(number: int) -> str:
+    """Return the name of a case."""
+    return f"{number:03d}"
+
+
+def concealed(blind: Blind, out: Path, number: int) -> dict[str, Any]:
+    """Return the digests of case `number` after writing it, and its sealed truth, into the folder `out`."""
+    rng = np.random.default_rng([blind.seed, number])
+    salt = rng.bytes(16).hex()
+    kind = KINDS[number % len(KINDS)]
+    names, variant = _chosen(blind, rng, kind if blind.world == IMPERFECT else "")
+    place = folder_for(out / "cases" / label(number))
+    if blind.world == IMPERFECT:
+        names = names[:1]
+        draw, fill = partial(draw_machine, kind, rng, blind.most), partial(_rough, names, kind, rng)
+    else:
+        draw, fill = partial(draw_rig, rng, blind.most), partial(_perfect, names, rng)
+    rig, (effects, truth, world) = _machine(names, rng, draw, fill)
+    if world:
+        response, noise = recorded_roughly(rig, truth, world, rng)
+        excitation = rig.signal.value(rig.time) + USUAL * rig.signal.amplitude * rng.standard_normal(len(truth))
+    else:
+        excitation, response, noise = _recorded(rig, truth, hidden_in(rig, effects)[1].step, variant, rng)
+    save_table(place / "recording.csv", {"time": rig.time, "excitation": excitation, "response": response}, {}, {})
+    with whole(place / "case.toml") as spare:
+        dump_case(_case(rig, number, world), spare)
+    sealed = folder_for(out / "sealed") / f"{label(number)}.json"
+    save_json(
+        sealed,
+        {
+            "schema": "lostmotion.sealed/1",
+            "case": label(number),
+            "salt": salt,
+            "variant": variant,
+            "effects": [asdict(effect) for effect in effects],
+            "machine": {**asdict(rig), "measurement_noise": noise},
+            **({"world": asdict(world)} if world else {}),
+        },
+    )
+    return {"case": label(number), "digests": _digests(out, label(number))}
+
+
+def publish(out: Path, concealed: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
+    """Return the content of `seal.json` after writing it; an earlier one must say the same of the same cases."""
+    path, new = out / "seal.json", {one["case"]: dict(one["digests"]) for one in concealed}
+    old = json.loads(path.read_text(encoding="utf-8"))["digests"] if path.exists() else {}
+    for case in sorted(set(old) & set(new)):
+        if old[case] != new[case]:
+            raise DataError(f"case {case} is not the one of {path}: conceal into another folder, or begin with --fresh")
+    content = {"schema": "lostmotion.seal/1", "digest": "SHA-256", "digests": {**old, **new}}
+    save_json(path, content)
+    return content
+
+
+def unsealed(out: Path, number: int) -> dict[str, Any]:
+    """Return the truth of a case, after checking that neither it nor the case has changed since it was sealed."""
+    case = label(number)
+    sealed: Mapping[str, str] = json.loads((out / "seal.json").read_text(encoding="utf-8"))["digests"][case]
+    for name, value in _digests(out, case).items():
+        if sealed[name] != value:
+            raise DataError(f"{name} of case {case} is not what seal.json vouches for: nothing is scored")
+    truth: dict[str, Any] = json.loads((out / "sealed" / f"{case}.json").read_text(encoding="utf-8"))
+    return truth
+
+
+def _digests(out: Path, case: str) -> dict[str, str]:
+    place = out / "cases" / case
+    files = {"truth": out / "sealed" / f"{case}.json", **{n: place / n for n in ("case.toml", "recording.csv")}}
+    return {name: digest(path) for name, path in files.items()}
+
+
+def _chosen(blind: Blind, rng: np.random.Generator, kind: str = "") -> tuple[tuple[str, ...], str]:
+    """Return what is to be hidden, and the kind of measurement noise; `kind` is that of the drive, if it is given."""
+    lot, noisy = rng.random(), str(rng.choice(list(VARIANTS), p=list(VARIANTS.values())))
+    if blind.clean or (not blind.only and lot < CLEAN):
+        return (), noisy
+    offered = [name for name in blind.only or NAMES if not kind or _possible(name, kind)]
+    if not offered:
+        raise DataError(f"{' and '.join(blind.only)} cannot be hidden in a machine under {kind}: name more mechanisms")
+    weights = np.array([RARE if name == "unknown" else 1.0 for name in offered])
+    count = 1 if blind.only or lot < 1.0 - SEVERAL else int(rng.integers(2, 4))
+    picked = rng.choice(offered, size=count, replace=False, p=weights / weights.sum()).tolist()
+    return tuple(_unlike(picked)), PLAIN
+
+
+def _unlike(names: Sequence[str]) -> list[str]:
+    """Return the names without those whose kin is there already; what nobody knows stays by itself."""
+    if "unknown" in names:
+        return ["unknown"]
+    kin = {TABLE[name].kin: name for name in reversed(names)}
+    return [name for name in names if kin[TABLE[name].kin] == name]
+
+
+Filled = tuple[tuple[Effect, ...], Array, "World | None"]
+"""What is hidden in a machine, with its sizes; its motion (samples,); and its flaws, if it has any."""
+
+
+def _machine(
+    names: Sequence[str],
+    rng: np.random.Generator,
+    draw: Callable[[], Rig],
+    fill: Callable[[Pilot], Filled],
+) -> tuple[Rig, Filled]:
+    """Return a machine that can have all of these mechanisms, and what it is filled with."""
+    for _ in range(TRIES):
+        rig = draw()
+        if not all(TABLE[name].fits(rig) if name in TABLE else rig.model in SPRUNG for name in names):
+            continue
+        with suppress(DataError):
+            pilot = Pilot(rig, moved(rig, Hidden(), Meddling(), rng))
+            if "x0" in rig.values and not TOUCHES[0] < float(np.mean(np.abs(pilot.touching))) < TOUCHES[1]:
+                continue
+            filled = fill(pilot)
+            if float(np.std(filled[1])) < RUNAWAY * float(np.std(pilot.q)):
+                return rig, filled
+    raise DataError(f"no machine was drawn that can have {' and '.join(names) or 'nothing'}")
+
+
+def _perfect(names: Sequence[str], rng: np.random.Generator, pilot: Pilot) -> Filled:
+    effects = tuple(drawn(name, pilot, rng) for name in names)
+    return effects, moved(pilot.rig, *hidden_in(pilot.rig, effects), rng), None
+
+
+def _rough(names: Sequence[str], kind: str, rng: np.random.Generator, pilot: Pilot) -> Filled:
+    world = draw_world(kind, pilot, rng)
+    effects = tuple(draw_effect(name, pilot, rng) for name in names)
+    return effects, moved_roughly(pilot.rig, hidden_in(pilot.rig, effects), world, rng), world
+
+
+def _possible(name: str, kind: str) -> bool:
+    """Return whether a mechanism can be hidden under a kind of drive: some need one whose frequency stays, or a joint.
+
+    No joint is hit.
+    """
+    mechanism = TABLE.get(name)
+    if mechanism is None:
+        return True
+    return (kind == CYCLE or not mechanism.tone) and not (kind == IMPACTS and mechanism.models == ("robot_joint",))
+
+
+def _recorded(
+    rig: Rig, truth: Array, step: float, variant: str, rng: np.random.Generator
+) -> tuple[Array, Array, float]:
+    """Return excitation and response (samples,) as the sensors show them, and the deviation of the latter's noise."""
+    clean = rig.signal.value(rig.time)
+    noise = rig.noise * float(np.std(truth - clean if rig.based else truth))
+    white = rng.standard_normal(len(truth))
+    if variant == COLOURED:
+        white = _remembering(white, float(rng.uniform(0.3, 0.8)))
+    if variant == OUTLIERS:
+        hit = rng.random(len(truth)) < 10.0 ** rng.uniform(-3.0, -2.0)
+        white = white + hit * rng.choice([-1.0, 1.0], len(truth)) * rng.uniform(5.0, 20.0, len(truth))
+    shown = truth + noise * white
+    if step:
+        shown = step * np.round(shown / step)
+    return clean + USUAL * rig.signal.amplitude * rng.standard_normal(len(truth)), shown, noise
+
+
+def _remembering(white: Array, memory: float) -> Array:
+    """Return noise of unit deviation, each sample of which keeps a share of the one before."""
+    from scipy.signal import lfilter
+
+    return np.asarray(lfilter([(1.0 - memory**2) ** 0.5], [1.0, -memory], white), dtype=float)
+
+
+def _case(rig: Rig, number: int, world: World | None) -> dict[str, Any]:
+    """Return what the owner of the machine believes; nothing of it is hidden, but it may be slightly wrong."""
+    stated = world.stated if world else {}
+    excitation, units = ("base_position", ("rad", "rad")) if rig.based else ("force", ("N", "m"))
+    recording = {
+        "file": "recording.csv",
+        "time": "time",
+        "excitation": {"column": "excitation", "quantity": excitation, "unit": units[0]},
+        "response": {"column": "response", "quantity": "position", "unit": units[1]},
+    }
+    known = {name: value * stated.get(name, 1.0) for name, value in rig.values.items() if name not in rig.estimated}
+    model = {"name": rig.model, "known": known, "estimate": dict(rig.priors)}
+    return {"title": f"Blind case {label(number)}", "recordings": [recording], "model": model}

@@ -1,0 +1,284 @@
+"""Machines of an imperfect world: beside what is hidden each has the flaws of real rigs, which no term describes.
+
+Small smooth forces over position, velocity, phase or time; friction whose level follows a random curve over the speed;
+a foot that gives way; a far mode in what the sensor shows; known values that are slightly wrong; a sensor that is bent;
+noise with a memory, mains hum and a quantised reading. What is hidden has its size as a share of the force of inertia.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from functools import partial
+
+import numpy as np
+
+from lostmotion.contracts import Array
+from lostmotion.inference.setup import HELD_OUT
+from lostmotion_trials.blind.mechanisms import NOISY, TABLE, UNKNOWN, Effect, Pilot
+from lostmotion_trials.blind.simulator import (
+    ACROSS,
+    Meddling,
+    Rig,
+    Signal,
+    drawn_log,
+    followed,
+    foot_of,
+    pace_of,
+    sized,
+    wide_prior,
+)
+from lostmotion_trials.integrators.hidden import Hidden
+from lostmotion_trials.integrators.imperfect import CELLS, REACH, Flaws, move_rough
+
+CYCLE, MULTISINE, SWEEP, STEPS, IMPACTS = "cycle", "multisine", "sweep", "steps", "impacts"
+KINDS = (CYCLE, MULTISINE, SWEEP, STEPS, IMPACTS)
+FINE = 0.003
+"""Steps times the fastest rate: a fifth of those of a final fit."""
+SHORTEST = 1500
+SIZE = (0.02, 0.3)
+"""The force of what is hidden over that of inertia, both rms; of an error of a sensor over the motion."""
+SMOOTH = (0.005, 0.05)
+"""The rms of all smooth forces together over the amplitude of the drive, or of the force of inertia if that is less."""
+WAVES = 4
+FITTED = 1.0 - HELD_OUT
+"""The share of a recording that a diagnosis fits."""
+Curve = tuple[tuple[float, float], ...]
+"""Cosine and sine of each wave of a random function."""
+
+
+@dataclass(frozen=True)
+class Blemish:
+    """A small smooth force: the rms (N) of it, what it runs `over`, and the waves of its random function."""
+
+    over: str
+    rms: float
+    waves: Curve
+
+
+@dataclass(frozen=True)
+class World:
+    """The flaws of one rig.
+
+    `friction` is the random curve of the level of friction over the speed, `stated` what the case says of each known
+    value over the truth, `bend` the share of its largest reading by which the sensor is bent there (even, odd). Of the
+    noise `slow` is the share with a `memory` per sample, `hum` the amplitude at `hum_pace` (rad/s), `step` the
+    quantisation, all in deviations of the noise.
+    """
+
+    kind: str
+    smooth: tuple[Blemish, ...]
+    friction: Curve
+    flaws: Mapping[str, float]
+    stated: Mapping[str, float]
+    bend: tuple[float, float]
+    slow: float
+    memory: float
+    hum: float
+    hum_pace: float
+    step: float
+    curves: Mapping[str, list[float]] = field(default_factory=dict)
+
+
+def draw_machine(kind: str, rng: np.random.Generator, most: int) -> Rig:
+    """Return a machine of random size under a drive of a kind, with recordings of `most` samples at most."""
+    gapped = 0.55 if kind == IMPACTS else 0.45
+    joint = 0.0 if kind == IMPACTS else 0.3
+    names, weights = ["lin_backlash", "robot_joint", "linear_oscillator"], [gapped, joint, 1.0 - gapped - joint]
+    model = str(rng.choice(names, p=weights))
+    natural, mass = drawn_log(rng, 5.0, 300.0), drawn_log(rng, 0.05, 50.0)
+    values, amplitude = sized(model, mass, natural, rng)
+    if model == "lin_backlash" and kind in (IMPACTS, STEPS):
+        values["k1"] = float(rng.uniform(0.03, 0.2)) * values["k0"]
+    ratio = drawn_log(rng, *((0.12, 0.5) if model == "robot_joint" else (0.2, 1.2)))
+    samples = round(drawn_log(rng, min(SHORTEST, most), most))
+    period = max(drawn_log(rng, 25.0, 100.0), ACROSS / ratio)
+    rate = period * ratio * natural / (2.0 * math.pi)
+    signal = _signal(kind, amplitude, ratio * natural, (natural, samples / rate), rng)
+    top = max((w for _, w, _ in signal.tones), default=0.0) / (ratio * natural)
+    rate *= max(1.0, ACROSS * top / period)
+    estimated = ("c", "k") if model == "linear_oscillator" else ("c", "x0")
+    priors = {name: wide_prior(values[name], rng) for name in estimated}
+    return Rig(model, values, estimated, signal, rate, samples, drawn_log(rng, 0.002, 0.03), priors)
+
+
+def _signal(kind: str, size: float, omega: float, times: tuple[float, float], rng: np.random.Generator) -> Signal:
+    """Return a drive of a kind; `times` are the natural angular frequency (rad/s) and the duration (s)."""
+    natural, duration = times
+    turn = float(rng.uniform(0.0, 2.0 * math.pi))
+    if kind == CYCLE:
+        return Signal(((size, omega, turn),))
+    if kind == SWEEP:
+        return Signal(((size, 0.5 * omega, turn),), float(rng.uniform(0.7, 1.5)) * omega / duration)
+    if kind == MULTISINE:
+        base = 2.0 * math.pi * float(rng.integers(2, 5)) / duration
+        lines = np.unique(np.round(np.linspace(0.3, 1.8, int(rng.integers(8, 17))) * omega / base))
+        turns = rng.uniform(0.0, 2.0 * math.pi, len(lines))
+        each = size * math.sqrt(2.0 / len(lines))
+        return Signal(tuple((each, float(n) * base, float(p)) for n, p in zip(lines, turns, strict=True) if n > 0))
+    cycle = 2.0 * math.pi / natural
+    events, at = [], 0.02 * duration
+    spaced = max(0.1 * duration, 4.0 * cycle) if kind == IMPACTS else max(0.03 * duration, 2.0 * cycle)
+    while at < duration:
+        long = float(rng.uniform(0.3, 0.7)) * cycle
+        events.append((at, size * float(rng.uniform(0.5, 1.5)) * float(rng.choice([-1.0, 1.0])), long))
+        at += spaced * float(rng.uniform(0.7, 1.5))
+    if kind == IMPACTS:
+        return Signal((), hits=tuple((t, 3.0 * s, long) for t, s, long in events), pace=omega)
+    levels = [s for _, s, _ in events]
+    jumps = [new - old for new, old in zip(levels, [0.0, *levels[:-1]], strict=True)]
+    return Signal((), steps=tuple((t, j, long) for (t, _, long), j in zip(events, jumps, strict=True)), pace=omega)
+
+
+def draw_world(kind: str, pilot: Pilot, rng: np.random.Generator) -> World:
+    """Return the flaws of a rig whose motion with nothing hidden is that of the pilot."""
+    rig, body = pilot.rig, pilot.rig.body
+    offered = ["position", "velocity", "time", *(["phase"] if kind == CYCLE else [])]
+    overs = [str(o) for o in rng.choice(offered, size=int(rng.integers(1, 4)), replace=False)]
+    drive = math.inf if rig.based else rig.signal.amplitude
+    whole = drawn_log(rng, *SMOOTH) * min(drive, math.sqrt(2.0) * pilot.inertial) / math.sqrt(len(overs))
+    stiff = body.k + body.k0
+    pace = math.sqrt(stiff / body.m)
+    foot = stiff * drawn_log(rng, 50.0, 500.0)
+    flaws = {
+        "position": _scale(pilot.q),
+        "velocity": _scale(pilot.v),
+        "foot": foot,
+        "foot_drag": foot * float(rng.uniform(0.03, 0.1)) / pace,
+        "far_pace": float(rng.uniform(6.0, 15.0)) * pace,
+        "far_loss": drawn_log(rng, 0.005, 0.03),
+        "far_compliance": drawn_log(rng, 0.001, 0.01) / stiff,
+    }
+    known = [name for name, value in rig.values.items() if name not in rig.estimated and value]
+    smooth = tuple(Blemish(over, whole, _waves(rng)) for over in overs)
+    made = World(
+        kind=kind,
+        smooth=smooth,
+        friction=_waves(rng),
+        flaws=flaws,
+        stated={name: 1.0 + float(rng.choice([-1.0, 1.0])) * drawn_log(rng, 0.001, 0.01) for name in known},
+        bend=(float(rng.uniform(-0.005, 0.005)), float(rng.uniform(-0.005, 0.005))),
+        slow=float(rng.uniform(0.1, 0.8)),
+        memory=float(rng.uniform(0.3, 0.9)),
+        hum=drawn_log(rng, 0.1, 1.0),
+        hum_pace=float(rng.uniform(0.1, 2.5)) * rig.rate,
+        step=drawn_log(rng, 0.1, 2.0),
+    )
+    return replace(made, curves=_tables(made, pilot, rng))
+
+
+def _scale(moved: Array) -> float:
+    """Return the scale of a motion: its deviation, or where it has peaks, as behind a hit, 0.4 of the largest."""
+    return max(float(np.std(moved)), 0.4 * float(np.max(np.abs(moved))))
+
+
+def _waves(rng: np.random.Generator) -> Curve:
+    """Return the waves of a random smooth function, the faster the smaller."""
+    return tuple(tuple((rng.standard_normal(2) / k).tolist()) for k in range(1, WAVES + 1))
+
+
+def _function(waves: Curve, angle: Array) -> Array:
+    """Return a random function at angles: half a wave of the slowest over pi."""
+    rows = (a * np.cos(k * angle) + b * np.sin(k * angle) for k, (a, b) in enumerate(waves, start=1))
+    return np.asarray(sum(rows), dtype=float)
+
+
+def _tables(world: World, pilot: Pilot, rng: np.random.Generator) -> dict[str, list[float]]:
+    """Return the curves (CELLS + 1,) over position, velocity and speed that the integrator reads."""
+    z = np.linspace(-REACH, REACH, CELLS + 1)
+    shape = _function(world.friction, 0.5 * math.pi * np.abs(z))
+    level = float(rng.uniform(0.05, 0.2))
+    tables = {name: np.zeros(CELLS + 1) for name in ("position", "velocity")}
+    moved = {"position": pilot.q, "velocity": pilot.v}
+    for blemish in world.smooth:
+        if blemish.over in tables:
+            raw = _function(blemish.waves, 0.5 * math.pi * z / 2.0 + 0.25 * math.pi)
+            seen = moved[blemish.over] / world.flaws[blemish.over]
+            tables[blemish.over] += _scaled(raw, z, seen, blemish.rms)
+    friction = np.exp(level * shape / max(float(np.std(shape)), 1e-12))
+    return {"friction": friction.tolist(), **{k: v.tolist() for k, v in tables.items()}}
+
+
+def _scaled(raw: Array, z: Array, seen: Array, rms: float) -> Array:
+    """Return a curve over `z` of this rms along what was seen, without the straight line in it.
+
+    A constant is an offset and a slope a stiffness or a damping: these have names.
+    """
+    along = np.interp(seen, z, raw)
+    line = np.linalg.lstsq(np.column_stack([np.ones_like(seen), seen]), along, rcond=None)[0]
+    rest = float(np.std(along - line[0] - line[1] * seen))
+    curve = (raw - line[0] - line[1] * z) * rms / max(rest, 1e-300)
+    return np.asarray(np.where(np.abs(z) < REACH, curve, np.interp(z, z[1:-1], curve[1:-1])), dtype=float)
+
+
+def moved_roughly(rig: Rig, hidden: tuple[Hidden, Meddling], world: World, rng: np.random.Generator) -> Array:
+    """Return what the sensor shows (samples,) before its noise, after the machine has settled."""
+    inside, meddling = hidden
+    curves = np.array([world.curves[name] for name in ("position", "velocity", "friction")])
+    flaws, state = Flaws(**world.flaws), np.zeros(9)
+    state[0] = foot_of(rig)
+
+    def follow(force: Array, base: Array, clock: tuple[float, float], every: int) -> Array:
+        told = (force, base, rig.body, inside, flaws, curves, state, clock, every)
+        return np.asarray(move_rough(*told)[:, 0])  # type: ignore[no-untyped-call]
+
+    fastest = max(pace_of(rig), 0.4 * world.flaws["far_pace"])
+    return followed(rig, meddling, rng, fastest / FINE, follow, partial(_timed, world, rig))
+
+
+def _timed(world: World, rig: Rig, t: Array) -> Array:
+    """Return the smooth forces (samples,) over phase and time at the times `t` (s)."""
+    total, duration = np.zeros(len(t)), rig.samples / rig.rate
+    for blemish in world.smooth:
+        if blemish.over == "phase":
+            size = math.sqrt(0.5 * sum(a * a + b * b for a, b in blemish.waves))
+            total += blemish.rms / max(size, 1e-300) * _function(blemish.waves, rig.signal.omega * t)
+        if blemish.over == "time":
+            size = float(np.std(_over_time(blemish.waves, np.linspace(0.0, 1.0, 2001))))
+            total += blemish.rms / max(size, 1e-300) * _over_time(blemish.waves, t / duration)
+    return total
+
+
+def _over_time(waves: Curve, share: Array) -> Array:
+    """Return a random function at shares of a recording, without a mean in the part that is fitted nor behind it.
+
+    A straight line with these means is taken out: a constant force has a name.
+    """
+    parts = ((0.0, FITTED), (FITTED, 1.0))
+    means = [float(np.mean(_function(waves, math.pi * np.linspace(a, b, 2001)))) for a, b in parts]
+    slope = 2.0 * (means[1] - means[0])
+    return np.asarray(_function(waves, math.pi * share) - means[0] - slope * (share - 0.5 * FITTED))
+
+
+def recorded_roughly(rig: Rig, truth: Array, world: World, rng: np.random.Generator) -> tuple[Array, float]:
+    """Return the response (samples,) as the acquisition shows it, and the deviation of its noise."""
+    from scipy.signal import lfilter
+
+    clean = rig.signal.value(rig.time)
+    own = truth - clean if rig.based else truth
+    middle = float(np.mean(truth))
+    noise, size = rig.noise * float(np.std(own)), float(np.max(np.abs(truth - middle)))
+    z = (truth - middle) / size
+    bent = truth + size * (world.bend[0] * z**2 + world.bend[1] * z**3)
+    white, slow = rng.standard_normal((2, len(truth)))
+    slow = lfilter([math.sqrt(1.0 - world.memory**2)], [1.0, -world.memory], slow)
+    hum = world.hum * np.cos(world.hum_pace * rig.time + float(rng.uniform(0.0, 2.0 * math.pi)))
+    shown = bent + noise * (math.sqrt(1.0 - world.slow) * white + math.sqrt(world.slow) * slow + hum)
+    step = world.step * noise
+    return step * np.round(shown / step), noise
+
+
+def draw_effect(name: str, pilot: Pilot, rng: np.random.Generator) -> Effect:
+    """Return a mechanism of a random size among those that matter beside flaws: its force over that of inertia."""
+    what = str(rng.choice(list(UNKNOWN))) if name == "unknown" else ""
+    mechanism = UNKNOWN[what] if what else TABLE[name]
+    at = str(rng.choice(mechanism.spots(pilot.rig)))
+    draft = mechanism.plan(pilot, at, rng)
+    if name in NOISY:
+        return Effect(name, at, draft.parameters(NOISY[name](pilot, float(rng.random()))))
+    share = drawn_log(rng, *SIZE)
+    reference = float(np.std(pilot.q)) if draft.shown else pilot.inertial
+    size = share * reference / max(float(np.sqrt(np.mean(draft.felt**2))), 1e-300)
+    size *= rng.choice([-1.0, 1.0]) if mechanism.signed else 1.0
+    return Effect(name, at, draft.parameters(float(size)), what)

@@ -1,0 +1,129 @@
+"""What a blind trial may hide in a machine, where it can act, and how large it is drawn."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from lostmotion_trials.blind import plans
+from lostmotion_trials.blind.pilot import Draft, Effect, Pilot
+from lostmotion_trials.blind.plans import Plan
+from lostmotion_trials.blind.simulator import GAPPED, Rig
+
+__all__ = ["GAIN", "NAMES", "NOISY", "SPRUNG", "TABLE", "UNKNOWN", "Effect", "Mechanism", "Pilot", "drawn"]
+
+LARGEST = 0.3
+"""A hidden force has at the most this share of the inertial force, rms."""
+GAIN = (5.0, 1000.0)
+
+
+@dataclass(frozen=True)
+class Mechanism:
+    """How a mechanism is planned; where it can act ("own": where the gap is; "": any); which machines it fits.
+
+    `kin` are those of which one machine has one at the most; `tone`: it needs a drive whose frequency stays.
+    """
+
+    plan: Plan
+    kin: str
+    at: tuple[str, ...] = ("",)
+    models: tuple[str, ...] = (*GAPPED, "linear_oscillator", "rigid_drive")
+    tone: bool = False
+    signed: bool = False
+
+    def fits(self, rig: Rig) -> bool:
+        """Return whether the mechanism is something else there than what is estimated anyway."""
+        return rig.model in self.models and bool(self.spots(rig)) and not (self.tone and rig.signal.sweep)
+
+    def spots(self, rig: Rig) -> tuple[str, ...]:
+        """Return the places where it can act."""
+        own = {"own": "base" if rig.based else "ground"}
+        return tuple(p for p in (own.get(a, a) for a in self.at) if not p or p in rig.places)
+
+
+ANYWHERE = ("ground", "base")
+SPRUNG = (*GAPPED, "linear_oscillator")
+TABLE: Mapping[str, Mechanism] = {
+    "coulomb_friction": Mechanism(plans.one("force", lambda _, v: np.sign(v)), "rub", ANYWHERE),
+    "stribeck_friction": Mechanism(plans.stribeck, "rub", ANYWHERE),
+    "dahl_friction": Mechanism(plans.bristle(low=0.05, high=0.5), "rub", ANYWHERE),
+    "lugre_friction": Mechanism(plans.bristle(excess=True), "rub", ANYWHERE),
+    "bouc_wen_hysteresis": Mechanism(plans.bristle(name="travel", low=0.1, high=1.0), "rub", ANYWHERE),
+    "viscous_damping": Mechanism(plans.one("coefficient", lambda _, v: v), "drag", ("ground",), ("robot_joint",)),
+    "quadratic_damping": Mechanism(plans.one("coefficient", lambda _, v: v * np.abs(v)), "drag", ANYWHERE),
+    "contact_damping": Mechanism(plans.contact_drag, "contact", ("own",), GAPPED),
+    "linear_stiffness": Mechanism(
+        plans.one("coefficient", lambda x, _: x), "spring", ANYWHERE, (*GAPPED, "rigid_drive")
+    ),
+    "cubic_stiffness": Mechanism(plans.one("coefficient", lambda x, _: x**3), "spring", ANYWHERE, SPRUNG, signed=True),
+    "asymmetric_gap": Mechanism(plans.asymmetric, "gap", ("own",), GAPPED, signed=True),
+    "gap_drift": Mechanism(plans.drift, "gap", ("",), GAPPED),
+    "offset_force": Mechanism(plans.one("force", lambda x, _: np.ones_like(x)), "push", ("",), SPRUNG, signed=True),
+    "parametric_stiffness": Mechanism(plans.parametric, "wave", ("",), SPRUNG, tone=True),
+    "excitation_harmonic": Mechanism(plans.harmonic, "wave", ("",), tone=True),
+    "excitation_delay": Mechanism(plans.late_drive, "late"),
+    "excitation_gain": Mechanism(plans.more_drive, "more", ("",), SPRUNG, signed=True),
+    "sensor_delay": Mechanism(plans.late_sensor, "late"),
+    "sensor_gain": Mechanism(plans.more_sensor, "more", ("",), SPRUNG, signed=True),
+    "sensor_quantisation": Mechanism(lambda p, _a, _r: Draft(p.q, lambda s: {"step": s}), "round"),
+    "random_force": Mechanism(lambda p, _a, _r: Draft(p.q, lambda s: {"rms": s}), "chance"),
+    "backlash": Mechanism(plans.play, "gap", ("",), ("linear_oscillator",)),
+    "end_stop": Mechanism(plans.stop, "gap", ("ground",), ("linear_oscillator", "robot_joint")),
+    "hunt_crossley_contact": Mechanism(plans.crushed, "contact", ("own",), GAPPED),
+    "hertz_contact": Mechanism(plans.curved, "spring", ("own",), GAPPED),
+    "bilinear_stiffness": Mechanism(
+        plans.one("difference", lambda x, _: -0.5 * np.abs(x)), "spring", ("ground",), SPRUNG, signed=True
+    ),
+    "quadratic_stiffness": Mechanism(
+        plans.one("coefficient", lambda x, _: -(x**2)), "spring", ("ground",), SPRUNG, signed=True
+    ),
+    "hidden_mode": Mechanism(plans.rattling, "mass", ("ground",)),
+    "inertia_change": Mechanism(plans.heavier, "mass", ("ground",), signed=True),
+    "directional_friction": Mechanism(plans.two_ways, "rub", ANYWHERE),
+    "position_dependent_friction": Mechanism(plans.wavy, "rub", ANYWHERE),
+    "load_dependent_friction": Mechanism(
+        plans.loaded, "rub", ("own",), ("robot_joint", "linear_oscillator", "rigid_drive")
+    ),
+    "friction_drift": Mechanism(plans.warming, "rub", ANYWHERE),
+    "directional_damping": Mechanism(
+        plans.one("difference", lambda _, v: -0.5 * np.abs(v)), "drag", ("ground",), signed=True
+    ),
+    "damping_drift": Mechanism(plans.aging, "drag", ("ground",), signed=False),
+    "cogging": Mechanism(plans.magnets, "wave", ("ground",)),
+    "position_ripple": Mechanism(plans.sensor_wave, "round"),
+    "actuator_lag": Mechanism(plans.behind, "late"),
+    "sensor_lag": Mechanism(plans.sensor_behind, "late", ("",), GAPPED),
+    "drive_saturation": Mechanism(plans.limited, "more"),
+    "drive_dead_zone": Mechanism(plans.dead, "more"),
+}
+UNKNOWN: Mapping[str, Mechanism] = {
+    "wave over position that narrows": Mechanism(plans.narrowing, "unknown"),
+    "friction that depends on position": Mechanism(plans.rough, "unknown"),
+    "bump at one position": Mechanism(plans.bump, "unknown"),
+    "drag that grows with position": Mechanism(plans.mixed, "unknown", models=SPRUNG),
+}
+"""What no library has."""
+NAMES = (*TABLE, "unknown")
+NOISY: Mapping[str, Callable[[Pilot, float], float]] = {
+    "sensor_quantisation": lambda pilot, share: pilot.noise * 10.0 ** (1.2 * share),
+    "random_force": lambda pilot, share: pilot.usual * 3.2 * 10.0 ** (0.7 * share),
+}
+"""Sizes of what has no force that could be foretold, from a share between 0 and 1."""
+
+
+def drawn(name: str, pilot: Pilot, rng: np.random.Generator) -> Effect:
+    """Return a mechanism of a size at which it should show in `pilot` as well as a random gain in log-likelihood."""
+    what = str(rng.choice(list(UNKNOWN))) if name == "unknown" else ""
+    mechanism = UNKNOWN[what] if what else TABLE[name]
+    at = str(rng.choice(mechanism.spots(pilot.rig)))
+    draft = mechanism.plan(pilot, at, rng)
+    wanted = math.exp(rng.uniform(math.log(GAIN[0]), math.log(GAIN[1])))
+    if name in NOISY:
+        return Effect(name, at, draft.parameters(NOISY[name](pilot, float(rng.random()))))
+    size = math.sqrt(wanted / max(pilot.gain(draft), 1e-300))
+    loud = size * float(np.std(draft.felt)) / (float(np.std(pilot.q)) if draft.shown else pilot.inertial)
+    size *= min(1.0, LARGEST / max(loud, 1e-300)) * (rng.choice([-1.0, 1.0]) if mechanism.signed else 1.0)
+    return Effect(name, at, draft.parameters(float(size)), what)

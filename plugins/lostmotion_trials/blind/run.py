@@ -1,0 +1,116 @@
+"""The blind trial as part of the product: one process conceals, another diagnoses, a third unseals and scores."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Callable
+from dataclasses import asdict, dataclass
+from functools import lru_cache, partial
+from pathlib import Path
+from typing import Any
+
+from lostmotion.errors import LostMotionError, PlaceError
+from lostmotion.provenance import digest, provenance
+from lostmotion.registry import Registry
+from lostmotion.storage import folder_for, save_json
+from lostmotion.workflow.campaign import Campaign, Trial
+from lostmotion.workflow.diagnose import run_diagnosis
+from lostmotion_trials.blind.commitment import Blind, concealed, label, publish
+from lostmotion_trials.blind.judging import judged
+from lostmotion_trials.blind.page import write_proof
+from lostmotion_trials.blind.score import summary
+
+STEPS = ("conceal", "diagnose", "score")
+Say = Callable[[str, int, int], None]
+"""Told which step is being made, how many of its trials are done, and how many there are."""
+
+
+@dataclass(frozen=True)
+class Diagnoser:
+    """One who diagnoses: knows the folder of the cases and the plugin files, and nothing else."""
+
+    cases: Path
+    plugins: tuple[str, ...] = ()
+
+    def __call__(self, number: int) -> dict[str, Any]:
+        """Return whether a case was diagnosed, after writing the diagnosis beside it."""
+        place = self.cases / label(number)
+        shutil.rmtree(place / "diagnosis", ignore_errors=True)
+        try:
+            content = run_diagnosis(
+                place / "case.toml", place / "diagnosis", _registry(self.plugins), seed=number, jobs=1, propose=False
+            )
+        except PlaceError:
+            raise
+        except (LostMotionError, ArithmeticError, ValueError) as err:
+            shutil.rmtree(place / "diagnosis", ignore_errors=True)
+            return {"case": label(number), "status": "failed", "says": " ".join(str(err).split())}
+        (place / "diagnosis" / "arrays.nc").unlink()
+        return {"case": label(number), "status": "ok", "says": " ".join(content["says"])}
+
+
+@dataclass(frozen=True)
+class Scorer:
+    """One who unseals: knows everything, once all has been said."""
+
+    out: Path
+    plugins: tuple[str, ...] = ()
+
+    def __call__(self, number: int) -> dict[str, Any]:
+        """Return what became of a case."""
+        return judged(self.out, _registry(self.plugins), number)
+
+
+_registry = lru_cache(maxsize=1)(Registry.discover)
+"""A registry with these plugin files, the same one for all cases of a process."""
+
+
+def run_proof(
+    blind: Blind,
+    out: Path,
+    *,
+    cases: int,
+    jobs: int,
+    plugins: tuple[str, ...] = (),
+    say: Say = lambda _step, _done, _of: None,
+    fresh: bool = False,
+) -> dict[str, Any]:
+    """Return the content of `proof.json` after writing it and `report.html` into `out`, beside cases and truths.
+
+    Each of the three steps is a campaign of processes of its own in `out`/steps; one that was killed goes on.
+    """
+    blind.check()
+    out = folder_for(out).absolute()
+    if fresh:
+        (out / "seal.json").unlink(missing_ok=True)
+    settings = {key: value for key, value in asdict(blind).items() if key != "seed"}
+    library = {"terms": _registry(plugins).names("term")}
+    inputs = {Path(file).name: digest(Path(file)) for file in plugins}
+    origin = partial(provenance, seed=blind.seed, inputs=inputs)
+    makers: dict[str, tuple[Trial, dict[str, Any]]] = {
+        "conceal": (partial(concealed, blind, out), origin("prove conceal", settings)),
+        "diagnose": (Diagnoser(out / "cases", plugins), origin("prove diagnose", {**settings, **library})),
+        "score": (Scorer(out, plugins), origin("prove score", {**settings, **library})),
+    }
+    rows: dict[str, list[Any]] = {}
+    for step in STEPS:
+        trial, identity = makers[step]
+        campaign = Campaign(trial, cases, identity, apart=True)
+        rows[step] = campaign.run(out / "steps" / step, jobs, partial(say, step), fresh=fresh)
+        if step == "conceal":
+            publish(out, rows[step])
+    content = {
+        "schema": "lostmotion.proof/1",
+        "title": _title(blind),
+        **summary(rows["score"], [r for r in rows["diagnose"] if r["status"] != "ok"]),
+        "provenance": origin("prove", {**settings, **library, "cases": cases}),
+    }
+    save_json(out / "proof.json", content)
+    write_proof(out)
+    return content
+
+
+def _title(blind: Blind) -> str:
+    if blind.clean:
+        return "Blind trial on clean machines"
+    return f"Blind trial of {', '.join(blind.only)}" if blind.only else "Blind trial"

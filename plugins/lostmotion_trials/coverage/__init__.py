@@ -1,0 +1,1 @@
+"""`lostmotion calibrate`: whether intervals hold the truth as often as they say."""

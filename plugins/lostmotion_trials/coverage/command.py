@@ -1,0 +1,120 @@
+"""`lostmotion calibrate`: whether the intervals of `identify` hold the truth as often as they say."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import click
+
+from lostmotion.cli import PluginName, examples
+from lostmotion.cli.options import on_a_case
+from lostmotion.cli.progress import counted
+
+
+@click.command(
+    epilog=examples(
+        "lostmotion calibrate case.toml --drive harmonic:amplitude=100,omega=40 --duration 4.712 --rate 636.6 \\",
+        "    --noise 0.01 --out calibration",
+        "lostmotion calibrate case.toml --drive harmonic:amplitude=100,omega=40 --duration 4.712 --rate 636.6 \\",
+        "    --noise 0.01 --hide coulomb_friction:force=1 --machines 100 --out lie",
+        "lostmotion simulate --help     the drives there are",
+    )
+)
+@on_a_case
+@click.option(
+    "--drive",
+    "drives",
+    metavar="KIND:KEY=VALUE,...",
+    multiple=True,
+    required=True,
+    help="What moves the machines, as of `simulate`; one recording to each that is given.",
+)
+@click.option("--duration", type=float, required=True, metavar="S", help="Of each recording, after as long a run-up.")
+@click.option("--rate", type=float, required=True, metavar="HZ", help="Samples per second.")
+@click.option("--noise", type=float, required=True, metavar="SHARE", help="Noise of the position, over its deviation.")
+@click.option(
+    "--excitation-noise",
+    type=float,
+    default=1e-3,
+    show_default=True,
+    metavar="SHARE",
+    help="Noise of the recorded excitation, over its amplitude; the machine feels the true one.",
+)
+@click.option(
+    "--hide",
+    metavar="NAME[@PLACE]:PARAM=VALUE,...",
+    multiple=True,
+    help="Physics that acts in every machine, whether it is fitted or not.",
+)
+@click.option(
+    "--term",
+    "terms",
+    metavar="NAME[@PLACE]",
+    type=PluginName("term"),
+    multiple=True,
+    help="A term to add to the model that is fitted.",
+)
+@click.option(
+    "--route",
+    type=click.Choice(["trajectory", "quantifiers"]),
+    default="trajectory",
+    show_default=True,
+    help="To the posterior.",
+)
+@click.option(
+    "--map",
+    "maps",
+    metavar="FILE.nc|FILE.zarr",
+    multiple=True,
+    type=click.Path(path_type=Path),
+    help="A map for the route by quantifiers, of `lostmotion map`; made in DIR if not given.",
+)
+@click.option("--machines", default=200, show_default=True, type=click.IntRange(1), help="How many machines to draw.")
+@click.option("--ess", default=300.0, show_default=True, type=click.FloatRange(100), help="Effective draws of each.")
+@click.option("--max-steps", default=2000, show_default=True, type=click.IntRange(10), help="Steps at the most.")
+@click.option("--fresh", is_flag=True, help="Throw away the campaign that is there, instead of continuing it.")
+@click.pass_context
+def command(ctx: click.Context, /, case: Path, out: Path, drives: tuple[str, ...], **given: Any) -> None:
+    """Calibrate `identify` by simulation: see whether its intervals hold the truth as often as they say.
+
+    Machines are drawn from the priors of the case, recorded by an integrator that shares nothing with the fit, and
+    identified; the case needs no recordings. If all is right, the rank of the truth among the draws is uniform, and
+    central intervals hold it as often as their name says (Talts et al. 2018).
+
+    Writes calibration.json, machines.csv and report.html into DIR. The same command continues a campaign that was
+    interrupted, at any moment, or enlarges it by more --machines; the bytes depend neither on that nor on --jobs. Exit
+    status 0 when the campaign ended, passed or not; 2 for what cannot be used.
+    """
+    from lostmotion.stages.identify import Plan
+    from lostmotion_trials.coverage.design import Design
+    from lostmotion_trials.coverage.machines import Bench
+    from lostmotion_trials.coverage.run import run_calibration
+
+    bench = Bench(drives, given["duration"], given["rate"], given["noise"], given["excitation_noise"])
+    plan = Plan(ess=given["ess"], max_steps=given["max_steps"])
+    plugins = tuple(str(Path(file).absolute()) for file in ctx.find_root().params.get("plugin") or ())
+    maps = tuple(path.absolute() for path in given["maps"])
+    chosen = {key: given[key] for key in ("hide", "terms", "route", "seed")}
+    design = Design(case.absolute(), bench, plan=plan, plugins=plugins, maps=maps, **chosen)
+    with counted("calibrate", given["machines"], "machines", quiet=given["quiet"]) as say:
+        options = {key: given[key] for key in ("machines", "jobs", "fresh")}
+        content = run_calibration(design, out, say=say, **options)
+    for line in (*_table(content), *content["says"]):
+        click.echo(line)
+    click.echo(str(out / "report.html"))
+
+
+def _table(content: Mapping[str, Any]) -> list[str]:
+    """Return one line for each parameter: the tests of its ranks, and how many truths its intervals hold."""
+    rows = content["parameters"]
+    width = max(map(len, rows), default=0)
+    return [f"{name:<{width}}  {_line(row)}" for name, row in rows.items()]
+
+
+def _line(row: Mapping[str, Any]) -> str:
+    covered = ", ".join(f"{share} % {one['inside']}/{one['of']}" for share, one in row["coverage"].items())
+    chi2 = "" if row["chi2_p"] is None else f"chi2 p {row['chi2_p']:.3f}, "
+    tested = f"{chi2}ecdf p {row['ecdf_p']:.3f}" if row["drawn"] else "not drawn"
+    return f"{tested}  inside {covered}  rms z {row['rms_z']:.2f}"

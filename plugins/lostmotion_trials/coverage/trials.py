@@ -1,0 +1,157 @@
+"""One trial of a calibration: a machine drawn from the priors, its recordings, its posterior, and where the truth lies.
+
+A trial is made from the design and its number alone.
+"""
+
+from __future__ import annotations
+
+import tempfile
+import tomllib
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from lostmotion.case import dump_case
+from lostmotion.case.levels import Level
+from lostmotion.contracts import Array
+from lostmotion.errors import CaseError, LostMotionError, PlaceError
+from lostmotion.quantities import ANGULAR, SI, unit_of
+from lostmotion.stages.identify import Identification, identify
+from lostmotion.storage import save_table
+from lostmotion.workflow.drives import Options, pairs
+from lostmotion.workflow.levels import Survey, inversion_of, quantifier_task
+from lostmotion.workflow.prepare import case_of, prepare
+from lostmotion.workflow.trajectory import chosen_terms, sampled
+from lostmotion_trials.coverage.design import Design, Machine, Workshop, workshop
+from lostmotion_trials.coverage.machines import Seen
+from lostmotion_trials.coverage.ranks import rank_of
+
+REPLACED = ("recordings", "levels", "truth", "plugins")
+"""What of the case a machine brings itself, or what the registry holds already."""
+
+
+def trial(design: Design, number: int) -> dict[str, Any]:
+    """Return what became of machine `number`: "ok", "unconverged" or "failed", its truth, and where that lies."""
+    shop = workshop(design)
+    of_truth, of_motion, of_fit = np.random.default_rng([design.seed, number]).spawn(3)
+    machine = shop.draw(of_truth)
+    unknown = {name: {"truth": value, "drawn": name in machine.drawn} for name, value in machine.truth.items()}
+    try:
+        result, also = WAYS[design.route](shop, machine, of_motion, int(of_fit.integers(2**32)))
+    except PlaceError:
+        raise
+    except (LostMotionError, ArithmeticError, ValueError) as err:
+        return {"machine": number, "status": "failed", "says": " ".join(str(err).split()), "parameters": unknown}
+    if not result.converged:
+        says = "; ".join(result.lacks)
+        return {"machine": number, "status": "unconverged", "says": says, "parameters": unknown}
+    rows = _judged(result, {**machine.truth, **also}, machine.drawn)
+    reached = {"ess": float(result.quality.ess.min()), "rhat": float(result.quality.rhat.max())}
+    return {"machine": number, "status": "ok", "says": "", "parameters": rows, **reached}
+
+
+def _judged(result: Identification, truth: Mapping[str, float], drawn: frozenset[str]) -> dict[str, dict[str, Any]]:
+    """Return for each parameter whose truth is known where that lies among the draws."""
+    if lost := drawn - set(result.keys):
+        raise ValueError(f"the posterior has no parameter {sorted(lost)[0]}, which was drawn")
+    rows = {}
+    for i, (key, unit) in enumerate(zip(result.keys, result.units, strict=True)):
+        if key in truth:
+            place = _place(truth[key], result.chain[:, :, i])
+            rows[key] = {"truth": truth[key], "drawn": key in drawn, "unit": unit, **place}
+    return rows
+
+
+def _place(truth: float, chain: Array) -> dict[str, float | int]:
+    """Return where a truth lies among the draws of a chain (walkers, steps)."""
+    low, median, high = np.quantile(chain, [0.025, 0.5, 0.975]).tolist()
+    mean, sd = float(chain.mean()), float(chain.std())
+    return {
+        "low": low,
+        "median": median,
+        "high": high,
+        "sd": sd,
+        "z": (truth - mean) / sd,
+        "below": float(np.mean(chain < truth)),
+        "rank": rank_of(truth, chain),
+    }
+
+
+Route = Callable[[Workshop, Machine, np.random.Generator, int], tuple[Identification, dict[str, float]]]
+"""Makes the posterior of a machine from a generator for its motion and a seed for the fit; and further truths."""
+
+
+def by_trajectory(
+    shop: Workshop, machine: Machine, rng: np.random.Generator, seed: int
+) -> tuple[Identification, dict[str, float]]:
+    """Return the posterior from the recordings themselves, and the true measurement noise of each."""
+    seen = shop.record(machine, rng)
+    with tempfile.TemporaryDirectory() as folder:
+        prepared = prepare(_write(shop, machine, seen, Path(folder)), shop.registry)
+    terms = chosen_terms(prepared, shop.design.terms, shop.registry)
+    result = sampled(prepared, terms, shop.design.plan, rng=np.random.default_rng(seed)).result
+    several = len(seen) > 1
+    names = [f"measurement_noise[{label}]" if several else "measurement_noise" for label in shop.design.labels]
+    return result, {name: one.noise for name, one in zip(names, seen, strict=True)}
+
+
+def by_quantifiers(
+    shop: Workshop, machine: Machine, rng: np.random.Generator, seed: int
+) -> tuple[Identification, dict[str, float]]:
+    """Return the posterior from what the recordings are read as, one level of the drive each."""
+    seen, design = shop.record(machine, rng), shop.design
+    fit = np.random.default_rng(seed)
+    with tempfile.TemporaryDirectory() as folder:
+        case = case_of(_write(shop, machine, seen, Path(folder)), shop.registry)
+        task = quantifier_task(case, shop.registry, Path(folder), fit, Survey(maps=design.maps, jobs=1))
+    return identify(task, rng=fit, plan=design.plan), {}
+
+
+def maps_for(shop: Workshop, out: Path, jobs: int) -> tuple[Path, ...]:
+    """Return the maps in which every machine is looked up, made in the folder `out` unless they are there."""
+    unit = unit_of(shop.system.model.inputs[0], shop.system.model.motion)
+    both = zip(shop.design.labels, shop.design.bench.drives, strict=True)
+    levels = tuple(Level(label, *_harmonic(drive), unit=unit) for label, drive in both)
+    inversion_of(shop.case, levels, shop.registry, out, Survey(jobs=jobs))
+    return tuple(sorted(out.glob("map-*.nc")))
+
+
+def _harmonic(drive: str) -> tuple[float, float]:
+    """Return amplitude and angular frequency (rad/s) of a drive, which must be a plain sine."""
+    kind, _, rest = drive.partition(":")
+    options = Options(kind, {"harmonics": "", **pairs(rest, f"drive {drive!r}")})
+    if kind != "harmonic" or options.shares():
+        raise CaseError(
+            f"the drive {drive!r} is no sine: the route by quantifiers wants harmonic:amplitude=...,omega=..."
+        )
+    return options.number("amplitude"), options.omega()
+
+
+def _write(shop: Workshop, machine: Machine, seen: list[Seen], folder: Path) -> Path:
+    """Return the case of a machine, written with its recordings into a folder."""
+    design, model = shop.design, shop.system.model
+    quantity = model.inputs[0]
+    units = SI if model.motion == "translation" else ANGULAR
+    entries = []
+    for label, one, offset in zip(design.labels, seen, machine.offsets, strict=True):
+        columns = {"excitation": one.excitation, "response": one.response + offset}
+        save_table(folder / f"{label}.csv", columns, {}, {})
+        entries.append(
+            {
+                "file": f"{label}.csv",
+                "name": label,
+                "rate": design.bench.rate,
+                "excitation": {"column": "excitation", "quantity": quantity, "unit": units[quantity]},
+                "response": {"column": "response", "quantity": "position", "unit": units["position"]},
+            }
+        )
+    content = tomllib.loads(design.case.read_text(encoding="utf-8-sig"))
+    kept = {key: value for key, value in content.items() if key not in REPLACED}
+    dump_case({**kept, "recordings": entries}, folder / design.case.name)
+    return folder / design.case.name
+
+
+WAYS: Mapping[str, Route] = {"trajectory": by_trajectory, "quantifiers": by_quantifiers}
+"""The ways to a posterior."""

@@ -1,0 +1,1 @@
+"""`lostmotion demo`: a robot joint hides friction, and it is found."""

@@ -1,0 +1,134 @@
+"""A robot joint with something hidden in it: the recording of the demo, made without the models that will explain it.
+
+The motion is computed in degrees and relative to the motor side, with friction that truly sticks, by time stepping
+some forty times finer than any fit. Nothing here is shared with the kernels of the models.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from lostmotion.case import dump_case
+from lostmotion.contracts import Array
+from lostmotion.storage import folder_for, save_table, whole
+from lostmotion_trials.integrators.joint import slide
+
+JOINT = {"m": 0.05, "c": 0.15, "k0": 180.0, "x0": math.radians(0.75), "mgl": 0.0}
+"""The machine in SI units under the names of `robot_joint`: a light link in the horizontal plane, whose contact
+resonates at 9.5 Hz."""
+HIDDEN = "coulomb_friction@base.force"
+FRICTION = 0.03
+"""Hidden friction (N m): 12 % of the peak inertial torque, 2.2 % of the peak torque of the joint."""
+FREQUENCY = 1.54
+AMPLITUDE = 3.0
+"""Base motion (Hz, deg): the link rattles chaotically, with an exponent of 1.2 1/s, and of 2.4 without friction."""
+COUNT = 360.0 / 2**17
+FINER = 5.0
+"""One count of the link's encoder (deg), and how much finer the other one is: it sits on the motor, before the gear."""
+FINE = 200
+SETTLE = 30
+"""Steps between samples, and periods that pass before the recording begins."""
+DIGITS = 6
+
+
+@dataclass(frozen=True)
+class Concealed:
+    """A recording and the truth behind it.
+
+    `time` (s), `base_position` and `position` (deg, as the encoders show them), each (samples,); `stuck` is the share
+    of time in which the friction holds. `truth` is in SI units; `nominal` is the `[model]` table of the case.
+    """
+
+    time: Array
+    base_position: Array
+    position: Array
+    stuck: float
+    truth: Mapping[str, float]
+    nominal: Mapping[str, Any]
+
+
+def conceal_joint(
+    rng: np.random.Generator,
+    *,
+    periods: int = 60,
+    rate: float = 200.0,
+    friction: float = FRICTION,
+    noise: float = 0.015,
+) -> Concealed:
+    """Return a recording (degrees, `rate` in Hz) of a joint that hides `friction` (N m); with 0 nothing is hidden.
+
+    `noise` (deg) is the standard deviation of what the encoder of the link adds, 0.6 % of that of the motion; the one
+    of the motor adds a fifth. Both round to whole counts.
+    """
+    phase, start = rng.uniform(0.0, 2.0 * math.pi), rng.uniform(-0.5, 0.5)
+    settle = round(SETTLE * rate / FREQUENCY)
+    samples = settle + round(periods * rate / FREQUENCY)
+    base, seen = joint_motion(phase, start, friction, rate, samples)
+    base, seen = base[settle:], seen[settle:]
+    return Concealed(
+        time=np.arange(len(base)) / rate,
+        base_position=_encoded(base, 1.0 / FINER, noise, rng),
+        position=_encoded(base + seen[:, 0], 1.0, noise, rng),
+        stuck=float(seen[:, 2].mean()),
+        truth={**JOINT, HIDDEN: friction},
+        nominal=_nominal(),
+    )
+
+
+def joint_motion(phase: float, start: float, friction: float, rate: float, samples: int) -> tuple[Array, Array]:
+    """Return the true base angle (samples,) in deg and the columns of `slide` (samples, 3) from rest at `start` deg."""
+    step, omega = 1.0 / (rate * FINE), 2.0 * math.pi * FREQUENCY
+    base = AMPLITUDE * np.cos(omega * (np.arange(samples * FINE) + 0.5) * step + phase)
+    m = JOINT["m"]
+    forces = math.degrees(friction / m), math.degrees(JOINT["mgl"] / m)
+    numbers = (step, JOINT["c"] / m, JOINT["k0"] / m, math.degrees(JOINT["x0"]), *forces)
+    seen = slide(omega**2 * base, base, numbers, (start, 0.0), FINE)
+    return AMPLITUDE * np.cos(omega * np.arange(samples) / rate + phase), seen
+
+
+def write_case(concealed: Concealed, folder: Path) -> Path:
+    """Return the path of `case.toml`, written into `folder` together with `recording.csv`."""
+    folder = Path(folder)
+    folder_for(folder)
+    columns = {"time": concealed.time, "base": concealed.base_position, "link": concealed.position}
+    save_table(folder / "recording.csv", columns, {"time": "s", "base": "deg", "link": "deg"}, {})
+    path = folder / "case.toml"
+    with whole(path) as spare:
+        dump_case(_case(concealed), spare)
+    return path
+
+
+def _encoded(angle: Array, coarse: float, noise: float, rng: np.random.Generator) -> Array:
+    """Return an angle (deg) as an encoder shows it whose noise and count are `coarse` times those of the link's."""
+    count = coarse * COUNT
+    shown = count * np.round((angle + coarse * noise * rng.standard_normal(len(angle))) / count)
+    return np.round(shown, DIGITS)
+
+
+def _nominal() -> dict[str, Any]:
+    """Return the model that its owner believes in: the inertia, the stiffness and the weight come from drawings."""
+    return {
+        "name": "robot_joint",
+        "known": {key: JOINT[key] for key in ("m", "k0", "mgl")},
+        "estimate": {
+            "c": {"low": 0.01, "high": 2.0, "scale": "log"},
+            "x0": {"low": 0.002, "high": 0.1, "scale": "log"},
+        },
+    }
+
+
+def _case(concealed: Concealed) -> dict[str, Any]:
+    recording = {
+        "file": "recording.csv",
+        "time": "time",
+        "excitation": {"column": "base", "quantity": "base_position", "unit": "deg"},
+        "response": {"column": "link", "quantity": "position", "unit": "deg"},
+    }
+    title = f"Robot link at {FREQUENCY} Hz behind a joint with backlash"
+    return {"title": title, "recordings": [recording], "model": concealed.nominal, "truth": concealed.truth}

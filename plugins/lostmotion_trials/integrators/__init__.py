@@ -1,0 +1,1 @@
+"""Integrators that share nothing with the framework: what moves the machines of the trials."""

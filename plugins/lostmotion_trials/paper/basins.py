@@ -1,0 +1,113 @@
+"""Basins of attraction, and Poincare sections so long that their density shows."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lostmotion.contracts import Array
+from lostmotion_trials.paper.cases import CASES, Case
+from lostmotion_trials.paper.lab import LONGEST, Lab, period_of
+from lostmotion_trials.paper.outcome import Outcome, listed
+
+APART = 1e-3
+"""Share of x0 beyond which two orbits are not the same."""
+
+
+def landed(lab: Lab, case: Case, places: tuple[Array, Array], periods: int) -> tuple[NDArray[np.int64], list[int]]:
+    """Return which attractor each start (up, across) ends on, and their periods: 0 for chaos.
+
+    `places` are positions in x0 and velocities in x0 omega_0.
+    """
+    flow, (across, up) = case.flow(lab), places
+    scale = np.array([case.x0, case.x0 * case.natural])
+    ends = np.full((len(up), len(across), 3), np.nan)
+
+    def work(row: int) -> None:
+        for column, x in enumerate(across):
+            states = flow.march(np.array([x, up[row]]) * scale, periods=periods, tangents=0).states[1:] / scale
+            back = period_of(states)
+            orbit = states[-back:] if back else np.zeros((1, 2))
+            ends[row, column] = (back, *orbit[np.argmin(orbit[:, 0])])
+
+    lab.spread(work, len(up))
+    return _sorted(ends.reshape(-1, 3), (len(up), len(across)))
+
+
+def _sorted(ends: Array, shape: tuple[int, int]) -> tuple[NDArray[np.int64], list[int]]:
+    """Return the attractors by how many starts end there, chaos first."""
+    kinds, back = np.unique(np.column_stack([ends[:, :1], np.round(ends[:, 1:] / APART)]), axis=0, return_inverse=True)
+    merged = _merged(kinds * np.array([1.0, APART, APART]))[back.ravel()]
+    names, counts = np.unique(merged, return_counts=True)
+    order = sorted(range(len(names)), key=lambda k: (kinds[names[k], 0] != 0, -counts[k]))
+    rank = {int(names[k]): place for place, k in enumerate(order)}
+    index = np.array([rank[int(m)] for m in merged], dtype=np.int64).reshape(shape)
+    return index, [int(kinds[names[k], 0]) for k in order]
+
+
+def _merged(kinds: Array) -> NDArray[np.int64]:
+    """Return for each of the `kinds` the first that is the same but for rounding."""
+    return np.array([int(np.argmax(np.abs(kinds - kind).max(axis=1) < 3.0 * APART)) for kind in kinds], dtype=np.int64)
+
+
+def basins(lab: Lab) -> Outcome:
+    """Return the basins of Case 2 and Case 3."""
+    cells, periods = lab.pick((241, 240), (61, 120))
+    data: dict[str, Any] = {}
+    numbers: dict[str, float] = {}
+    words: list[str] = []
+    for k, (wide, high) in ((2, (8.0, 8.0)), (3, (8.0, 8.0))):
+        places = np.linspace(-wide, wide, cells), np.linspace(-high, high, cells)
+        index, back = landed(lab, CASES[k], places, max(periods, 3 * LONGEST))
+        shares = [float(np.mean(index == j)) for j in range(len(back))]
+        labels = [_label(p, s) for p, s in zip(back, shares, strict=True)]
+        data[f"case{k}"] = {"across": places[0], "up": places[1], "index": index, "labels": labels}
+        numbers[f"case{k}_attractors"] = float(len(back))
+        numbers[f"case{k}_chaos"] = sum(s for p, s in zip(back, shares, strict=True) if not p)
+        words.append(f"Case {k} ends on {listed(labels)}")
+    says = f"{'; '.join(words)}. An exponent is not a function of the parameters alone."
+    return Outcome("beyond the paper", says, numbers, data)
+
+
+def _label(period: int, share: float) -> str:
+    return f"{f'period {period}' if period else 'chaos'} ({100 * share:.1f} %)"
+
+
+def section(lab: Lab) -> Outcome:
+    """Return Poincare sections of Cases 1 and 3 as counts on a fine grid."""
+    points, cells = lab.pick((4_000_000, 900), (200_000, 300))
+    data: dict[str, Any] = {}
+    numbers: dict[str, float] = {}
+    for k in (1, 3):
+        counts, edges = _counted(lab, CASES[k], points, cells)
+        data[f"case{k}"] = {"counts": counts, "x": edges[0], "v": edges[1], "points": points}
+        visited = np.sort(counts[counts > 0])[::-1]
+        numbers[f"case{k}_densest"] = float(visited[: max(len(visited) // 100, 1)].sum() / visited.sum())
+    says = (
+        f"Sections of {points:,} periods: the cells that are visited most, one in a hundred, take "
+        f"{100 * numbers['case1_densest']:.0f} % of the visits in Case 1 and {100 * numbers['case3_densest']:.0f} % in "
+        "Case 3, which a plot of single points hides."
+    )
+    return Outcome("beyond the paper", says, numbers, data)
+
+
+def _counted(lab: Lab, case: Case, points: int, cells: int) -> tuple[Array, tuple[Array, Array]]:
+    """Return how often each cell is visited by the chaotic motion of a case, at phase 0."""
+    flow = case.flow(lab)
+    starts = lab.starts(flow, 16)
+    found = lab.follow(flow, starts, periods=500, transient=500)
+    state = found.states[int(np.argmax(found.chaotic)), -1]
+    scale = np.array([case.x0, case.x0 * case.natural])
+    first = flow.march(state, periods=20_000, tangents=0).states / scale
+    low, high = first.min(axis=0), first.max(axis=0)
+    room = 0.04 * (high - low)
+    edges = tuple(np.linspace(a - r, b + r, cells + 1) for a, b, r in zip(low, high, room, strict=True))
+    counts, chunk = np.zeros((cells, cells)), 100_000
+    for _ in range(max(points // chunk, 1)):
+        states = flow.march(state, periods=chunk, tangents=0).states
+        state = states[-1]
+        seen = states[1:] / scale
+        counts += np.histogram2d(seen[:, 0], seen[:, 1], bins=[edges[0], edges[1]])[0]
+    return counts, (edges[0], edges[1])

@@ -1,0 +1,45 @@
+"""`lostmotion reproduce`: the figures and tables of the paper, from runs of our own."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from lostmotion.cli import examples, registry_of
+from lostmotion.cli.progress import progress
+
+
+@click.command(
+    epilog=examples(
+        "lostmotion reproduce --out paper                     everything",
+        "lostmotion reproduce fig6 table2 --out paper --quick",
+    )
+)
+@click.argument("names", metavar="[all|table1|fig3|...]...", nargs=-1)
+@click.option(
+    "--out",
+    required=True,
+    metavar="DIR",
+    type=click.Path(file_okay=False, path_type=Path),
+    help="Where figures, tables and the page go.",
+)
+@click.option("--quick", is_flag=True, help="Shorter runs and coarser sweeps, within two minutes.")
+@click.option("--seed", default=0, show_default=True, type=click.IntRange(0), help="The same seed, the same numbers.")
+@click.option("--jobs", default=2, show_default=True, type=click.IntRange(1), help="How many cores to use.")
+@click.option("--quiet", is_flag=True, help="Show no progress.")
+@click.pass_context
+def command(ctx: click.Context, /, names: tuple[str, ...], out: Path, quiet: bool, **asked: object) -> None:
+    """Redo the paper of Tjahjowidodo, Al-Bender and Van Brussel (2007): figures 3 to 23, tables 1 and 2, and more.
+
+    Each figure comes with a sentence: reproduced, reproduced in part, or not, and why. Writes PNG and PDF, tables as
+    CSV and Markdown, reproduce.json with the key figures, and index.html with all of it into DIR.
+    """
+    from lostmotion_trials.paper.run import laboratory, reproduce
+
+    lab = laboratory(registry_of(ctx), **asked)  # type: ignore[arg-type]
+    with progress("reproduce", quiet=quiet) as say:
+        content = reproduce(names, out, lab, say)
+    for name, entry in content["items"].items():
+        click.echo(f"{name:<12} {entry['verdict']}")
+    click.echo(str(out / "index.html"))

@@ -1,0 +1,66 @@
+"""Basins of attraction and sections coloured by density."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colors import ListedColormap, LogNorm
+from matplotlib.figure import Figure
+from matplotlib.patches import Patch
+
+from lostmotion.report import style
+from lostmotion_trials.paper.style import Data, letter, panels
+
+BASINS = ("#0b3954", "#e0a458", "#5f9ea0", "#b23a48", "#c9d6df", "#6a4c93", "#8ab17d", "#f4e285")
+CHAOS = "#1a1a1a"
+
+
+def _basin(axes: Axes, data: Any) -> None:
+    labels = data["labels"]
+    most = len(BASINS)
+    chaos = [name.startswith("chaos") for name in labels[:most]]
+    colours = [CHAOS if is_chaos else BASINS[k % most] for k, is_chaos in enumerate(chaos)]
+    index = np.minimum(data["index"], len(colours) - 1)
+    axes.pcolormesh(
+        data["across"], data["up"], index, cmap=ListedColormap(colours), vmin=-0.5, vmax=len(colours) - 0.5,
+        shading="nearest", rasterized=True,
+    )  # fmt: skip
+    axes.grid(visible=False)
+    axes.set_xlabel("initial position x/x₀")
+    axes.set_ylabel("initial velocity ẋ/(x₀ω₀)")
+    handles = [Patch(color=c, label=n) for c, n in zip(colours, labels, strict=False)]
+    axes.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, -0.13), ncols=2, fontsize=8.5)
+
+
+def basins(data: Data) -> Figure:
+    """Return the basins of Cases 2 and 3."""
+    figure, axes = panels(1, 2, 5.6)
+    _basin(axes[0], data["case2"])
+    _basin(axes[1], data["case3"])
+    letter(axes, ("Case 2, A = 240 N", "Case 3, A = 108 N"))
+    return figure
+
+
+def section(data: Data) -> Figure:
+    """Return the sections of Cases 1 and 3, brighter where the motion comes more often."""
+    figure, axes = panels(1, 2, 4.6)
+    for panel, key in zip(axes, ("case1", "case3"), strict=True):
+        one = data[key]
+        panel.set_facecolor("#0d0d12")
+        shown = np.where(one["counts"] > 0, one["counts"], np.nan).T
+        drawn = panel.pcolormesh(
+            one["x"], one["v"], shown, cmap="inferno", norm=LogNorm(0.5, float(np.nanmax(shown))), rasterized=True
+        )
+        panel.grid(visible=False)
+        panel.set_xlabel("x/x₀ at phase 0 of the drive")
+        panel.set_ylabel("ẋ/(x₀ω₀)")
+        bar = figure.colorbar(drawn, ax=panel, pad=0.02)
+        bar.set_label("visits of a cell")
+        style.log_ticks(bar.ax.yaxis)
+    letter(axes, [f"Case {k}, {data[f'case{k}']['points']:,} periods" for k in (1, 3)])
+    return figure
+
+
+FIGURES = {"basins": basins, "section": section}

@@ -1,0 +1,78 @@
+"""A stand-in for the experiment of section 6, whose recordings were never published: eight simulated recordings."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from lostmotion.contracts import Array, Series
+from lostmotion_trials.paper.chain import unfolded
+from lostmotion_trials.paper.lab import Followed, Lab, Sampled
+
+FREQUENCY = 1.54
+LEVELS = (1.34, 2.07, 2.68, 3.41, 3.65, 3.78, 4.87, 5.73)
+"""Amplitudes of the input in degrees."""
+PAPER = (math.nan, math.nan, 1.423, 1.322, 1.533, 1.802, math.nan, math.nan)
+"""Exponents of Table 2 in bit/s; where there is none the paper calls the motion periodic."""
+SUSPECT = (2.68, 3.41, 3.65, 3.78)
+RATIO, DAMPING, HALF = 0.2615, 0.1116, 0.7589
+"""omega/omega_0, 2 zeta = c / sqrt(k0 m) and half of the backlash (degrees) of the joint.
+
+Found with `python benchmarks/search_joint.py`: of 3840 joints on a grid of ratio and damping, with the exact flow from
+several starts at all eight levels, those that are chaotic at the four middle levels only, by enough for an encoder to
+see; of these, and of joints close to them, one of the nearest to Table 2 (its exponents are off by 0.31 bit/s, rms).
+The nearest of all (0.252, 0.1212, 0.7436: 0.14 bit/s) is not taken, since it is chaotic at 5.73 degrees too once its
+last digit changes. The link has no weight, and no friction but viscous damping.
+"""
+NOISE, STEP = 0.03, 360.0 / 65536.0
+"""Standard deviation of the noise of the encoder, and its step (degrees)."""
+
+
+@dataclass(frozen=True, eq=False)
+class Recording:
+    """What the two encoders read at one level, in degrees, and the motion without noise; the series is embedded."""
+
+    level: float
+    time: Array
+    base: Array
+    link: Array
+    true: Array
+    series: Series
+    period: float
+
+
+def joint(lab: Lab, level: float) -> Sampled:
+    """Return the flow of the joint (angles in rad) at an input of so many degrees."""
+    omega = 2.0 * math.pi * FREQUENCY
+    natural = omega / RATIO
+    values = {"m": 1.0, "c": DAMPING * natural, "k0": natural**2, "x0": math.radians(HALF), "mgl": 0.0}
+    return lab.flow("robot_joint", values, (math.radians(level), omega))
+
+
+def motions(lab: Lab, level: float) -> Followed:
+    """Return the motions of the joint at a level from several starts, followed once for all figures."""
+
+    def make() -> Followed:
+        flow = joint(lab, level)
+        starts = lab.starts(flow, lab.pick(24, 6))
+        return lab.follow(flow, starts, periods=lab.pick(3000, 600), transient=300)
+
+    return lab.once(f"joint {level}", make)
+
+
+def recording(lab: Lab, level: float) -> Recording:
+    """Return the recording at a level: encoder noise added to both angles, and both read in whole steps."""
+    return lab.once(f"recording {level}", lambda: _recorded(lab, level))
+
+
+def _recorded(lab: Lab, level: float) -> Recording:
+    flow, rng = joint(lab, level), lab.rng(f"encoder {level}")
+    looks, periods = lab.pick((80, 400), (60, 160))
+    true = np.degrees(flow.sample(motions(lab, level).states[0, -1], periods=periods, looks=looks)[:-1, 0])
+    time = np.arange(len(true)) * flow.period / looks
+    base = level * np.cos(2.0 * math.pi * FREQUENCY * time)
+    link, read = (STEP * np.round((x + NOISE * rng.standard_normal(len(x))) / STEP) for x in (true, base))
+    series = unfolded(lab, link, float(time[1]), flow.period)
+    return Recording(level, time, read, link, true, series, flow.period)

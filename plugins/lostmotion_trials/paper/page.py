@@ -1,0 +1,85 @@
+"""The page with every figure and table of the paper, each with its sentence; and tables as files."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from matplotlib.figure import Figure
+
+from lostmotion.report import style
+from lostmotion.report.pages import template
+from lostmotion.storage import whole
+from lostmotion_trials.paper import draw_basins as paper_basins
+from lostmotion_trials.paper import draw_curves as paper_curves
+from lostmotion_trials.paper import draw_portraits as paper_portraits
+from lostmotion_trials.paper import draw_sweeps as paper_sweeps
+from lostmotion_trials.paper import style as paper_style
+
+DRAWINGS: dict[str, Callable[[paper_style.Data], Figure]] = {
+    **paper_portraits.FIGURES,
+    **paper_sweeps.FIGURES,
+    **paper_basins.FIGURES,
+    **paper_curves.FIGURES,
+}
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One figure or table on the page."""
+
+    name: str
+    label: str
+    title: str
+    verdict: str
+    says: str
+    files: tuple[str, ...]
+    heads: tuple[str, ...] = ()
+    rows: tuple[tuple[str, ...], ...] = ()
+
+    @property
+    def kind(self) -> str:
+        """The class of the badge."""
+        return {"reproduced": "good", "not reproduced": "bad"}.get(self.verdict, "part")
+
+    @property
+    def image(self) -> str:
+        """The name of the picture, if there is one."""
+        return next((name for name in self.files if name.endswith(".png")), "")
+
+
+def drawn(name: str, data: paper_style.Data, folder: Path) -> tuple[str, ...]:
+    """Return the names of the files into which the figure `name` was drawn."""
+    with style.applied():
+        return tuple(paper_style.files(DRAWINGS[name](data), folder, name))
+
+
+def cells(rows: tuple[tuple[str | float, ...], ...]) -> tuple[tuple[str, ...], ...]:
+    """Return the rows as text."""
+    return tuple(tuple(x if isinstance(x, str) else f"{x:.6g}" for x in row) for row in rows)
+
+
+def tabled(name: str, heads: tuple[str, ...], rows: tuple[tuple[str, ...], ...], folder: Path) -> tuple[str, ...]:
+    """Return the names of the files, CSV and Markdown, into which a table was written."""
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerows([heads, *rows])
+    lines = [f"| {' | '.join(row)} |" for row in (heads, tuple("---" for _ in heads), *rows)]
+    for ending, content in (("csv", text.getvalue()), ("md", "\n".join(lines) + "\n")):
+        with whole(folder / f"{name}.{ending}") as spare:
+            spare.write_text(content, encoding="utf-8")
+    return f"{name}.csv", f"{name}.md"
+
+
+def write_index(folder: Path, entries: list[Entry], effort: str) -> Path:
+    """Return the path of `index.html`, which stands beside the pictures that it shows."""
+    page = folder / "index.html"
+    counts = {e.verdict: sum(x.verdict == e.verdict for x in entries) for e in entries}
+    with whole(page) as spare:
+        spare.write_text(
+            template("page.html.j2", __package__).render(entries=entries, counts=sorted(counts.items()), effort=effort),
+            encoding="utf-8",
+        )
+    return page
