@@ -1,8 +1,8 @@
 """How well the terms of the library are named: `python benchmarks/library.py [table|clean] [options]`.
 
-Each term is hidden in a machine by an integrator that shares nothing with the framework (`lostmotion_trials.integrators.hidden.move`), under
-a multisine, a sweep or a harmonic, seen by a sensor of position, velocity or acceleration, at a size that is to gain a
-given log-likelihood. Every diagnosis is kept as a row in `OUT/rows.jsonl`, so that a run can be stopped and resumed.
+Each term is hidden in a machine by an integrator that shares nothing with the framework
+(`lostmotion_trials.integrators.hidden.move`), under a multisine, a sweep or a harmonic, seen by a sensor of position,
+velocity or acceleration, at a size that is to gain a given log-likelihood. Every diagnosis is kept as a row in `OUT/rows.jsonl`, so that a run can be stopped and resumed.
 """
 
 from __future__ import annotations
