@@ -2,7 +2,8 @@
 
 Each term is hidden in a machine by an integrator that shares nothing with the framework
 (`lostmotion_trials.integrators.hidden.move`), under a multisine, a sweep or a harmonic, seen by a sensor of position,
-velocity or acceleration, at a size that is to gain a given log-likelihood. Every diagnosis is kept as a row in `OUT/rows.jsonl`, so that a run can be stopped and resumed.
+velocity or acceleration, at a size that is to gain a given log-likelihood. Every diagnosis is kept as a row in
+`OUT/rows.jsonl`, so that a run can be stopped and resumed.
 """
 
 from __future__ import annotations

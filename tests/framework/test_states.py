@@ -53,6 +53,7 @@ def diagnosis(after, probabilities, visits=None, **course):
         inclusion=lambda key: sum(p for terms, p in sets.items() if key in terms),
         unbeaten=course.get("unbeaten", set()),
         declined=course.get("declined", set()),
+        scored=course.get("scored", {}),
     )
     found = tuple(after.problem.active)
     return SimpleNamespace(
@@ -77,6 +78,12 @@ def test_a_sure_term_is_named_and_one_with_rivals_is_not():
     assert doubt == "Its probability is 0.8; its rivals are excitation delay."
     (doubt,) = doubts_of(diagnosis(after, {(FRICTION,): 0.8, (): 0.2}), FRICTION)
     assert doubt.endswith("its rival is a smooth force without a name.")
+
+
+def test_a_term_for_which_held_out_data_decide_is_told_so():
+    after, sets = fit_of({f"{FRICTION}.force": 1.0}, [FRICTION]), {(FRICTION,): 0.99, (): 0.01}
+    (doubt,) = doubts_of(diagnosis(after, sets, unbeaten={FRICTION}, scored={frozenset({FRICTION}): 12.34}), FRICTION)
+    assert doubt.endswith("held-out data decide, by 12 in log score.")
 
 
 def test_a_long_delay_is_no_more_than_likely():
@@ -153,10 +160,43 @@ def test_what_makes_predictions_worse_is_taken_back_until_they_are_not(monkeypat
     monkeypatch.setattr(ways, "judged", judged)
     monkeypatch.setattr(ways, "simpler", simpler)
     monkeypatch.setattr(ways, "predicted_better", lambda outcome, observations: None)
+    monkeypatch.setattr(ways, "decided", lambda outcome, observations: None)
     start = SimpleNamespace(found=("a", "b", "curve"), withdrawn=(), explains=True)
     outcome = ways.upheld(start, SimpleNamespace(observations=()), np.random.default_rng(0))
     assert outcome.diagnosis.found == ("a",)
     assert outcome.diagnosis.withdrawn == ("curve", "b")
+
+
+@pytest.mark.parametrize(
+    ("scores", "leads", "chosen"),
+    [
+        ({"a": 12.0, "smooth": 2.0, "": 0.0}, {"a": 1.0}, "a"),
+        ({"a": 12.0, "smooth": 11.0, "": 0.0}, {"a": 1.0}, None),
+        ({"a": 12.0, "smooth": 2.0, "": 14.0}, {"a": 1.0}, None),
+        ({"a": 90.0, "smooth": 2.0, "": 0.0}, {"a": -11.0}, None),
+        ({"a": 12.0, "b": 20.0, "smooth": 2.0, "": 0.0}, {"a": 1.0, "b": -4.0}, "b"),
+        ({"a": 12.0, "b": 20.0, "smooth": 2.0, "": 0.0}, {"a": 1.0, "b": -9.0}, "a"),
+    ],
+)
+def test_held_out_data_decide_between_a_term_and_a_smooth_force(monkeypatch, scores, leads, chosen):
+    """Log odds of the fitted data and log scores of held-out data add; odds of 20, times those asked, are wanted."""
+    fits = {k: SimpleNamespace(status="converged", key=k, problem=None) for k in scores}
+    visits = {frozenset(k): Visit(frozenset(k), fits[k], 50.0 if k else 0.0) for k in ("", *leads)}
+    selection = SimpleNamespace(
+        chosen=SimpleNamespace(problem=SimpleNamespace(active=frozenset())),
+        visits=visits,
+        unbeaten=set(leads),
+        lead=lambda visit, here: leads["".join(visit.terms)],
+        check=lambda visit: None,
+        won=lambda visit: SimpleNamespace(fit=fits["smooth"], right=None),
+        expansion=lambda visit: SimpleNamespace(worse=1.0),
+    )
+    monkeypatch.setattr(confirming, "term_of", lambda problem, key: (SimpleNamespace(acts="motion"), ()))
+    monkeypatch.setattr(confirming, "_scored", lambda fit, pieces: scores[fit.key])
+    monkeypatch.setattr(confirming, "pieces_of", lambda observations, held: ())
+    d = SimpleNamespace(selection=selection, learned=None, held=())
+    found = confirming.decided(SimpleNamespace(diagnosis=d), ())
+    assert (found and found[0].key) == chosen
 
 
 def test_of_sets_that_explain_what_was_fitted_the_one_that_predicts_better_is_taken(monkeypatch):

@@ -9,7 +9,7 @@ from typing import NamedTuple
 from lostmotion.inference.candidates import Hint
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.natural import term_of
-from lostmotion.inference.rival import Expansion, expanded, fitted, righted, stood_in
+from lostmotion.inference.rival import Expansion, Righted, expanded, fitted, righted, stood_in
 
 CLOSE = 12.0
 """Sets that are so close to the best in log weight are fitted again, and kept for comparison."""
@@ -42,12 +42,21 @@ class Visit:
 class Won(NamedTuple):
     """What smooth forces have won when they were fitted: log evidence, their log price, and what is promised `beside`.
 
-    That rest, wrong known values and channels, is believed up to `RICH`.
+    That rest, wrong known values and channels, is believed up to `RICH`, and not at all once it was tried and did not
+    come true. `fit` is the one with the smooth forces, to the recordings as they are, and `right` the one to recordings
+    whose channels were put right.
     """
 
     evidence: float
     price: float
     beside: float
+    fit: Fit
+    right: Righted | None = None
+
+    @property
+    def proven(self) -> Won:
+        """The same without what is only promised."""
+        return self._replace(beside=min(self.beside, 0.0))
 
     @property
     def open(self) -> float:
@@ -63,27 +72,28 @@ def _won_by(found: tuple[Fit, float] | None, fit: Fit) -> Won | None:
     """Return what a fit with smooth forces has won over the one without; None where there is none."""
     if found is None or found[0].status == "diverged":
         return None
-    best, price, rest = _settled(*found)
+    best, price, rest, tried = _settled(*found)
     right = None
-    won = _with_rest(best.log_evidence - fit.log_evidence, price, rest)
+    won = Won(best.log_evidence - fit.log_evidence, price, _believed(rest, tried), best)
     for _ in range(RIGHTED):
         if not rest.bare(rest.worse) > RICH:
-            break
+            return won
         right = righted(rest, right)
         if right is None or right.fit.status == "diverged":
-            break
+            return won
         rest = expanded(right.fit)
-        more = _with_rest(right.fit.log_evidence + right.wider - fit.log_evidence, price + right.price, rest)
+        evidence = right.fit.log_evidence + right.wider - fit.log_evidence
+        more = Won(evidence, price + right.price, _believed(rest, tried), best, right)
         if not more.over(rest.worse) > won.over(rest.worse):
-            break
+            return max(won.proven, more.proven, key=lambda w: w.over(rest.worse))
         won = more
-    return won
+    return won.proven
 
 
-def _settled(best: Fit, price: float) -> tuple[Fit, float, Expansion]:
+def _settled(best: Fit, price: float) -> tuple[Fit, float, Expansion, bool]:
     """Return a fit with smooth forces, and with more of them as long as these promise news and it comes true.
 
-    With it its log price, and the expansion about it.
+    With it its log price, the expansion about it, and whether more was tried and did not come true.
     """
     rest = expanded(best)
     for _ in range(AGAIN):
@@ -91,16 +101,19 @@ def _settled(best: Fit, price: float) -> tuple[Fit, float, Expansion]:
             break
         more = fitted(rest)
         if more is None or more[0].status == "diverged" or more[0].log_evidence - more[1] < best.log_evidence:
-            break
+            return best, price, rest, True
         best, price = more[0], price + more[1]
         rest = expanded(best)
-    return best, price, rest
+    return best, price, rest, False
 
 
-def _with_rest(evidence: float, price: float, rest: Expansion) -> Won:
-    """Return what was won, with the promise of an expansion about it, which is believed up to `RICH`."""
+def _believed(rest: Expansion, tried: bool) -> float:
+    """Return what is believed of the promise of an expansion about a fit with smooth forces, at most `RICH`.
+
+    Where more smooth forces were `tried` and did not come true, that of known values and channels alone.
+    """
     promised = rest.gain()
-    return Won(evidence, price, min(promised if promised < ABSURD else rest.bare(rest.worse), RICH))
+    return min(promised if promised < ABSURD and not tried else rest.bare(rest.worse), RICH)
 
 
 class Lead(NamedTuple):
@@ -117,7 +130,8 @@ class Selection:
     `declined` names terms with evidence that was not believed, since what is left over has a memory. `rivals` holds the
     expansions of fits with the discrepancy that every name has to beat, `unbeaten` the terms that did not. `stopped`
     says that the search ended at its bound. `withdrawn` are terms that held-out data spoke against: no set with one of
-    them is weighed.
+    them is weighed. `scored` holds the log score of held-out data that sets have won over the best of what stands
+    against them: it is added to their log odds.
     """
 
     nominal: Fit
@@ -129,6 +143,7 @@ class Selection:
     unbeaten: set[str] = field(default_factory=set)
     stopped: bool = False
     withdrawn: frozenset[str] = frozenset()
+    scored: dict[frozenset[str], float] = field(default_factory=dict)
     smooth: dict[frozenset[str], tuple[Fit, Won | None]] = field(default_factory=dict)
     leads: dict[tuple[frozenset[str], frozenset[str]], Lead] = field(default_factory=dict)
     stood: dict[tuple[frozenset[str], frozenset[str]], tuple[Fit, Fit]] = field(default_factory=dict)
@@ -152,9 +167,9 @@ class Selection:
             return -self.lead(over, visit)
         basis = (
             visit.fit,
-            self._won(visit),
+            self.won(visit),
             over.fit,
-            self._won(over),
+            self.won(over),
             self._is_checked(visit),
             self._is_checked(over),
         )
@@ -178,7 +193,7 @@ class Selection:
         """Fit the discrepancy beside a set, and note what it has won."""
         self.smooth[visit.terms] = (visit.fit, _won_by(fitted(self.expansion(visit)), visit.fit))
 
-    def _won(self, visit: Visit) -> Won | None:
+    def won(self, visit: Visit) -> Won | None:
         """Return what the smooth forces of a set have won when they were fitted; None where they were not."""
         return self.smooth[visit.terms][1] if self._is_checked(visit) else None
 
@@ -190,7 +205,7 @@ class Selection:
         """
         if self.lead(visit, over) > needed or self.expansion(visit).promise().gain >= ABSURD:
             self.check(visit)
-        bare = [v for v in (visit, over) if self._won(v) is None]
+        bare = [v for v in (visit, over) if self.won(v) is None]
         if len(bare) == 1 and self.lead(visit, over) > needed:
             self._fit_beside(bare[0])
         if over.terms < visit.terms and self._by_fits(visit, over) > needed >= self.lead(visit, over):
@@ -201,8 +216,8 @@ class Selection:
 
         What they win is won by the part; from then on fits alone tell how far the set is ahead of it.
         """
-        known = self._won(over)
-        if known is None or self._won(visit) is None:
+        known = self.won(over)
+        if known is None or self.won(visit) is None:
             return
         found = _won_by(stood_in(self.expansion(visit), visit.terms - over.terms), over.fit)
         if found is not None:
@@ -223,7 +238,7 @@ class Selection:
     def worth(self, visit: Visit, worse: float) -> float:
         """Return the log evidence that a discrepancy adds to a set; once it is checked, no more than comes true."""
         expansion = self.expansion(visit)
-        promised, won = expansion.promise(worse).gain, self._won(visit)
+        promised, won = expansion.promise(worse).gain, self.won(visit)
         if won is None:
             return promised
         return min(promised, max(won.over(worse), min(expansion.bare(worse), won.open)))
@@ -236,7 +251,7 @@ class Selection:
         that an engineer looks for last.
         """
         promised = self.expansion(visit).promise(worse).gain
-        won = self._won(visit) if worse < LONG else None
+        won = self.won(visit) if worse < LONG else None
         if won is None:
             return promised
         last = any(term_of(self.chosen.problem, key)[0].unlikely > 0.0 for key in more)
@@ -262,7 +277,7 @@ class Selection:
     def _by_fits(self, visit: Visit, over: Visit) -> float:
         """Return the lead of a set over a part of it by what smooth forces promise or win beside either."""
         here, worse = self.expansion(visit), self.expansion(visit).worse
-        won = self._won(visit) if self._won(over) and worse < LONG else None
+        won = self.won(visit) if self.won(over) and worse < LONG else None
         own = max(won.over(worse), min(here.bare(worse), won.open)) if won else self.worth(visit, worse)
         behind = (over.fit.log_evidence - visit.fit.log_evidence) / worse
         return own - behind - self.feared(over, worse, visit.terms - over.terms) - self._prices(visit, over)
@@ -272,7 +287,7 @@ class Selection:
 
         They do not where they promise much and nothing of it comes true.
         """
-        won = self._won(visit)
+        won = self.won(visit)
         return won is None or won.evidence > 0.0 or self.expansion(visit).promise().gain < ABSURD
 
     def probabilities(self) -> dict[frozenset[str], float]:
@@ -293,6 +308,7 @@ class Selection:
                 heights[more] = min(heights[more], heights[fewer] + lead.value)
         least = min([0.0, *(heights[terms] for terms in known)])
         heights |= {k: min(h, least) for k, h in heights.items() if k not in self.rivals}
+        heights |= {k: heights[k] + score for k, score in self.scored.items() if k in heights}
         top = max(heights.values())
         raw = {k: math.exp(height - top) for k, height in heights.items()}
         total = sum(raw.values())

@@ -14,6 +14,7 @@ import itertools
 import math
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field, replace
+from functools import reduce
 
 import numpy as np
 from scipy.linalg.lapack import dpotrf, dtrtrs
@@ -22,9 +23,10 @@ from lostmotion.contracts import Array, Interface, place_of
 from lostmotion.inference.candidates import slopes_of
 from lostmotion.inference.curves import Motions, motions_of, size_of, transplanted, with_curve
 from lostmotion.inference.fit import BLOCKS, Fit, Sensitivity, maximise, restarted, solved
-from lostmotion.inference.gauges import Gauge, gauges_of
+from lostmotion.inference.gauges import Change, Gauge, gauges_of
 from lostmotion.inference.learned import Learned, OverPhase, OverPosition, OverTime, OverVelocity, spread
 from lostmotion.inference.natural import term_of
+from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import Free, Problem
 from lostmotion.likelihood.system import key_of
 
@@ -329,13 +331,18 @@ class Righted:
     """A fit to recordings whose channels were put right by `sizes` (gauges,) in all.
 
     `wider` is what the readings gain in log density, being wider or narrower, and `price` the log price of the flaws:
-    that of their size by the prior, and of their having been estimated.
+    that of their size by the prior, and of their having been estimated. `changes` are what was done, in order.
     """
 
     fit: Fit
     sizes: Array
     wider: float
     price: float
+    changes: tuple[tuple[Change, float], ...]
+
+    def put_right(self, observation: Observation) -> Observation:
+        """Return another recording of the same channels, put right as those of the fit were."""
+        return reduce(lambda seen, step: step[0](seen, step[1]), self.changes, observation)
 
 
 def righted(expansion: Expansion, before: Righted | None = None) -> Righted | None:
@@ -351,6 +358,8 @@ def righted(expansion: Expansion, before: Righted | None = None) -> Righted | No
     widths, already = best.widths[-count:], before.sizes if before else np.zeros(count)
     sizes = np.clip(already + best.mean[-count:], -USUAL * widths, USUAL * widths)
     wider = before.wider if before else 0.0
+    steps = zip([gauge.change for gauge in expansion.gauges], map(float, sizes - already), strict=True)
+    changes = (*(before.changes if before else ()), *steps)
     for gauge, size in zip(expansion.gauges, sizes - already, strict=True):
         observations = tuple(gauge.change(o, float(size)) for o in observations)
         wider += gauge.stretch * float(size)
@@ -359,7 +368,7 @@ def righted(expansion: Expansion, before: Righted | None = None) -> Righted | No
     better = maximise(problem, begin, rounds=RIGHTING, tolerance=0.3)
     inner = np.eye(count) + expansion.told_by_gauges() * np.outer(widths, widths)
     price = 0.5 * float(np.sum((sizes / widths) ** 2)) + 0.5 * float(np.linalg.slogdet(inner)[1])
-    return Righted(better, sizes, wider, price)
+    return Righted(better, sizes, wider, price, changes)
 
 
 def _rows(wider: Problem, slopes: Sensitivity, steps: Array) -> tuple[Array, Array]:

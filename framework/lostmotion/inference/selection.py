@@ -74,7 +74,7 @@ class Selector:
         self._settled: set[frozenset[str]] = set()
         self._been: set[frozenset[str]] = set()
         self._retold: set[frozenset[str]] = set()
-        self._sure: dict[frozenset[str], tuple[float, float]] = {}
+        self._sure: dict[tuple[frozenset[str], frozenset[str]], tuple[float, float]] = {}
         self._visit(nominal)
 
     def run(self) -> Selection:
@@ -257,13 +257,14 @@ class Selector:
     def _certain(self, visit: Visit, here: Visit) -> bool:
         """Return whether a better set may be believed where something with a memory is left over.
 
-        Then samples are not independent, the evidence is overstated, and a term that resembles the leftovers a little
-        always gains. So each amplitude has to stand out of its robust standard deviation; and where that is more than
-        `REMEMBERS` times the usual one, the set has to take a share of at least `WORTH` off the random force.
+        Then samples are not independent, and a term that resembles the leftovers always gains. So an amplitude has to
+        stand out of its robust deviation; where that is more than `REMEMBERS` times the usual, the set has to take a
+        share of at least `WORTH` off the random force.
         """
-        if visit.terms not in self._sure:
-            self._sure[visit.terms] = standing(visit.fit)
-        least, memory = self._sure[visit.terms]
+        both = visit.terms, here.terms
+        if both not in self._sure:
+            self._sure[both] = standing(visit.fit, here.fit if visit.terms > here.terms else None)
+        least, memory = self._sure[both]
         levels = [v.fit.theta[v.fit.problem.keys.index(RANDOM)] for v in (visit, here)]
         return least > CERTAIN and (memory < REMEMBERS or levels[0] < levels[1] + math.log(1.0 - WORTH))
 
@@ -306,8 +307,7 @@ class Selector:
         """Fit the terms whose score tests promise most on top of a fit, those first that promise most."""
         hints, single = self._screened(fit), alone(fit)
         good = sorted((h for h in hints if h.gain > PROMISING and h.distinct > SAME), key=lambda h: -h.gain)
-        late = [h for h in good if h.late][:MOST_LATE]
-        good = [h for h in good if not h.late][:MOST_FITTED] + late
+        good = [h for h in good if not h.late][:MOST_FITTED] + [h for h in good if h.late][:MOST_LATE]
         for size in sorted({len(h.start) for h in good}):
             group = [h for h in good if len(h.start) == size]
             self.say(f"fits with {', '.join(h.key for h in group)}")

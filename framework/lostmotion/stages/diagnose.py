@@ -253,7 +253,7 @@ def simpler(d: Diagnosis, rng: np.random.Generator) -> Diagnosis | None:
 def instead(d: Diagnosis, fit: Fit, rng: np.random.Generator) -> Diagnosis:
     """Return the diagnosis with another set of terms that was visited, given by its fit, in place of the chosen one."""
     gone = tuple(key for key in d.named if key not in fit.problem.active)
-    return _anew(replace(d, selection=replace(d.selection, chosen=fit)), gone, rng)
+    return _anew(replace(d, selection=replace(d.selection, chosen=fit), learned=None), gone, rng)
 
 
 def _anew(d: Diagnosis, gone: tuple[str, ...], rng: np.random.Generator) -> Diagnosis:

@@ -7,7 +7,8 @@ over held-out data better, and a flaw of a channel must be larger than acquisiti
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -16,16 +17,21 @@ from lostmotion.inference.course import RICH, Selection, Visit
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.gauges import APART
 from lostmotion.inference.natural import term_of
+from lostmotion.inference.rival import Righted
+from lostmotion.inference.selection import DECISIVE
 from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.predict import filtered
 from lostmotion.likelihood.problem import RANDOM
 from lostmotion.quantities import TIME
-from lostmotion.stages.compare import CHANCE, confirmed, pieces_of, run_errors
+from lostmotion.stages.compare import CHANCE, Piece, confirmed, pieces_of, run_errors
 from lostmotion.stages.diagnose import Diagnosis
 from lostmotion.workflow.findings import Outcome
 
 ASKED = 3
 """So many sets of each size are asked what they predict."""
 PART = 0.5
+FARTHEST = 10.0
+"""A term that a smooth force leads by more than this log odds on the fitted data is not asked about held-out data."""
 
 
 def unconfirmed(outcome: Outcome, observations: Sequence[Observation]) -> dict[str, str]:
@@ -69,6 +75,65 @@ def predicted_better(outcome: Outcome, observations: Sequence[Observation]) -> F
     rivals = [(visit, run_errors(visit.fit, pieces, outcome.horizon)) for visit in others]
     better = [(v, e) for v, e in rivals if confirmed(e, errors, CHANCE / len(rivals))]
     return min(better, key=lambda rival: _whole(rival[1]))[0].fit if better else None
+
+
+def decided(outcome: Outcome, observations: Sequence[Observation]) -> tuple[Fit, Mapping[frozenset[str], float]] | None:
+    """Return the fit of a set with one more term for which held-out data decide, and what sets win there; or None.
+
+    On the fitted data a small smooth force without a name explains about as much as such a term. Both are asked for the
+    log score of one-step predictions of held-out data, which is added to the log odds of the fitted data: this is what
+    the posterior of all data would be, parameters left where they are. The smooth force, the learned curves and the
+    chosen set itself stand against a term, whichever scores best; so does a smooth force beside channels put right.
+    """
+    d, selection = outcome.diagnosis, outcome.diagnosis.selection
+    here = selection.visits.get(selection.chosen.problem.active)
+    if here is None:
+        return None
+    unbeaten = [v for v in _unbeaten(selection, here) if selection.lead(v, here) > -FARTHEST]
+    for visit in unbeaten:
+        selection.check(visit)
+    close = [v for v in unbeaten if selection.lead(v, here) > -FARTHEST]
+    close = sorted(close, key=lambda v: -selection.lead(v, here))[:ASKED]
+    if not close:
+        return None
+    pieces, rival = pieces_of(observations, d.held), selection.won(here)
+    against = [here.fit, *([rival.fit] if rival else ()), *([d.learned.fit] if d.learned else ())]
+    bar = max(_scored(fit, pieces) for fit in against)
+    if rival and rival.right:
+        bar = max(bar, _righted(rival.right, pieces))
+    worse = selection.expansion(here).worse
+    won = {v.terms: (_scored(v.fit, pieces) - bar) / worse for v in close}
+    best = max(close, key=lambda v: selection.lead(v, here) + won[v.terms])
+    if not selection.lead(best, here) + won[best.terms] - math.log(len(close)) > DECISIVE:
+        return None
+    return best.fit, won
+
+
+def _unbeaten(selection: Selection, here: Visit) -> list[Visit]:
+    """Return the sets with one force more than a chosen one that win by evidence, and not over a smooth force.
+
+    Flaws of channels are not among them: the usual ones are a part of what stands against a name.
+    """
+    keys = [k for k in sorted(selection.unbeaten - here.terms) if term_of(here.fit.problem, k)[0].acts == "motion"]
+    more = [here.terms | {key} for key in keys]
+    sets = [selection.visits[terms] for terms in more if terms in selection.visits]
+    return [v for v in sets if v.fit.status != "diverged" and v.weight > here.weight + DECISIVE]
+
+
+def _scored(fit: Fit, pieces: Sequence[Piece]) -> float:
+    """Return the log score of one-step predictions of held-out data; minus infinity where a filter runs away."""
+    total = 0.0
+    for piece in pieces:
+        seen = filtered(fit.problem.on((piece.observation,)), fit.theta)
+        total += seen.log_score(slice(piece.begin, None)) * (piece.observation.samples - piece.begin)
+    return total if math.isfinite(total) else -math.inf
+
+
+def _righted(right: Righted, pieces: Sequence[Piece]) -> float:
+    """Return the log score of a smooth force where channels are put right, in the units of the readings as they are."""
+    held = sum(piece.observation.samples - piece.begin for piece in pieces)
+    wider = right.wider * held / right.fit.problem.samples
+    return _scored(right.fit, [replace(p, observation=right.put_right(p.observation)) for p in pieces]) + wider
 
 
 def _others(selection: Selection, here: Visit) -> list[Visit]:

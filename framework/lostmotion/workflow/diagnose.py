@@ -28,7 +28,7 @@ from lostmotion.stages.diagnose import Diagnosis, diagnose, instead, simpler
 from lostmotion.storage import dataset_of, folder_for, save_datasets, save_json
 from lostmotion.workflow.arrays import arrays_of
 from lostmotion.workflow.attractors import motions_of
-from lostmotion.workflow.confirming import predicted_better, unconfirmed
+from lostmotion.workflow.confirming import decided, predicted_better, unconfirmed
 from lostmotion.workflow.decays import decay_in
 from lostmotion.workflow.disagreements import disagreement_in
 from lostmotion.workflow.evidences import evidence_of
@@ -169,6 +169,12 @@ def upheld(diagnosis: Diagnosis, prepared: Prepared, rng: np.random.Generator, s
     if (better := predicted_better(outcome, prepared.observations)) is not None:
         say(f"held-out predictions with {' and '.join(sorted(better.problem.active))} instead")
         outcome = judged(instead(diagnosis, better, rng.spawn(1)[0]), prepared, rng)
+    elif (close := decided(outcome, prepared.observations)) is not None:
+        fit, scored = close
+        say(f"held-out data decide for {' and '.join(sorted(fit.problem.active))}")
+        weighed = replace(outcome.diagnosis.selection, scored=dict(scored))
+        trial = judged(instead(replace(outcome.diagnosis, selection=weighed), fit, rng.spawn(1)[0]), prepared, rng)
+        outcome = trial if not worsened(outcome.before, trial.after) and trial.diagnosis.explains else outcome
     while outcome.diagnosis.found and (worsened(outcome.before, outcome.after) or not outcome.diagnosis.explains):
         less = simpler(outcome.diagnosis, rng.spawn(1)[0])
         if less is None:

@@ -49,7 +49,8 @@ def doubts_of(d: Diagnosis, key: str) -> list[str]:
     """Return why a term that was found is no more than likely, in sentences; none where it is named."""
     term, _ = term_of(d.after.problem, key)
     imitates = term.unlikely > 0.0 or term.acts != "motion"
-    return [*_less_sure(d, key), *(unsteady(d, key) if imitates else ()), *_unusual(d, key)]
+    steady = unsteady(d, key) if imitates else ()
+    return [*_less_sure(d, key), *_decided_late(d, key), *steady, *_unusual(d, key)]
 
 
 def _less_sure(d: Diagnosis, key: str) -> Iterator[str]:
@@ -59,6 +60,16 @@ def _less_sure(d: Diagnosis, key: str) -> Iterator[str]:
     others = _others(d, key)
     rivals = f"; its rivals are {', '.join(others)}" if others else "; its rival is a smooth force without a name"
     yield f"Its probability is {p:.2g}{rivals}."
+
+
+def _decided_late(d: Diagnosis, key: str) -> Iterator[str]:
+    """Yield a sentence where held-out data had to decide between a term and a smooth force."""
+    chosen = d.selection.chosen.problem.active
+    if chosen in d.selection.scored and key in d.selection.unbeaten:
+        yield (
+            "On the data that were fitted a small smooth force without a name explains about as much; held-out data"
+            f" decide, by {d.selection.scored[chosen]:.2g} in log score."
+        )
 
 
 def _others(d: Diagnosis, key: str) -> list[str]:
