@@ -165,16 +165,17 @@ def parsed():
     parser.add_argument("--sensors", default=",".join(SENSORS))
     parser.add_argument("--drives", default=",".join(DRIVES))
     parser.add_argument("--seeds", default="1", help="numbers, separated by commas")
-    parser.add_argument("--gain", type=float, default=0.0, help="log-likelihood (0: 50 to 500, by seed)")
+    parser.add_argument("--gain", type=float, default=0.0, help="log-likelihood (0: 50 to 500, drawn for each machine)")
     parser.add_argument("--samples", type=int, default=1500)
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--out", type=Path, default=Path("library"))
     return parser.parse_args()
 
 
-def gain_of(args, seed):
-    """Return the gain of a seed."""
-    return args.gain or 50.0 * 10.0 ** float(np.random.default_rng([9, seed]).random())
+def gain_of(args, name, sensor, drive, seed):
+    """Return the gain in log-likelihood that a machine is to show: of the table 50 to 500, drawn for each."""
+    text = f"{name} {sensor} {drive} {seed}".encode()
+    return args.gain or 50.0 * 10.0 ** float(np.random.default_rng(list(text)).random())
 
 
 def named(row):
@@ -232,7 +233,7 @@ def main():
     done = {(r["name"], r["sensor"], r["drive"], r["seed"]) for r in rows}
     names = ["clean"] if args.what == "clean" else [t for t in args.terms.split(",") if t] or sorted(TABLE)
     tasks = [
-        (name, sensor, drive, int(seed), gain_of(args, int(seed)), args.samples)
+        (name, sensor, drive, int(seed), gain_of(args, name, sensor, drive, seed), args.samples)
         for seed in args.seeds.split(",")
         for sensor in args.sensors.split(",")
         for drive in args.drives.split(",")
@@ -240,6 +241,7 @@ def main():
         if (name, sensor, drive, int(seed)) not in done
         and not (name != "clean" and TABLE[name].tone and drive != "harmonic")
     ]
+    np.random.default_rng(0).shuffle(tasks)  # what is done after any time is a fair sample of all
     with ProcessPoolExecutor(args.jobs) as pool, path.open("a") as stream:
         for row in pool.map(work, tasks):
             print(json.dumps(row), file=stream, flush=True)
