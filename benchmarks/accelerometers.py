@@ -187,7 +187,8 @@ def one(seed: int, number: int) -> dict[str, Any]:
     """Return what a diagnosis says of a machine, beside the truth."""
     from lostmotion.likelihood.system import System
     from lostmotion.registry import default
-    from lostmotion.stages.diagnose import candidates_of, diagnose
+    from lostmotion.stages.candidates import candidates_of
+    from lostmotion.stages.diagnose import diagnose
     from lostmotion.workflow.findings import draws_of, intervals
 
     machine = machine_of(seed, number)

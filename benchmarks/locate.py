@@ -40,10 +40,10 @@ from lostmotion.errors import DataError
 from lostmotion.inference.candidates import screen, slopes_of
 from lostmotion.inference.odds import Ratio, likely, log_odds
 from lostmotion.inference.setup import problem_of, search, stepped
-from lostmotion.inference.shares import LEVEL
 from lostmotion.likelihood.latent import missing_force
 from lostmotion.likelihood.system import System, key_of
 from lostmotion.registry import default
+from lostmotion.settings import DEFAULT
 from lostmotion.stages.diagnose import locate, plays_of
 from lostmotion.storage import save_table
 from lostmotion.workflow.prepare import Prepared, prepare
@@ -186,7 +186,7 @@ def one(kind: str, seed: int, number: int) -> Row:
 def ranked(row: Row, test: str) -> list[str]:
     """Return the covariates that a test calls significant, the first first."""
     if test == "shares":
-        told = {k: s for k, s in row["shares"].items() if s[2] <= LEVEL and s[0] > 0.0}
+        told = {k: s for k, s in row["shares"].items() if s[2] <= DEFAULT.locate.level and s[0] > 0.0}
         return sorted(told, key=lambda k: -told[k][0])
     if test == "odds":
         return likely({k: Ratio(*told) for k, told in row["odds"].items()})

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import inspect
 from collections.abc import Iterator
+from dataclasses import fields
 from typing import Any, ClassVar
 
 import click
@@ -16,12 +18,13 @@ from lostmotion.cli import main
 from lostmotion.contracts import KINDS
 from lostmotion.registry import Entry, default
 from lostmotion.results import STATUSES
+from lostmotion.settings import DEFAULT
 from lostmotion.testing import rules_for
 
 
 def setup(app: Sphinx) -> dict[str, bool]:
     """Offer each directive by its name."""
-    for directive in (Plugins, Commands, Doors, Statuses, Mechanisms, Rules):
+    for directive in (Plugins, Commands, Doors, Statuses, Mechanisms, Rules, Thresholds):
         app.add_directive(directive.__name__.lower(), directive)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
 
@@ -132,7 +135,7 @@ class Commands(Written):
 
     def lines(self) -> Iterator[str]:
         """Yield a directive for each command."""
-        for name, (target, _) in main.table.items():
+        for name, (target, _) in main.commands_of(click.Context(main)).items():
             command = main.get_command(click.Context(main), name)
             nested = "full" if isinstance(command, click.Group) else "none"
             yield from ("", f".. click:: {target}", f"   :prog: lostmotion {name}", f"   :nested: {nested}", "")
@@ -146,6 +149,24 @@ class Doors(Written):
         for name in lostmotion.__all__:
             if not isinstance(getattr(lostmotion, name), type):
                 yield from (f".. autofunction:: lostmotion.{name}", "")
+
+
+class Thresholds(SphinxDirective):
+    """The thresholds that decide, one table for each stage, from the settings themselves."""
+
+    def run(self) -> list[nodes.Node]:
+        """Return a section for each stage."""
+        made = []
+        for stage in fields(DEFAULT):
+            about = inspect.getdoc(type(getattr(DEFAULT, stage.name))) or ""
+            section = nodes.section(ids=[f"settings-{stage.name}"], names=[stage.name])
+            section += nodes.title("", "", nodes.literal("", stage.name))
+            section += nodes.paragraph("", "", *worded(about))
+            own = [one for one in DEFAULT if one.key.startswith(f"{stage.name}.")]
+            rows = [(one.key, f"{one.value:.4g}", " ".join(filter(None, (one.why, one.source)))) for one in own]
+            section += table(("setting", "value", "why"), rows)
+            made.append(section)
+        return made
 
 
 class Statuses(SphinxDirective):

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from lostmotion.notebook.doors import analyse, diagnose, identify, load, map, simulate
     from lostmotion.notebook.priors import HalfNormal, LogNormal, LogUniform, Normal, Uniform
     from lostmotion.recording import Recording
+    from lostmotion.settings import Settings
     from lostmotion.stages.denoise import denoise
     from lostmotion.stages.embed import embed
     from lostmotion.stages.quantify import quantify
@@ -32,8 +33,8 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 __all__ = [
     "Case", "HalfNormal", "LogNormal", "LogUniform", "LostMotionError", "LostmotionError", "Normal", "Recording",
-    "Uniform", "analyse", "denoise", "diagnose", "embed", "identify", "load", "map", "model", "quantify", "simulate",
-    "surrogate_test",
+    "Settings", "Uniform", "analyse", "denoise", "diagnose", "embed", "identify", "load", "map", "model", "quantify",
+    "simulate", "surrogate_test",
 ]  # fmt: skip
 _DOORS = {
     **{name: f"notebook.doors:{name}" for name in ("analyse", "diagnose", "identify", "load", "map", "simulate")},
@@ -42,6 +43,7 @@ _DOORS = {
     "LostMotionError": "errors:LostMotionError",
     "LostmotionError": "errors:LostMotionError",
     "Recording": "recording:Recording",
+    "Settings": "settings:Settings",
     "denoise": "stages.denoise:denoise",
     "embed": "stages.embed:embed",
     "quantify": "stages.quantify:quantify",
@@ -49,7 +51,7 @@ _DOORS = {
 }
 
 
-_ROOMS = ("registry", "testing")
+_ROOMS = ("registry", "settings", "testing")
 
 
 def __dir__() -> list[str]:

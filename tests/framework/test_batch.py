@@ -15,6 +15,7 @@ from click.testing import CliRunner
 from lostmotion.cli import main
 from lostmotion.errors import CaseError, DataError, PlaceError
 from lostmotion.provenance import digest, provenance
+from lostmotion.settings import DEFAULT
 from lostmotion.workflow import batch
 from lostmotion.workflow.batch_table import lines_of, row_of
 from lostmotion.workflow.campaign import Campaign
@@ -69,14 +70,18 @@ def calls(monkeypatch):
     """Stub the diagnosis, and make it in this process; return the list of cases that were diagnosed."""
     made = []
 
-    def diagnosis(path, out, registry, *, seed, jobs):
+    def diagnosis(path, out, registry, *, seed, jobs, settings):
         made.append(path.stem)
         case = case_of(path, registry)
         if (word := (path.parent / case.recordings[0].file).read_text(encoding="utf-8")) in FAILURES:
             raise FAILURES[word]
         out.mkdir(parents=True)
         inputs = {"case": case.digest, path.stem: digest(path.with_suffix(".csv")), **registry.origins()}
-        told = {**content(), "provenance": provenance("diagnose", {"terms": [1]}, seed, inputs), "jobs": jobs}
+        told = {
+            **content(),
+            "provenance": provenance("diagnose", {"terms": [1], "thresholds": settings.as_dict()}, seed, inputs),
+            "jobs": jobs,
+        }
         for name in batch.FILES:
             (out / name).write_text(json.dumps(told), encoding="utf-8")
 
@@ -149,7 +154,7 @@ def test_only_what_is_new_is_made_again_and_the_bytes_are_those_of_one_go(tmp_pa
     assert files(out) == files(tmp_path / "whole")
 
 
-@pytest.mark.parametrize("what", ["seed", "recording", "plugin", "damaged"])
+@pytest.mark.parametrize("what", ["seed", "recording", "plugin", "damaged", "settings"])
 def test_a_diagnosis_of_something_else_is_made_again(tmp_path, calls, what):
     paths, out = cases(tmp_path / "in", a="1", b="2"), tmp_path / "out"
     diagnose(paths, out)
@@ -159,9 +164,11 @@ def test_a_diagnosis_of_something_else_is_made_again(tmp_path, calls, what):
         cases(tmp_path / "in", b="3")
     if what == "damaged":
         (out / "b" / "diagnosis.json").write_text("{", encoding="utf-8")
-    again = batch.Batch(batch.named(paths), out, (str(plugin),) if what == "plugin" else (), int(what == "seed"))
+    brought = (str(plugin),) if what == "plugin" else ()
+    settings = DEFAULT.changed({"select.decisive": 4.0} if what == "settings" else {})
+    again = batch.Batch(batch.named(paths), out, brought, int(what == "seed"), settings)
     batch.run_batch(again, jobs=1)
-    assert calls[2:] == (["a", "b"] if what in ("seed", "plugin") else ["b"])
+    assert calls[2:] == (["a", "b"] if what in ("seed", "plugin", "settings") else ["b"])
 
 
 def test_a_case_that_broke_since_loses_its_old_diagnosis_and_nothing_else(tmp_path, calls):

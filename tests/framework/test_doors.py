@@ -83,7 +83,10 @@ def test_a_map_of_it(place, known):
 
 @pytest.mark.slow
 def test_diagnose_knows_the_term(place, known):
-    said = lostmotion.diagnose(place / "case.toml", out=place / "result", registry=known).to_dict()
+    asked = {"select.decisive": 4.0}
+    found = lostmotion.diagnose(place / "case.toml", out=place / "result", registry=known, settings=asked)
+    said = found.to_dict()
+    assert said["provenance"]["settings"]["thresholds"]["select"]["decisive"] == 4.0
     assert "guest_drag@ground" in said["provenance"]["settings"]["terms"]
     assert json.loads((place / "result" / "diagnosis.json").read_text())["title"] == "case"
 

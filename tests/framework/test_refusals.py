@@ -20,7 +20,8 @@ from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.system import System
 from lostmotion.quantities import FORCE
 from lostmotion.registry import default
-from lostmotion.stages.diagnose import candidates_of, locate
+from lostmotion.stages.candidates import candidates_of
+from lostmotion.stages.diagnose import locate
 from lostmotion.workflow.prepare import prepare
 
 KNOWN = {"m": 1.0, "c": 8.0, "k": 1e4}

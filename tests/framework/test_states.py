@@ -7,17 +7,16 @@ import pytest
 
 from lostmotion.inference.course import Visit
 from lostmotion.likelihood.problem import RANDOM
-from lostmotion.stages.compare import CHANCE, PARTS, confirmed, worsened
+from lostmotion.settings import DEFAULT
+from lostmotion.stages.compare import PARTS, confirmed, worsened
 from lostmotion.workflow import confirming
 from lostmotion.workflow import diagnose as ways
 from lostmotion.workflow.confirming import usual
 from lostmotion.workflow.findings import shown
 from lostmotion.workflow.states import (
-    LATE,
     LIKELY,
     NAMED,
     OPEN,
-    SURE,
     doubted,
     doubts_of,
     holds,
@@ -57,7 +56,12 @@ def diagnosis(after, probabilities, visits=None, **course):
     )
     found = tuple(after.problem.active)
     return SimpleNamespace(
-        selection=selection, after=after, before=after, found=found, withdrawn=course.get("withdrawn", ())
+        selection=selection,
+        after=after,
+        before=after,
+        found=found,
+        withdrawn=course.get("withdrawn", ()),
+        settings=DEFAULT,
     )
 
 
@@ -88,7 +92,7 @@ def test_a_term_for_which_held_out_data_decide_is_told_so():
 
 def test_a_long_delay_is_no_more_than_likely():
     period = 2.0 * np.pi
-    for share, doubts in ((0.5 * LATE, 0), (2.0 * LATE, 1)):
+    for share, doubts in ((0.5 * DEFAULT.name.late, 0), (2.0 * DEFAULT.name.late, 1)):
         after = fit_of({f"{DELAY}.delay": share * period}, [DELAY])
         assert len(doubts_of(diagnosis(after, {(DELAY,): 1.0}), DELAY)) == doubts
 
@@ -155,13 +159,15 @@ def test_what_makes_predictions_worse_is_taken_back_until_they_are_not(monkeypat
         return SimpleNamespace(diagnosis=d, before=prediction(0.3, [0.0]), after=prediction(errors[d.found], [0.0]))
 
     def simpler(d, rng):
-        return SimpleNamespace(found=d.found[:-1], withdrawn=(*d.withdrawn, d.found[-1]), explains=True)
+        return SimpleNamespace(
+            found=d.found[:-1], withdrawn=(*d.withdrawn, d.found[-1]), explains=True, settings=DEFAULT
+        )
 
     monkeypatch.setattr(ways, "judged", judged)
     monkeypatch.setattr(ways, "simpler", simpler)
     monkeypatch.setattr(ways, "predicted_better", lambda outcome, observations: None)
     monkeypatch.setattr(ways, "decided", lambda outcome, observations: None)
-    start = SimpleNamespace(found=("a", "b", "curve"), withdrawn=(), explains=True)
+    start = SimpleNamespace(found=("a", "b", "curve"), withdrawn=(), explains=True, settings=DEFAULT)
     outcome = ways.upheld(start, SimpleNamespace(observations=()), np.random.default_rng(0))
     assert outcome.diagnosis.found == ("a",)
     assert outcome.diagnosis.withdrawn == ("curve", "b")
@@ -194,7 +200,7 @@ def test_held_out_data_decide_between_a_term_and_a_smooth_force(monkeypatch, sco
     monkeypatch.setattr(confirming, "term_of", lambda problem, key: (SimpleNamespace(acts="motion"), ()))
     monkeypatch.setattr(confirming, "_scored", lambda fit, pieces: scores[fit.key])
     monkeypatch.setattr(confirming, "pieces_of", lambda observations, held: ())
-    d = SimpleNamespace(selection=selection, learned=None, held=())
+    d = SimpleNamespace(selection=selection, learned=None, held=(), settings=DEFAULT)
     found = confirming.decided(SimpleNamespace(diagnosis=d), ())
     assert (found and found[0].key) == chosen
 
@@ -211,7 +217,7 @@ def test_of_sets_that_explain_what_was_fitted_the_one_that_predicts_better_is_ta
     selection = SimpleNamespace(
         chosen=chosen, nominal=fits[""], visits=visits, declined=set(), expansion=lambda visit: expansion
     )
-    d = SimpleNamespace(selection=selection, learned=None, unexplained=True, held=())
+    d = SimpleNamespace(selection=selection, learned=None, unexplained=True, held=(), settings=DEFAULT)
     scatter = np.exp(0.05 * rng.standard_normal((len(factors), PARTS)))
     told = {k: factors[k] * row for k, row in zip(factors, scatter, strict=True)}
     monkeypatch.setattr(confirming, "pieces_of", lambda observations, held: ())
@@ -231,10 +237,10 @@ def test_of_sets_that_explain_what_was_fitted_the_one_that_predicts_better_is_ta
 
 
 def test_equal_models_are_confirmed_as_seldom_as_the_test_says():
-    """One-sided, so half of `CHANCE`: 2.5 % of 4000 pairs of equal errors, within four standard errors. Seeded."""
+    """One-sided, so half of the chance: 2.5 % of 4000 pairs of equal errors, within four standard errors. Seeded."""
     rng = np.random.default_rng(5)
     told = [confirmed(*np.exp(0.3 * rng.standard_normal((2, PARTS)))) for _ in range(4000)]
-    assert np.mean(told) == pytest.approx(0.5 * CHANCE, abs=4.0 * np.sqrt(0.025 * 0.975 / 4000))
+    assert np.mean(told) == pytest.approx(0.5 * DEFAULT.heldout.chance, abs=4.0 * np.sqrt(0.025 * 0.975 / 4000))
 
 
 def test_errors_that_fall_in_each_part_are_confirmed_and_the_same_errors_are_not():
@@ -249,7 +255,7 @@ def test_errors_that_fall_in_each_part_are_confirmed_and_the_same_errors_are_not
 @pytest.mark.parametrize(("delay", "told"), [(0.004, True), (0.006, False)])
 def test_a_delay_of_less_than_half_a_sample_is_usual(delay, told):
     fit = fit_of({f"{DELAY}.delay": delay}, {DELAY})
-    d = SimpleNamespace(after=fit, shown=SimpleNamespace(dt=0.01), values=fit.values)
+    d = SimpleNamespace(after=fit, shown=SimpleNamespace(dt=0.01), values=fit.values, settings=DEFAULT)
     assert bool(usual(d, DELAY)) == told
 
 
@@ -262,4 +268,4 @@ def test_what_is_doubted_is_likely_and_comes_behind_what_is_named():
     told = in_order([doubted(entry) for entry in entries])
     assert [entry["mechanism"] for entry in told] == ["coulomb_friction", "offset_force", "unknown"]
     assert [entry["state"] for entry in told] == [NAMED, LIKELY, OPEN]
-    assert [entry["probability"] for entry in told] == [0.97, SURE, 1.0]
+    assert [entry["probability"] for entry in told] == [0.97, DEFAULT.name.sure, 1.0]

@@ -13,6 +13,7 @@ from lostmotion.inference.surfaces import KINDS, OverHistory, Surface, curves_fo
 from lostmotion.likelihood.system import System
 from lostmotion.quantities import DAMPING, FORCE, LENGTH, SPEED
 from lostmotion.registry import default
+from lostmotion.settings import DEFAULT
 from lostmotion.workflow import unknowns
 from lostmotion_plugins.terms.friction import CoulombFriction
 
@@ -164,5 +165,7 @@ def test_an_unknown_says_where_a_law_explains_it_as_well(gain, says):
     """No report says that no term explains a force, and ranks one above the curve."""
     system = System(default().make("model", "linear_oscillator"), (CoulombFriction(),))
     selection = SimpleNamespace(unbeaten={"coulomb_friction"}, gain=lambda key: gain)
-    d = SimpleNamespace(selection=selection, before=SimpleNamespace(problem=SimpleNamespace(system=system)))
+    d = SimpleNamespace(
+        selection=selection, before=SimpleNamespace(problem=SimpleNamespace(system=system)), settings=DEFAULT
+    )
     assert unknowns._why_unnamed(d, SimpleNamespace(gain=58.0)).lower() == says.lower()

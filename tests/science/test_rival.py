@@ -9,10 +9,11 @@ from sensed import case_of, model_of, moved, multisine, noisy
 from lostmotion.inference.candidates import fit_with, screen, slopes_of
 from lostmotion.inference.course import Selection, Visit
 from lostmotion.inference.rival import USUAL, evidence_of, expanded, fitted, righted
-from lostmotion.inference.selection import DECISIVE, Selector
+from lostmotion.inference.selection import Selector
 from lostmotion.inference.setup import problem_of, search, split
 from lostmotion.likelihood.system import System
 from lostmotion.registry import Registry
+from lostmotion.settings import DEFAULT
 from lostmotion.stages.compare import horizon_for, pieces_of
 from lostmotion.stages.diagnose import fitted_keys
 from lostmotion.workflow.confirming import unconfirmed
@@ -110,7 +111,7 @@ def test_a_known_value_that_is_slightly_wrong_gets_no_name(tmp_path):
     nominal, system = nominal_of(tmp_path, lambda x, v, t: 0.0, stated=1.01)
     course = chosen_of(nominal, system)
     raw = max(v.weight for v in course.visits.values()) - course.visits[frozenset()].weight
-    assert raw > DECISIVE, "by the evidence alone something would be named"
+    assert raw > DEFAULT.select.decisive, "by the evidence alone something would be named"
     assert course.chosen.problem.active == frozenset()
     assert course.unbeaten
 
@@ -204,7 +205,9 @@ def test_a_term_is_doubted_where_no_model_is_right_and_predictions_do_without_it
         course.visits[fit.problem.active] = Visit(fit.problem.active, fit, fit.log_evidence)
     horizon = horizon_for(more, pieces_of(prepared.observations, held), float("nan"))
     outcome = SimpleNamespace(
-        diagnosis=SimpleNamespace(selection=course, held=held, named=(key,), after=more, unexplained=False),
+        diagnosis=SimpleNamespace(
+            selection=course, held=held, named=(key,), after=more, unexplained=False, settings=DEFAULT
+        ),
         horizon=horizon,
     )
     told = unconfirmed(outcome, prepared.observations)

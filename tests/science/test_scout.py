@@ -15,7 +15,8 @@ from lostmotion.inference.scout import scouted
 from lostmotion.likelihood.system import System
 from lostmotion.quantities import FORCE, LENGTH
 from lostmotion.registry import default
-from lostmotion.stages.diagnose import candidates_of, diagnose
+from lostmotion.stages.candidates import candidates_of
+from lostmotion.stages.diagnose import diagnose
 
 PITCH = 0.002
 """Thirteen periods over the travel, a fifth of the half gap."""

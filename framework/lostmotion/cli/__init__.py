@@ -24,6 +24,7 @@ class _Commands(LazyGroup):
         "identify": ("lostmotion.cli.identify:command", "Estimate the parameters of a case, with their intervals."),
         "init": ("lostmotion.cli.init:command", "Look at a recording and write a first case for it."),
         "map": ("lostmotion.cli.map:command", "Map an exponent, or anything else, over parameters."),
+        "settings": ("lostmotion.cli.settings:command", "List the thresholds that decide, each with its reason."),
         "simulate": ("lostmotion.cli.simulate:command", "Simulate a machine with or without extra terms."),
         "plugins": ("lostmotion.cli.plugins:command", "List, show and check the models, terms and methods."),
     }

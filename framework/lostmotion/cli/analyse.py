@@ -7,7 +7,7 @@ from pathlib import Path
 import click
 
 from lostmotion.cli._lazy import PluginName, examples, registry_of
-from lostmotion.cli.options import usual_folder
+from lostmotion.cli.options import settable, usual_folder
 from lostmotion.cli.progress import progress
 
 RATES = ("1/s", "bit/s", "1/period", "bit/period")
@@ -53,6 +53,7 @@ RATES = ("1/s", "bit/s", "1/period", "bit/period")
 @click.option("--seed", default=0, show_default=True, type=click.IntRange(0), help="The same seed, the same bytes.")
 @click.option("--jobs", default=2, show_default=True, type=click.IntRange(1), help="How many cores to use.")
 @click.option("--quiet", is_flag=True, help="Show no progress.")
+@settable
 @click.pass_context
 def command(ctx: click.Context, /, recording: Path, out: Path, quiet: bool, **asked: object) -> None:
     """Tell whether a recorded motion is periodic, chaotic, or noise that looks like it, and how sure that is.

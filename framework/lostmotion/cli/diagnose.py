@@ -3,19 +3,23 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from lostmotion.cli._lazy import PluginName, examples, plain, registry_of
-from lostmotion.cli.options import on_a_trial
+from lostmotion.cli.options import on_a_trial, settable
 from lostmotion.cli.progress import counted, progress
+
+if TYPE_CHECKING:
+    from lostmotion.settings import Settings
 
 
 @click.command(
     epilog=examples(
         "lostmotion diagnose case.toml --out result",
         "lostmotion --plugin my_terms.py diagnose case.toml --out result --seed 1",
+        "lostmotion diagnose case.toml --set select.decisive=5     odds of 150 for a name, in place of 20",
         "lostmotion diagnose pump.toml crane.toml --out results --jobs 2",
         "lostmotion diagnose run1.csv --model lin_backlash     a case is written first, as `init` does",
         "lostmotion diagnose run1.csv --model \"m*x'' + c*x' + k*x = force\"",
@@ -24,6 +28,7 @@ from lostmotion.cli.progress import counted, progress
 @click.argument("cases", metavar="CASE.toml...", nargs=-1, required=True, type=click.Path(path_type=Path))
 @click.option("--model", type=PluginName("model"), default="", help="The model, or equations of"
               " motion, where a recording is given.")  # fmt: skip
+@settable
 @on_a_trial
 @click.pass_context
 def command(ctx: click.Context, /, cases: tuple[Path, ...], out: Path, model: str, **given: Any) -> None:
@@ -64,22 +69,24 @@ def _begun(ctx: click.Context, case: Path, out: Path, model: str) -> Path:
     return out / "case.toml"
 
 
-def _one(ctx: click.Context, case: Path, out: Path, *, quiet: bool, seed: int, jobs: int) -> None:
+def _one(ctx: click.Context, case: Path, out: Path, *, quiet: bool, seed: int, jobs: int, settings: Settings) -> None:
     from lostmotion.workflow.diagnose import run_diagnosis
 
     with progress("diagnose", quiet=quiet) as say:
-        content = run_diagnosis(case, out, registry_of(ctx), seed=seed, jobs=jobs, say=say)
+        content = run_diagnosis(case, out, registry_of(ctx), seed=seed, jobs=jobs, say=say, settings=settings)
     for sentence in content["says"]:
         click.echo(sentence)
     click.echo(str(out / "report.html"))
 
 
-def _many(ctx: click.Context, cases: tuple[Path, ...], out: Path, *, quiet: bool, seed: int, jobs: int) -> None:
+def _many(
+    ctx: click.Context, cases: tuple[Path, ...], out: Path, *, quiet: bool, seed: int, jobs: int, settings: Settings
+) -> None:
     from lostmotion.workflow.batch import Batch, named, run_batch
     from lostmotion.workflow.batch_table import ASIDE, SUMMARY, lines_of
 
     plugins = tuple(str(Path(file).absolute()) for file in ctx.find_root().params.get("plugin") or ())
-    batch = Batch(named(cases), out.absolute(), plugins, seed)
+    batch = Batch(named(cases), out.absolute(), plugins, seed, settings)
     with counted("diagnose", len(batch.cases), "cases", quiet=quiet) as say:
         rows = run_batch(batch, jobs=jobs, say=say)
     aside = [row for row in rows if row["status"] == ASIDE]

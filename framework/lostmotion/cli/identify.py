@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING
 import click
 
 from lostmotion.cli._lazy import PluginName, examples, registry_of
-from lostmotion.cli.options import on_a_case
+from lostmotion.cli.options import on_a_case, settable
 
 if TYPE_CHECKING:
+    from lostmotion.settings import Settings
     from lostmotion.workflow.identify import Identified
 
 
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
         "lostmotion plugins     the terms there are",
     )
 )
+@settable
 @on_a_case
 @click.option(
     "--route",
@@ -54,7 +56,7 @@ if TYPE_CHECKING:
 @click.option("--fresh", is_flag=True, help="Throw away a chain that an earlier run left in DIR.")
 @click.pass_context
 def command(
-    ctx: click.Context, /, case: Path, out: Path, seed: int, jobs: int, quiet: bool, **settings: object
+    ctx: click.Context, /, case: Path, out: Path, seed: int, jobs: int, quiet: bool, settings: Settings, **given: object
 ) -> None:
     """Estimate the parameters of a case jointly, with intervals that hold what was recorded.
 
@@ -69,8 +71,8 @@ def command(
     from lostmotion.stages.identify import Plan
     from lostmotion.workflow.identify import Order, run_identification
 
-    plan = Plan(**{key: settings.pop(key) for key in ("ess", "max_steps", "walkers")})  # type: ignore[arg-type]
-    order = Order(seed=seed, jobs=jobs, plan=plan, **settings)  # type: ignore[arg-type]
+    plan = Plan(**{key: given.pop(key) for key in ("ess", "max_steps", "walkers")}, limits=settings.chain)  # type: ignore[arg-type]
+    order = Order(seed=seed, jobs=jobs, plan=plan, settings=settings, **given)  # type: ignore[arg-type]
     with _bar(plan.max_steps, quiet=quiet) as watch:
         done = run_identification(case, out, registry_of(ctx), order, watch)
     if done.result.replaced:

@@ -8,6 +8,8 @@ from typing import Any
 
 import click
 
+from lostmotion.settings import DEFAULT, Settings
+
 Command = Callable[..., Any]
 
 
@@ -30,6 +32,29 @@ _COMMON = (
     click.option("--jobs", default=2, show_default=True, type=click.IntRange(1), help="How many cores to use."),
     click.option("--quiet", is_flag=True, help="Show no progress."),
 )
+
+
+def _settings(ctx: click.Context, option: click.Parameter, given: tuple[str, ...]) -> Settings:
+    """Return the settings that are meant by words of the form STAGE.NAME=VALUE."""
+    pairs = [text.partition("=") for text in given]
+    for text, (_, sign, value) in zip(given, pairs, strict=True):
+        if not sign or not value:
+            raise click.BadParameter(
+                f"{text!r} is not of the form STAGE.NAME=VALUE: write for instance select.decisive=4"
+            )
+    return DEFAULT.changed({key.strip(): value for key, _, value in pairs})
+
+
+def settable(command: Command) -> Command:
+    """Return the command with the option --set, which changes thresholds that decide: `settings` is what it gets."""
+    return click.option(
+        "--set",
+        "settings",
+        metavar="STAGE.NAME=VALUE",
+        multiple=True,
+        callback=_settings,
+        help="Change a threshold that decides, such as select.decisive=4; `lostmotion settings` lists them.",
+    )(command)
 
 
 def on_a_case(command: Command) -> Command:

@@ -11,16 +11,14 @@ from lostmotion.inference.natural import term_of
 from lostmotion.likelihood.problem import Problem
 from lostmotion.likelihood.system import key_of, since_of
 
-AS_GOOD = 6.0
-"""Commoner terms may have this much less log evidence: the forces are the same, and only priors differ."""
-
 
 def in_commoner_terms(fit: Fit, candidates: Collection[str]) -> Fit:
     """Return a fit in which commoner terms stand for one that is their sum; the fit itself where none is."""
     for key in sorted(fit.problem.active):
         problem = _rewritten(fit, key, candidates)
         told = maximise(problem) if problem else fit
-        if told is not fit and told.status != "diverged" and told.log_evidence > fit.log_evidence - AS_GOOD:
+        least = fit.log_evidence - fit.problem.settings.select.commoner
+        if told is not fit and told.status != "diverged" and told.log_evidence > least:
             return told
     return fit
 

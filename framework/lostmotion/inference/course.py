@@ -10,24 +10,19 @@ from lostmotion.inference.candidates import Hint
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.natural import term_of
 from lostmotion.inference.rival import Expansion, Righted, expanded, fitted, righted, stood_in
+from lostmotion.settings import Rival
 
 CLOSE = 12.0
 """Sets that are so close to the best in log weight are fitted again, and kept for comparison."""
 BEAM = 3
-ABSURD = 100.0
-"""A promise beyond this, of which nothing comes true, tells that slopes about the fit mean nothing."""
-LONG = 4.0
-"""From this excess of the scatter of scores on their memory is long."""
 FLOOR = -10.0
 """What a discrepancy is worth at most whose promise does not come true: known values and channels that are left open
 cost about so much where they explain nothing."""
-RICH = 20.0
-"""A discrepancy that promises to add so much to the log evidence is fitted before a name is given."""
 
 AGAIN, NEWS = 2, 6.0
 """So often smooth forces are added to a fit with some of them, where they promise so much more log evidence."""
 RIGHTED = 3
-"""So often the channels of a recording are put right where their flaws promise more than `RICH`."""
+"""So often the channels of a recording are put right where their flaws promise much."""
 
 
 @dataclass(frozen=True)
@@ -42,7 +37,7 @@ class Visit:
 class Won(NamedTuple):
     """What smooth forces have won when they were fitted: log evidence, their log price, and what is promised `beside`.
 
-    That rest, wrong known values and channels, is believed up to `RICH`, and not at all once it was tried and did not
+    That rest, wrong known values and channels, is believed up to a limit, and not at all once it was tried and did not
     come true. `fit` is the one with the smooth forces, to the recordings as they are, and `right` the one to recordings
     whose channels were put right.
     """
@@ -76,7 +71,7 @@ def _won_by(found: tuple[Fit, float] | None, fit: Fit) -> Won | None:
     right = None
     won = Won(best.log_evidence - fit.log_evidence, price, _believed(rest, tried), best)
     for _ in range(RIGHTED):
-        if not rest.bare(rest.worse) > RICH:
+        if not rest.bare(rest.worse) > rest.fit.problem.settings.rival.much:
             return won
         right = righted(rest, right)
         if right is None or right.fit.status == "diverged":
@@ -108,12 +103,12 @@ def _settled(best: Fit, price: float) -> tuple[Fit, float, Expansion, bool]:
 
 
 def _believed(rest: Expansion, tried: bool) -> float:
-    """Return what is believed of the promise of an expansion about a fit with smooth forces, at most `RICH`.
+    """Return what is believed of the promise of an expansion about a fit with smooth forces, up to a limit.
 
     Where more smooth forces were `tried` and did not come true, that of known values and channels alone.
     """
-    promised = rest.gain()
-    return min(promised if promised < ABSURD and not tried else rest.bare(rest.worse), RICH)
+    promised, limits = rest.gain(), rest.fit.problem.settings.rival
+    return min(promised if promised < limits.absurd and not tried else rest.bare(rest.worse), limits.much)
 
 
 class Lead(NamedTuple):
@@ -147,6 +142,11 @@ class Selection:
     smooth: dict[frozenset[str], tuple[Fit, Won | None]] = field(default_factory=dict)
     leads: dict[tuple[frozenset[str], frozenset[str]], Lead] = field(default_factory=dict)
     stood: dict[tuple[frozenset[str], frozenset[str]], tuple[Fit, Fit]] = field(default_factory=dict)
+
+    @property
+    def limits(self) -> Rival:
+        """What is usual on real machines."""
+        return self.nominal.problem.settings.rival
 
     def expansion(self, visit: Visit) -> Expansion:
         """Return the expansion of a visited set with the discrepancy; it is made once for each fit."""
@@ -184,7 +184,7 @@ class Selection:
         Such a fit costs as much as a hundred score tests, so it is made only of sets on which a choice depends.
         """
         if not self._is_checked(visit):
-            if self.expansion(visit).promise().gain >= RICH:
+            if self.expansion(visit).promise().gain >= self.limits.much:
                 self._fit_beside(visit)
             else:
                 self.smooth[visit.terms] = (visit.fit, None)
@@ -203,7 +203,7 @@ class Selection:
         A check makes a lead smaller, but where slopes about the set turn out to mean nothing. Where the discrepancy of
         one of the two was fitted, that of the other is fitted too, however little it promises.
         """
-        if self.lead(visit, over) > needed or self.expansion(visit).promise().gain >= ABSURD:
+        if self.lead(visit, over) > needed or self.expansion(visit).promise().gain >= self.limits.absurd:
             self.check(visit)
         bare = [v for v in (visit, over) if self.won(v) is None]
         if len(bare) == 1 and self.lead(visit, over) > needed:
@@ -247,15 +247,15 @@ class Selection:
         """Return the log evidence that a discrepancy may add to a part of a set: promised or fitted, whichever is more.
 
         Where scores have a long memory what a fit wins is mostly that memory, and the promise alone counts. Of an
-        absurd promise that did not come true no more than `ABSURD` is feared, but where it stands against `more`: terms
+        absurd promise that did not come true no more than `absurd` is feared, but where it stands against `more`: terms
         that an engineer looks for last.
         """
         promised = self.expansion(visit).promise(worse).gain
-        won = self.won(visit) if worse < LONG else None
+        won = self.won(visit) if worse < self.limits.lasting else None
         if won is None:
             return promised
         last = any(term_of(self.chosen.problem, key)[0].unlikely > 0.0 for key in more)
-        return max(promised if last else min(promised, ABSURD), won.over(worse))
+        return max(promised if last else min(promised, self.limits.absurd), won.over(worse))
 
     @staticmethod
     def _prices(visit: Visit, over: Visit) -> float:
@@ -277,7 +277,7 @@ class Selection:
     def _by_fits(self, visit: Visit, over: Visit) -> float:
         """Return the lead of a set over a part of it by what smooth forces promise or win beside either."""
         here, worse = self.expansion(visit), self.expansion(visit).worse
-        won = self.won(visit) if self.won(over) and worse < LONG else None
+        won = self.won(visit) if self.won(over) and worse < self.limits.lasting else None
         own = max(won.over(worse), min(here.bare(worse), won.open)) if won else self.worth(visit, worse)
         behind = (over.fit.log_evidence - visit.fit.log_evidence) / worse
         return own - behind - self.feared(over, worse, visit.terms - over.terms) - self._prices(visit, over)
@@ -288,7 +288,7 @@ class Selection:
         They do not where they promise much and nothing of it comes true.
         """
         won = self.won(visit)
-        return won is None or won.evidence > 0.0 or self.expansion(visit).promise().gain < ABSURD
+        return won is None or won.evidence > 0.0 or self.expansion(visit).promise().gain < self.limits.absurd
 
     def probabilities(self) -> dict[frozenset[str], float]:
         """Return the posterior probability of each set among those visited, but for sets that were not believed.

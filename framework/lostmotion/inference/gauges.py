@@ -10,14 +10,9 @@ import numpy as np
 from lostmotion.contracts import Array
 from lostmotion.inference.fit import Fit
 from lostmotion.likelihood.observation import Observation
+from lostmotion.settings import Rival
 
 Change = Callable[[Observation, float], Observation]
-CALIBRATED = 0.01
-"""The standard deviation of the scale of a sensor and of a drive, relative."""
-BENT = 0.005
-"""The standard deviation of the square and of the cube that bend a sensor, in its range: 0.5 % are usual."""
-APART = 0.5
-"""The standard deviation of the time between channels, in samples: acquisition systems filter and multiplex."""
 SMALL = 1e-4
 """Derivatives are taken over so much of each."""
 
@@ -41,14 +36,14 @@ def gauges_of(fit: Fit) -> list[Gauge]:
     """Return the flaws of channels: scale, square and cube of each sensor, scale and time of each drive."""
     problem, here = fit.problem, fit.problem.innovations(fit.theta)
     found = []
-    for change, width, stretch in _flaws(problem.observations):
+    for change, width, stretch in _flaws(problem.observations, problem.settings.rival):
         seen = problem.on(tuple(change(o, SMALL) for o in problem.observations)).innovations(fit.theta)
         slopes = (seen.errors - here.errors) / SMALL, (seen.variances - here.variances) / SMALL
         found.append(Gauge(*slopes, width, stretch, change))
     return found
 
 
-def _flaws(observations: tuple[Observation, ...]) -> Iterator[tuple[Change, float, float]]:
+def _flaws(observations: tuple[Observation, ...], usual: Rival) -> Iterator[tuple[Change, float, float]]:
     """Yield each flaw as a change of a recording, with its usual width and what it adds to the log density."""
     first = observations[0]
     for sensor in range(len(first.sensors)):
@@ -58,13 +53,13 @@ def _flaws(observations: tuple[Observation, ...]) -> Iterator[tuple[Change, floa
         if not amplitude > 0.0:
             continue
         z = (shown[np.isfinite(shown)] - middle) / amplitude
-        for power, width in ((1, CALIBRATED), (2, BENT), (3, BENT)):
+        for power, width in ((1, usual.scale), (2, usual.bent), (3, usual.bent)):
             stretch = float(np.sum(power * z ** (power - 1)))
             yield _bent(sensor, power, (middle, amplitude)), width, stretch
     for column in range(first.inputs.shape[1]):
         if any(np.any(o.inputs[:, column]) for o in observations):
-            yield _scaled(column), CALIBRATED, 0.0
-            yield _moved(column), APART, 0.0
+            yield _scaled(column), usual.scale, 0.0
+            yield _moved(column), usual.late, 0.0
 
 
 def _bent(sensor: int, power: int, scale: tuple[float, float]) -> Change:

@@ -24,9 +24,6 @@ those whose log-likelihood is this much lower at the most."""
 PRICE = math.log(TIMES)
 """The log price of an onset that was chosen."""
 
-RARE = math.log(100.0)
-"""The log odds against a machine that changes while it is recorded."""
-
 
 def can_be_late(problem: Problem, key: str) -> bool:
     """Return whether an onset of a term can be told: of one recording, and not of a sensor."""
@@ -92,7 +89,7 @@ def believed(fit: Fit) -> Fit:
     for key in sorted(fit.problem.active):
         if onset(fit.problem, key) > ALWAYS and fit.status != "diverged":
             ever = maximise(restarted(fit).knowing({since_of(key): ALWAYS}), fit.theta)
-            needed = (PRICE + RARE) * standing(fit)[1] ** 2
+            needed = (PRICE + fit.problem.settings.select.onset) * standing(fit)[1] ** 2
             if ever.status != "diverged" and not fit.log_evidence - ever.log_evidence > needed:
                 fit = ever
     return fit

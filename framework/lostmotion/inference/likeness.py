@@ -17,8 +17,6 @@ from lostmotion.inference.natural import sorted_slots, term_of, tried_of
 from lostmotion.inference.scout import MOST_SAMPLES, Track, shapes_of
 from lostmotion.likelihood.problem import Problem
 
-ALIKE, TOGETHER = 0.8, 0.9
-"""A law, or a sum of two, is told of when it makes up this share of the variance of the learned force."""
 MOST_SHAPES = 40
 KEPT = 6
 """So many laws that come closest alone are tried two by two."""
@@ -48,11 +46,11 @@ def likeness(problem: Problem, theta: Array, states: Array, force: Array) -> Lik
     ranked = sorted(alone, key=lambda key: -alone[key][0])[:KEPT]
     if not ranked:
         return None
-    if alone[ranked[0]][0] > ALIKE:
+    if alone[ranked[0]][0] > problem.settings.unknown.alike:
         return Likeness((ranked[0],), alone[ranked[0]][0])
     pairs = {(a, b): _share(np.hstack([alone[a][1], alone[b][1]]), aim) for a, b in itertools.combinations(ranked, 2)}
     best = max(pairs, key=lambda pair: pairs[pair], default=None)
-    return Likeness(best, pairs[best]) if best and pairs[best] > TOGETHER else None
+    return Likeness(best, pairs[best]) if best and pairs[best] > problem.settings.unknown.alike_two else None
 
 
 def _static(problem: Problem) -> list[str]:

@@ -14,13 +14,9 @@ from lostmotion.inference.odds import Ratio, likely
 from lostmotion.inference.shares import Covariate, Share, significant
 from lostmotion.likelihood.latent import Missing
 from lostmotion.likelihood.observation import Observation
+from lostmotion.settings import DEFAULT, Locate
 
 BINS = 25
-WORTH_SAYING = 0.05
-TIED = 3.0
-"""Covariates of which the log likelihood ratios are no further apart, a ratio of twenty, are not told apart."""
-SIGNED = 0.97
-"""What goes with the sign of the velocity to this share of what goes with the velocity is said to go with the sign."""
 
 
 @dataclass(frozen=True)
@@ -120,37 +116,39 @@ def summary(
     force: Array,
     found: Mapping[str, Share],
     odds: Mapping[str, Ratio] | None = None,
+    limits: Locate = DEFAULT.locate,
 ) -> str:
     """Return one sentence on where the force lives: of covariates only those that are beyond chance.
 
     Log likelihood ratios (`odds`) decide what is, and what comes first; without them the shares do.
     """
-    known = likely(odds) if odds else [name for name in significant(found) if found[name].value >= WORTH_SAYING]
+    level, least = limits.level, limits.told
+    known = likely(odds, level) if odds else [k for k in significant(found, level) if found[k].value >= least]
     if not known:
         asked = [name for name in ("position", "velocity", "phase", "time") if name in table]
         return f"no structure over {', '.join(asked[:-1])} or {asked[-1]} beyond chance"
-    tied = [k for k in known[1:] if odds and odds[known[0]].log - odds[k].log < TIED]
-    name = known[0] if odds else _signed(known[0], found)
+    tied = [k for k in known[1:] if odds and odds[known[0]].log - odds[k].log < limits.tied]
+    name = known[0] if odds else _signed(known[0], found, limits.signed)
     bent = name in table and name.startswith(("position", "velocity"))
     kind = parity(curve(table[name], force)) if bent else "neither"
     how = "a function of" if kind == "neither" else f"{kind} in"
-    others = [k for k in known if k != name and k not in tied and found[k].value >= WORTH_SAYING]
+    others = [k for k in known if k != name and k not in tied and found[k].value >= least]
     more = [_with_share(k, found) for k in others if odds or _apart(k, name)]
     also = f"; with it go {listed(more)}" if more else ""
     open_ = f"; it cannot be told from a function of {listed(tied)}" if tied else ""
     absent = [k for k in table if k not in known and k not in name]
     nothing = f"; nothing beyond chance goes with {' or '.join(absent)}" if absent else ""
-    return f"{how} {name}, {_sure(name, found, odds)}{open_}{also}{nothing}"
+    return f"{how} {name}, {_sure(name, found, odds, least)}{open_}{also}{nothing}"
 
 
-def _sure(name: str, found: Mapping[str, Share], odds: Mapping[str, Ratio] | None) -> str:
+def _sure(name: str, found: Mapping[str, Share], odds: Mapping[str, Ratio] | None, least: float) -> str:
     """Return how much of a force goes with a covariate, and how likely that is beside nothing."""
     share = found[name]
     explains = f"which explains {share.value:.0%} +- {share.error:.0%} of its variance"
     if not odds:
         return explains
-    if share.value < WORTH_SAYING:
-        explains = f"which explains less than {WORTH_SAYING:.0%} of the variance of the smoothed force"
+    if share.value < least:
+        explains = f"which explains less than {least:.0%} of the variance of the smoothed force"
     return f"{explains} (log likelihood ratio {odds[name].log:.0f})"
 
 
@@ -158,10 +156,10 @@ def _with_share(name: str, found: Mapping[str, Share]) -> str:
     return f"{name} ({found[name].value:.0%})"
 
 
-def _signed(name: str, found: Mapping[str, Share]) -> str:
+def _signed(name: str, found: Mapping[str, Share], as_much: float) -> str:
     """Return the sign of the velocity in place of the velocity where it explains as much."""
     sign = name.replace("velocity", "sign of velocity")
-    close = name.startswith("velocity") and sign in found and found[sign].value > SIGNED * found[name].value
+    close = name.startswith("velocity") and sign in found and found[sign].value > as_much * found[name].value
     return sign if close else name
 
 

@@ -22,10 +22,6 @@ from lostmotion.likelihood.levels import memory_frees
 from lostmotion.likelihood.problem import Problem
 from lostmotion.likelihood.space import FADE, NOISE, RANDOM, SLOW
 
-WORTH = math.log(20.0) + 3.0
-"""It is believed when it raises the log evidence by this: odds of twenty, and the price of two parameters."""
-GAIN = 8.0
-"""And the log-likelihood by this: where the noise is white the two are flat, and Laplace's method overrates them."""
 STARTS = (1.5, 5.0)
 NOTICED = 4.0
 """A random force that gains this much is reason enough to look for a memory."""
@@ -93,8 +89,9 @@ def believed(plain: Fit, hung: Fit | None) -> bool:
     """Return whether a memory of the noise is worth its two parameters."""
     if hung is None or hung.status == "diverged":
         return False
-    higher = hung.log_likelihood - plain.log_likelihood > GAIN
-    return higher and hung.log_evidence > plain.log_evidence + WORTH
+    limits = hung.problem.settings.select
+    higher = hung.log_likelihood - plain.log_likelihood > limits.noise_memory
+    return higher and hung.log_evidence > plain.log_evidence + limits.decisive + 2.0 * limits.further
 
 
 def _start(wider: Problem, fit: Fit, samples: float) -> np.ndarray:

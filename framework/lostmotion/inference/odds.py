@@ -36,9 +36,9 @@ from lostmotion.inference.learned import (
     spread,
 )
 from lostmotion.inference.setup import stepped
-from lostmotion.inference.shares import LEVEL
 from lostmotion.inference.stretches import spread_over
 from lostmotion.likelihood.problem import Problem
+from lostmotion.settings import DEFAULT
 
 LEAST = 1e-6
 """A smaller p-value is told as this one: no model of the noise is known that far out."""
@@ -177,10 +177,10 @@ def averaged(gains: Sequence[float]) -> float:
     return top + math.log(float(np.mean(np.exp(kept - top)))) if math.isfinite(top) else -math.inf
 
 
-def likely(odds: Mapping[str, Ratio]) -> list[str]:
-    """Return the covariates that are beyond chance at the level `LEVEL` over all of them, the likeliest first."""
+def likely(odds: Mapping[str, Ratio], level: float = DEFAULT.locate.level) -> list[str]:
+    """Return the covariates that are beyond chance at a level over all of them, the likeliest first."""
     p = p_values(odds)
-    return sorted((name for name in odds if p[name] <= LEVEL), key=lambda name: -odds[name].log)
+    return sorted((name for name in odds if p[name] <= level), key=lambda name: -odds[name].log)
 
 
 def p_values(odds: Mapping[str, Ratio]) -> dict[str, float]:

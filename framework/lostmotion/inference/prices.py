@@ -5,9 +5,7 @@ from __future__ import annotations
 import math
 
 from lostmotion.contracts import Term
-
-EXTRA = 1.5
-"""The log price of each parameter of a term beyond its first."""
+from lostmotion.settings import DEFAULT, Settings
 
 
 def related(one: Term, other: Term) -> bool:
@@ -15,11 +13,17 @@ def related(one: Term, other: Term) -> bool:
     return one.at == other.at and (other.name in one.resembles or one.name in other.resembles)
 
 
-def price_of(term: Term, many: int) -> float:
+def price_of(term: Term, many: int, settings: Settings = DEFAULT) -> float:
     """Return the log price of a term by the prior: one of `many`, a factor e, its further parameters and choices.
 
     What an engineer looks for last costs more (`Term.unlikely`).
     """
     choices = [len(q.choices) for q in term.params if q.choices]
     further = len(term.params) - len(choices) - 1
-    return math.log(max(many, 1)) + 1.0 + term.unlikely + EXTRA * further + sum(math.log(count) for count in choices)
+    return (
+        math.log(max(many, 1))
+        + 1.0
+        + term.unlikely
+        + settings.select.further * further
+        + sum(math.log(count) for count in choices)
+    )

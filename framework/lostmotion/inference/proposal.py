@@ -12,6 +12,7 @@ import numpy as np
 
 from lostmotion.contracts import Array
 from lostmotion.quantities import Dimension
+from lostmotion.settings import DEFAULT
 
 MOST = 3
 RIDGE = 0.02
@@ -20,7 +21,7 @@ TURNS = np.arange(1.0, 20.01, 0.1)
 """Spatial frequencies that are tried, in periods over the range of the curve."""
 MIDDLES = np.linspace(-0.9, 0.9, 73)
 WIDTHS = (0.06, 0.08, 0.1, 0.15, 0.25, 0.4)
-EXPLAINS, ENOUGH = 0.8, 0.98
+ENOUGH = 0.98
 """A formula tells so much of a curve at least; once it tells so much, nothing is added."""
 MORE = 6.0
 """A further piece has to better Akaike's criterion by this."""
@@ -52,10 +53,12 @@ class Formula:
     share: float
 
 
-def proposed(at: Array, mean: Array, covariance: Array, over: Axis) -> Formula | None:
+def proposed(
+    at: Array, mean: Array, covariance: Array, over: Axis, least: float = DEFAULT.unknown.formula
+) -> Formula | None:
     """Return a formula of three pieces at most for a curve (points,) with its covariance, or None.
 
-    Pieces are taken one by one, by Akaike's criterion. None when they tell less than `EXPLAINS` of the curve.
+    Pieces are taken one by one, by Akaike's criterion. None when they tell less than `least` of the curve.
     """
     jitter = RIDGE * float(np.mean(np.diag(covariance))) + 1e-12 * float(np.mean(mean**2)) + 1e-300
     root = np.linalg.cholesky(covariance + jitter * np.eye(len(at)))
@@ -81,7 +84,7 @@ def proposed(at: Array, mean: Array, covariance: Array, over: Axis) -> Formula |
         return None
     left, weights = _left(aim, white)
     share = 1.0 - left / float(aim @ aim)
-    if share < EXPLAINS:
+    if share < least:
         return None
     cuts = np.cumsum([0, *(p.columns.shape[1] for p in chosen)])
     parts = [p.text(weights[a:b]) for p, a, b in zip(chosen, cuts[:-1], cuts[1:], strict=True)]

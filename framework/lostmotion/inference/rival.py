@@ -37,8 +37,6 @@ LENGTHS = (0.15, 0.3, 0.6, 1.2)
 """Correlation lengths that are tried, in half widths of the range."""
 MOST_WAVES = 20
 """A smooth force has no more waves than this: shorter ones have no weight at these lengths."""
-KNOWN = 0.01
-"""The standard deviation of a known value, relative: drawings and data sheets are not more exact than this."""
 NUDGE, STEP = 3e-4, 1e-3
 """Finite-difference steps of a coefficient in units of the drive, and of the logarithm of a known value."""
 SHARES = (1.0, 0.5, 0.2, 0.0)
@@ -237,7 +235,8 @@ def expanded(fit: Fit) -> Expansion:
     gradient[own + len(frees) :] += [g.stretch for g in gauges]
     gradient[:own] = 0.0  # it is a maximum; what is left is noise of the differences, and grows where nothing is told
     information[np.arange(own), np.arange(own)] += [f.told for f in fit.problem.free]
-    widths = np.array([KNOWN] * len(known) + [0.0] * (len(frees) - len(known)) + [g.width for g in gauges])
+    exact = [problem.settings.rival.known] * len(known)
+    widths = np.array([*exact, *[0.0] * (len(frees) - len(known)), *(g.width for g in gauges)])
     return Expansion(
         fit, gradient, information, own, tuple(groups), tuple(gauges), widths, _memory(joint, own, information)
     )
@@ -387,8 +386,8 @@ def _known(problem: Problem) -> list[Free]:
     for param in problem.system.model.params:
         value = float(problem.known[problem.system.index[param.name]])
         if param.name not in estimated and 0.0 < value < math.inf:
-            at = math.log(value)
-            found.append(Free(param.name, "", at, at - 1.0, at + 1.0, log=True, mean=at, sd=KNOWN))
+            at, sd = math.log(value), problem.settings.rival.known
+            found.append(Free(param.name, "", at, at - 1.0, at + 1.0, log=True, mean=at, sd=sd))
     return found
 
 

@@ -26,31 +26,22 @@ from lostmotion.inference.late import believed, price_of_onsets
 from lostmotion.inference.leftovers import quiet
 from lostmotion.inference.natural import term_of
 from lostmotion.inference.prices import price_of, related
-from lostmotion.inference.standing import CERTAIN, standing
+from lostmotion.inference.standing import standing
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.problem import RANDOM
 
-PROMISING = 3.0
-"""A term is fitted when its score test promises at least this gain in log-likelihood."""
 MOST_FITTED, MOST_LATE = 6, 2
 """Terms fitted that act from the beginning, and that begin later: where a motion changes, many promise much then."""
-MOST_TERMS = 5
 CONTESTED = 4
 """So many of the heaviest sets are held against the discrepancy in each round: each costs a hundred filter runs."""
 FAR = 300.0
 """Sets that are so far behind the heaviest in log weight are not held against it: they may come back as it grows."""
 MOST_VISITS = 80  # a search ends after so many sets of terms, whatever is left
 NEARLY = 2.5
-DECISIVE = math.log(20.0)
-"""A term is taken when it makes the posterior odds of the model twenty times better."""
-REMEMBERS = 2.0
-WORTH, RICH = 0.2, 4
+RICH = 4
 SAME = 1e-4
 """Below this share of its own information a term cannot be told from parameters that are estimated anyway."""
 
-OUTSHONE = 0.1
-"""A search ends where its terms have each won less than this share of what one learned curve wins, in log evidence:
-at that pace the most terms that are taken would reach half of it."""
 
 Progress = Callable[[str], None]
 Promise = Callable[[Fit], float]
@@ -70,6 +61,7 @@ class Selector:
     ) -> None:
         self.candidates = tuple(candidates)
         self.say, self.shapes, self.jobs, self.promise = say, shapes or {}, nominal.problem.jobs, promise
+        self.limits = nominal.problem.settings.select
         self.course = Selection(nominal, nominal)
         self._settled: set[frozenset[str]] = set()
         self._been: set[frozenset[str]] = set()
@@ -112,7 +104,7 @@ class Selector:
 
     def _finished(self, step: Callable[[], bool]) -> Selection:
         """Return the selection after as many steps forward as lead on, and then backward."""
-        while len(self.course.chosen.problem.active) < MOST_TERMS and step():
+        while len(self.course.chosen.problem.active) < self.limits.most_terms and step():
             pass
         self._shrink()
         tested = {self.course.chosen.problem.active}
@@ -152,7 +144,7 @@ class Selector:
         if self.promise is None or quiet(here.fit):
             return False
         won = here.weight - self.course.visits[frozenset()].weight
-        if not won < OUTSHONE * len(here.terms) * self.promise(self.course.nominal):
+        if not won < self.limits.outshone * len(here.terms) * self.promise(self.course.nominal):
             return False
         self.say("a learned curve explains far more than the terms that were found")
         return True
@@ -164,7 +156,7 @@ class Selector:
             self._retold.add(fit.problem.active)
             fit = told
         terms = fit.problem.active
-        price = sum(price_of(term_of(fit.problem, key)[0], len(self.candidates)) for key in terms)
+        price = sum(price_of(term_of(fit.problem, key)[0], len(self.candidates), fit.problem.settings) for key in terms)
         price += price_of_onsets(fit.problem)
         visit = Visit(terms, fit, fit.log_evidence - price)
         known = self.course.visits.get(terms)
@@ -200,12 +192,14 @@ class Selector:
         good += [v for v in same if v not in good]
         if good:
             self.course.check(here)
-        needs = {v.terms: DECISIVE if v.terms > here.terms or not self._decided(v, here) else 0.0 for v in good}
+        needs = {
+            v.terms: self.limits.decisive if v.terms > here.terms or not self._decided(v, here) else 0.0 for v in good
+        }
         for visit in good:
             self.course.contest(visit, here, needs[visit.terms])
         leads = {v.terms: self.course.lead(v, here) for v in good}
         self.course.unbeaten = set()
-        near = [v for v in good if leads[v.terms] > max(leads.values()) - DECISIVE]
+        near = [v for v in good if leads[v.terms] > max(leads.values()) - self.limits.decisive]
         behind = [v for v in good if v not in near]
         for visit in [*sorted(near, key=lambda v: -v.weight), *sorted(behind, key=lambda v: -leads[v.terms])]:
             if not leads[visit.terms] > needs[visit.terms]:
@@ -219,10 +213,9 @@ class Selector:
             self.course.declined.update(visit.terms - here.terms)
         return False
 
-    @staticmethod
-    def _decided(visit: Visit, here: Visit) -> bool:
+    def _decided(self, visit: Visit, here: Visit) -> bool:
         """Return whether a set has decisively more weight than the chosen one, by the evidence alone."""
-        return visit.weight > here.weight + (DECISIVE if visit.terms > here.terms else 0.0)
+        return visit.weight > here.weight + (self.limits.decisive if visit.terms > here.terms else 0.0)
 
     def _nearly(self, here: Visit) -> list[Visit]:
         """Return the best sets of one more term, where none is decisive but some are not far from it.
@@ -230,7 +223,7 @@ class Selector:
         Two small effects may be decisive together where neither is alone.
         """
         more = [v for v in self.course.visits.values() if v.terms > here.terms]
-        if any(v.weight > here.weight + DECISIVE for v in more):
+        if any(v.weight > here.weight + self.limits.decisive for v in more):
             return []
         good = [v for v in more if v.fit.log_evidence > here.fit.log_evidence + NEARLY]
         return sorted(good, key=lambda v: -v.weight)[: BEAM - 1]
@@ -258,15 +251,16 @@ class Selector:
         """Return whether a better set may be believed where something with a memory is left over.
 
         Then samples are not independent, and a term that resembles the leftovers always gains. So an amplitude has to
-        stand out of its robust deviation; where that is more than `REMEMBERS` times the usual, the set has to take a
-        share of at least `WORTH` off the random force.
+        stand out of its robust deviation; where that is more than some times the usual, the set has to take a
+        share off the random force.
         """
         both = visit.terms, here.terms
         if both not in self._sure:
             self._sure[both] = standing(visit.fit, here.fit if visit.terms > here.terms else None)
         least, memory = self._sure[both]
         levels = [v.fit.theta[v.fit.problem.keys.index(RANDOM)] for v in (visit, here)]
-        return least > CERTAIN and (memory < REMEMBERS or levels[0] < levels[1] + math.log(1.0 - WORTH))
+        calm = memory < self.limits.memory or levels[0] < levels[1] + math.log(1.0 - self.limits.share)
+        return least > self.limits.certain and calm
 
     def _beam(self, here: Visit) -> list[Visit]:
         """Return the sets to build on: the chosen one, and others of its size that explain at least half as much.
@@ -293,7 +287,7 @@ class Selector:
         for rich in (False, True):
             keys = [key for key in untried if self._rich(fit, key) == rich]
             if rich:
-                promising = [h.key for h in hints if h.gain > PROMISING]
+                promising = [h.key for h in hints if h.gain > self.limits.promising]
                 keys = [key for key in keys if any(self._related(fit, key, other) for other in promising)]
             if keys:
                 self.say(f"score tests of {', '.join(keys)}")
@@ -306,7 +300,7 @@ class Selector:
     def _additions(self, fit: Fit) -> None:
         """Fit the terms whose score tests promise most on top of a fit, those first that promise most."""
         hints, single = self._screened(fit), alone(fit)
-        good = sorted((h for h in hints if h.gain > PROMISING and h.distinct > SAME), key=lambda h: -h.gain)
+        good = sorted((h for h in hints if h.gain > self.limits.promising and h.distinct > SAME), key=lambda h: -h.gain)
         good = [h for h in good if not h.late][:MOST_FITTED] + [h for h in good if h.late][:MOST_LATE]
         for size in sorted({len(h.start) for h in good}):
             group = [h for h in good if len(h.start) == size]
@@ -365,7 +359,7 @@ class Selector:
                     continue
                 self.say(f"{other} in place of {key}")
                 hint = screen(without, slopes, other)
-                if hint.gain > PROMISING and hint.distinct > SAME:
+                if hint.gain > self.limits.promising and hint.distinct > SAME:
                     self._visit(fit_with(without, hint, hopeless=self._hopeless()))
 
     def _shrink(self) -> None:
@@ -382,9 +376,9 @@ class Selector:
             self.say(f"without {key}")
             visit = self.course.visits.get(terms) or self._visit(maximise(chosen.problem.reduced(key, chosen.values)))
             self.course.check(visit)
-            self.course.contest(here, visit, DECISIVE)
-            told = here.weight > visit.weight + DECISIVE
-            if not told or not self.course.lead(here, visit) > DECISIVE:
+            self.course.contest(here, visit, self.limits.decisive)
+            told = here.weight > visit.weight + self.limits.decisive
+            if not told or not self.course.lead(here, visit) > self.limits.decisive:
                 self.course.unbeaten |= {key} if told else set()
                 self.course.chosen = visit.fit
                 return True

@@ -24,11 +24,10 @@ from lostmotion.likelihood.space import LEVELS, NOISE, OFFSET, RANDOM, Free, key
 from lostmotion.likelihood.system import Slot, System
 from lostmotion.quantities import quantity_of, unit_of
 from lostmotion.recording.checks import filled
+from lostmotion.settings import DEFAULT, Settings
 
-HELD_OUT = 0.3
-BLOCKS, ALIVE, DIED = 60, 4.0, 1.0 - HELD_OUT
-"""Parts of a recording that are looked at for its motion; noises by which that stands out where there is one; the share
-of the recording by which a motion must be over to count as one that died away."""
+BLOCKS, ALIVE = 60, 4.0
+"""Parts of a recording that are looked at for its motion; noises by which that stands out where there is one."""
 SHARED = Sensor("shared")
 """A sensor of which nothing is to be split by recording."""
 BEGINNING, FEWEST = 3000, 400
@@ -50,19 +49,21 @@ COARSE, FINE = 0.06, 0.015
 """Final estimates take steps a quarter as long as those of the search: a kink makes RK4 first order."""
 
 
-def split(observations: Sequence[Observation]) -> tuple[tuple[Observation, ...], tuple[Observation, ...]]:
-    """Return what is fitted and what is held out: the last 30 % of one recording, or the last 30 % of several.
+def split(
+    observations: Sequence[Observation], share: float = DEFAULT.heldout.share
+) -> tuple[tuple[Observation, ...], tuple[Observation, ...]]:
+    """Return what is fitted and what is held out: the last `share` of one recording, or of several.
 
-    Of a motion that dies away, the last 30 % of what stands out of the noise begin what is held out.
+    Of a motion that dies away, that share of what stands out of the noise begin what is held out.
     """
     if len(observations) == 1:
-        cut = round((1.0 - HELD_OUT) * lasting(observations[0]))
+        cut = round((1.0 - share) * lasting(observations[0], share))
         return (observations[0].part(0, cut),), (observations[0].part(cut, observations[0].samples),)
-    kept = max(1, len(observations) - max(1, round(HELD_OUT * len(observations))))
+    kept = max(1, len(observations) - max(1, round(share * len(observations))))
     return tuple(observations[:kept]), tuple(observations[kept:])
 
 
-def lasting(observation: Observation) -> int:
+def lasting(observation: Observation, share: float = DEFAULT.heldout.share) -> int:
     """Return how many samples of a recording there are until its motion has died away, or all of them.
 
     A block of readings lives where its deviation is more than `ALIVE` times the noise, and the motion has died where
@@ -72,7 +73,7 @@ def lasting(observation: Observation) -> int:
     blocks = np.array_split(filled(observation.readings[:, sensor]), BLOCKS)
     alive = np.array([float(np.std(block)) for block in blocks]) > ALIVE * observation.noises[sensor]
     last = int(np.flatnonzero(alive)[-1]) + 1 if alive.any() else BLOCKS
-    if last > DIED * BLOCKS:
+    if last > (1.0 - share) * BLOCKS:
         return observation.samples
     return sum(len(block) for block in blocks[:last])
 
@@ -200,13 +201,20 @@ def _check_bounds(system: System, name: str, low: float, high: float) -> None:
         raise CaseError(f"{name} ({param.meaning}) is {found}, wanted {wanted}: correct it in the case")
 
 
-def problem_of(system: System, case: CaseFile, observations: tuple[Observation, ...], *, jobs: int = 2) -> Problem:
+def problem_of(
+    system: System,
+    case: CaseFile,
+    observations: tuple[Observation, ...],
+    *,
+    jobs: int = 2,
+    settings: Settings = DEFAULT,
+) -> Problem:
     """Return the problem of a case on the given recordings, with no term active, noise levels shared."""
     known = known_of(system, case)
     scales = scales_of(system, observations, known)
     names = [observation.name for observation in observations]
     frees = [f for name, prior in case.estimate.items() for f in frees_for(system.slot(name), prior, names)]
-    problem = Problem(system, observations, scales, known, tuple(frees), jobs=jobs)
+    problem = Problem(system, observations, scales, known, tuple(frees), jobs=jobs, settings=settings)
     scales = replace(scales, usual=usual_of(problem, rate_of(problem, problem.start)))
     problem = replace(problem, scales=scales, free=(*frees, *noise_frees(observations, scales)))
     return stepped(problem, problem.start)

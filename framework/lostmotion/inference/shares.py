@@ -23,6 +23,7 @@ from scipy import sparse
 from scipy.ndimage import median_filter
 
 from lostmotion.contracts import Array
+from lostmotion.settings import DEFAULT
 
 FOLDS = 5
 BLOCKS = 20
@@ -33,8 +34,6 @@ PIECES = (6, 12, 24, 48)
 """A smooth fit has so many pieces; the number that predicts best is taken, for surrogates as well."""
 RIDGE = 1.0
 WINDOW = 31
-LEVEL = 0.05
-"""The chance that any covariate of a force of pure noise is called significant."""
 
 Basis = Any
 """Functions (samples, functions) as a sparse matrix: most of them are zero at any sample."""
@@ -109,9 +108,9 @@ def adjusted(values: Array) -> tuple[Array, Array]:
     return excess[:, 0], p
 
 
-def significant(found: Mapping[str, Share]) -> list[str]:
+def significant(found: Mapping[str, Share], level: float = DEFAULT.locate.level) -> list[str]:
     """Return the covariates whose shares noise would not reach, largest first; p is adjusted for all of them."""
-    names = [name for name, share in found.items() if share.p <= LEVEL and share.value > 0.0]
+    names = [name for name, share in found.items() if share.p <= level and share.value > 0.0]
     return sorted(names, key=lambda name: -found[name].value)
 
 

@@ -28,11 +28,9 @@ from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import Problem
 from lostmotion.likelihood.space import LEVELS, Free, keys_of
 from lostmotion.results import Interval
+from lostmotion.settings import DEFAULT
+from lostmotion.settings import Shared as SharedLimits
 
-LEVEL = 0.01
-"""With p-values below this, values differ: one diagnosis in a hundred doubts something that all recordings share."""
-ALIKE = 0.01
-"""Values that scatter by this share hold as one: temperature and lubrication alone change real machines by as much."""
 ROUNDS = 8
 RAISED = 3.0
 """By how much the log random force is raised where a fit without a curve begins."""
@@ -95,11 +93,12 @@ class Shared:
     odd: int | None = None
     instead: tuple[str, ...] = ()
     given: bool = False
+    level: float = DEFAULT.shared.level
 
     @property
     def holds(self) -> bool:
         """Whether one value holds in all recordings."""
-        return self.p > LEVEL
+        return self.p > self.level
 
     @property
     def told(self) -> bool:
@@ -166,7 +165,7 @@ def _course(shared: Fit) -> tuple[Sharing, float]:
     for turn in range(MOST_OWN + 1):
         rest = [key for key in tested if key not in found]
         apart = {one.key: one for one in _each_apart(base, rest)}
-        tests = _tests(apart, levels)
+        tests = _tests(apart, levels, base.problem.settings.shared)
         own = _best(apart, tests)
         if turn == MOST_OWN or own is None:
             found |= tests
@@ -323,17 +322,19 @@ def odd_one(values: Array, covariance: Array) -> int | None:
     return good[0] if len(good) == 1 else None
 
 
-def _tests(apart: Mapping[str, Apart], levels: Levels) -> dict[str, Shared]:
+def _tests(apart: Mapping[str, Apart], levels: Levels, limits: SharedLimits) -> dict[str, Shared]:
     """Return the test of each parameter, with p-values corrected for the number of them."""
-    loose = {key: one.covariance + _tolerance(one, ALIKE) for key, one in apart.items()}
+    loose = {key: one.covariance + _tolerance(one, limits.alike) for key, one in apart.items()}
     chi2 = {key: homogeneity(one.at, loose[key]) for key, one in apart.items()}
     p = holm([float(chdtrc(len(apart[key].at) - 1, max(value, 0.0))) for key, value in chi2.items()])
     gains = {key: one.fit.log_likelihood for key, one in apart.items()}
     found = {}
     for (key, one), chance in zip(apart.items(), p, strict=True):
-        shared = Shared(key, _values(one), _common(one), chi2[key], len(one.at) - 1, chance, given=one.given)
+        shared = Shared(
+            key, _values(one), _common(one), chi2[key], len(one.at) - 1, chance, given=one.given, level=limits.level
+        )
         if not shared.holds:
-            rivals = [k for k, q in zip(apart, p, strict=True) if k != key and q <= LEVEL]
+            rivals = [k for k, q in zip(apart, p, strict=True) if k != key and q <= limits.level]
             near = tuple(k for k in rivals if gains[k] > gains[key] - NEAR)
             power = _power(one, one.covariance + _tolerance(one, VAGUE), levels)
             odd = odd_one(one.at, loose[key]) if power is None else None

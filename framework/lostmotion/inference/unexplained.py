@@ -16,15 +16,12 @@ from lostmotion.inference.learned import Learned
 from lostmotion.inference.leftovers import significant_random_force
 from lostmotion.inference.natural import term_of
 from lostmotion.inference.prices import price_of
-from lostmotion.inference.selection import DECISIVE, WORTH
 from lostmotion.inference.surfaces import RICHER
 from lostmotion.likelihood.problem import RANDOM, Problem
 
 MOST_CURVES = 2
-KEPT = 0.2
 MOST_SAMPLES = 8000
 """Curves are sought on so many samples, and then fitted to all."""
-HOPE = 0.3
 FITTED, RIVAL = 2, 0.7
 """So many curves are fitted on top of each set, those that promise this share of what the best one does: a score test
 ranks covariates that go together only roughly."""
@@ -78,7 +75,7 @@ class Search:
         term, _ = term_of(problem, key)
         if isinstance(term, Learned):
             return math.log(max(self.many, 1)) + 1.0 + CHOICES
-        return price_of(term, self.many)
+        return price_of(term, self.many, problem.settings)
 
     def learn(self, fit: Fit, count: int = FITTED, *, richer: bool = False) -> None:
         """Fit the curves that promise most on top of a fit, if they promise to be decisive, and to reach the best set.
@@ -97,7 +94,9 @@ class Search:
                 self.say(f"score test of {key}")
                 shapes.append(shape_of(fit, slopes, key))
         short = max(weight for _, weight in self.visits.values()) - self.visits[fit.problem.active][1]
-        needed = max(math.log(self.many) + 1.0 + CHOICES + DECISIVE, HOPE * short)
+        settings = fit.problem.settings
+        price = math.log(self.many) + 1.0 + CHOICES + settings.select.decisive
+        needed = max(price, settings.unknown.hope * short)
         shapes = sorted((s for s in shapes if s.gain > needed), key=lambda s: -s.gain)
         for shape in [s for s in shapes[:count] if s.gain > RIVAL * shapes[0].gain]:
             self.say(f"fit with {shape.key}")
@@ -114,7 +113,7 @@ class Search:
         for key in sorted(fit.problem.active - set(curves)):
             self.say(f"learned curves without {key}")
             less = maximise(fit.problem.reduced(key, fit.values), rounds=2 * ROUNDS, tolerance=0.3)
-            if self.visit(less) > self.visits[fit.problem.active][1] - DECISIVE:
+            if self.visit(less) > self.visits[fit.problem.active][1] - fit.problem.settings.select.decisive:
                 fit = less
         return fit
 
@@ -177,7 +176,7 @@ class Curves:
                 break
             best = further
         gain = search.visits[best.problem.active][1] - bar
-        if gain < DECISIVE or not _worth(best, after) or _takes_over(best, after):
+        if gain < best.problem.settings.select.decisive or not _worth(best, after) or _takes_over(best, after):
             return None
         alone = bool(chosen.problem.active) and best.problem.active == frozenset(_curves(best.problem))
         if chosen.problem.samples > best.problem.samples:
@@ -194,7 +193,7 @@ def fewer(unknown: Unknown, key: str) -> Unknown | None:
         return None
     fit = maximise(unknown.fit.problem.reduced(key, unknown.fit.values), rounds=ROUNDS, tolerance=0.3)
     gain = unknown.gain + fit.log_evidence - unknown.fit.log_evidence
-    return replace(unknown, fit=fit, keys=keys, gain=gain) if gain > DECISIVE else None
+    return replace(unknown, fit=fit, keys=keys, gain=gain) if gain > fit.problem.settings.select.decisive else None
 
 
 def _shortened(fit: Fit) -> Fit:
@@ -219,22 +218,28 @@ def _best(search: Search, beyond: frozenset[str] = frozenset()) -> Fit | None:
     One with a curve more has to be decisively better than the one without.
     """
     fits = [(f, w) for active, (f, w) in search.visits.items() if active >= beyond and _curves(f.problem)]
-    return max(fits, key=lambda pair: pair[1] - DECISIVE * len(_curves(pair[0].problem)))[0] if fits else None
+    return max(fits, key=_less_curves)[0] if fits else None
+
+
+def _less_curves(pair: tuple[Fit, float]) -> float:
+    fit, weight = pair
+    return weight - fit.problem.settings.select.decisive * len(_curves(fit.problem))
 
 
 def _takes_over(fit: Fit, without: Fit) -> bool:
-    """Return whether curves change the size of a named law by more than `KEPT`: then they are its shape, and no more.
+    """Return whether curves change the size of a named law by much: then they are its shape, and no more.
 
     A curve over velocity can be a part of dry friction; where the law is named, its size is to be that of the law.
     """
     old, new = without.values, fit.values
     sizes = [key for key in old if "." in key and key in new and abs(old[key]) > 0.0]
     amplitudes = [key for key in sizes if not next(f for f in without.problem.free if f.key == key).log]
-    return any(abs(new[key] - old[key]) > KEPT * abs(old[key]) for key in amplitudes)
+    kept = fit.problem.settings.unknown.kept
+    return any(abs(new[key] - old[key]) > kept * abs(old[key]) for key in amplitudes)
 
 
 def _worth(fit: Fit, without: Fit) -> bool:
-    """Return whether curves take a share of at least `WORTH` off a random force that was beyond the usual."""
+    """Return whether curves take enough off a random force that was beyond the usual."""
     at, then = (f.theta[f.problem.keys.index(RANDOM)] for f in (fit, without))
     cap = without.problem.free[without.problem.keys.index(RANDOM)].mean + 2.0 * math.log(3.0)
-    return bool(then <= cap or at < then + math.log(1.0 - WORTH))
+    return bool(then <= cap or at < then + math.log(1.0 - fit.problem.settings.select.share))

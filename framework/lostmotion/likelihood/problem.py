@@ -36,6 +36,7 @@ from lostmotion.likelihood.space import (
     Scales,
 )  # fmt: skip
 from lostmotion.likelihood.system import System
+from lostmotion.settings import DEFAULT, Settings
 
 __all__ = [
     "LEVELS", "NOISE", "OFFSET", "PACE", "RANDOM", "USUAL", "Free", "Innovations", "Problem", "Scales",
@@ -68,6 +69,7 @@ class Problem:
     nsub: int = 3
     jobs: int = 2
     engine: Engine = field(default_factory=Lanes)
+    settings: Settings = DEFAULT
 
     def __post_init__(self) -> None:
         """Set the inputs to zero that a recording lacks."""

@@ -24,6 +24,7 @@ from lostmotion.notebook.posterior import IdentificationResult, load_identificat
 from lostmotion.recording import Recording
 from lostmotion.recording.checks import filled
 from lostmotion.registry import Registry, default
+from lostmotion.settings import Settings, read
 from lostmotion.workflow import simulate as _simulate
 
 if TYPE_CHECKING:
@@ -49,12 +50,14 @@ def diagnose(
     progress: bool = True,
     out: str | Path | None = None,
     registry: Registry | None = None,
+    settings: Settings | Mapping[str, float] | None = None,
 ) -> DiagnosisResult:
     """Return what the model of a case leaves out, as an object that shows itself in words.
 
     `case` is a `Case`, the path of a `case.toml`, or a `Recording` with a `model` beside it: then `known` and
     `estimate` hold values and priors, and what neither names has a wide prior about the natural sizes of the
     recording. `terms` is "all", or the names of those that are to be tried. The same `seed` gives the same answer.
+    `settings` changes thresholds that decide, such as `{"select.decisive": 4.0}` (`lostmotion.settings` lists them).
     Raises `CaseError` or `DataError` where the case cannot be used, with the sentence of the command line.
     """
     from lostmotion.workflow.diagnose import told_of
@@ -62,7 +65,9 @@ def diagnose(
     known_to = registry or default()
     asked = case_from(case, model, known, estimate, known_to)
     with shown("diagnose", progress) as say:
-        told = told_of(asked.prepared(known_to, terms), known_to, seed=seed, jobs=jobs, say=say)
+        told = told_of(
+            asked.prepared(known_to, terms), known_to, seed=seed, jobs=jobs, say=say, settings=read(settings)
+        )
     found = DiagnosisResult(told.content, told.arrays, known_to, told)
     if out is not None:
         found.save(out)
@@ -87,19 +92,23 @@ def identify(
     ess: float = 1000.0,
     max_steps: int = 2000,
     walkers: int | None = None,
+    settings: Settings | Mapping[str, float] | None = None,
 ) -> IdentificationResult:
     """Return the posterior of the parameters of a case, with the `terms` added to its model.
 
     `case` is as for `diagnose`. It is sampled until the effective sample size is `ess`, at most `max_steps` of each of
     the `walkers`. `out` is a folder for the results, in which an interrupted chain is continued unless a `fresh` one is
     wanted. `route` is "trajectory" or "quantifiers", which needs the path of a case, and may be given `maps`.
+    `settings` are as for `diagnose`.
     """
     from lostmotion.stages.identify import Plan
     from lostmotion.workflow.identify import Order, identified, inference_of, route_of
     from lostmotion.workflow.prepare import case_of
 
     known_to = registry or default()
-    order = Order(_texts(terms), seed, jobs, Plan(ess, max_steps, walkers), route, tuple(Path(m) for m in maps), fresh)
+    limits = read(settings)
+    plan = Plan(ess, max_steps, walkers, limits.chain)
+    order = Order(_texts(terms), seed, jobs, plan, route, tuple(Path(m) for m in maps), fresh, limits)
     with shown("identify", progress) as say, TemporaryDirectory() as spare:
         place = Path(out) if out is not None else Path(spare)
         file = case_of(Path(case), known_to) if isinstance(case, str | Path) else None
@@ -134,13 +143,15 @@ def analyse(
     unit: str = "1/s",
     seed: int = 0,
     jobs: int = 2,
+    settings: Settings | Mapping[str, float] | None = None,
 ) -> AnalysisResult:
     """Return what kind of motion a recording shows: chaos or noise, exponents, dimensions and surrogate tests.
 
     `channel` names a sensor of a `Recording`; of a file `columns` does, and `rate` (Hz) where it has no time. One
     sample in `every` is kept. `period` (s) is that of the drive, where it is known. Plugins are named: `embedder`,
     `denoiser` ("none" for none, None where the noise decides), further `quantifiers`, and `surrogates` with the number
-    of their `draws`. `unit` is that of exponents: "1/s", "bit/s", "1/period" or "bit/period".
+    of their `draws`. `unit` is that of exponents: "1/s", "bit/s", "1/period" or "bit/period". `settings` are as
+    for `diagnose`.
     """
     from lostmotion.workflow.analyse import Request, told_of
     from lostmotion.workflow.source import Wanted, source_in, source_of
@@ -158,6 +169,7 @@ def analyse(
         unit=unit,
         seed=seed,
         jobs=jobs,
+        settings=read(settings),
     )
     known_to = registry or default()
     if isinstance(recording, Recording):

@@ -11,15 +11,9 @@ from typing import Any
 import numpy as np
 
 from lostmotion.contracts import Array
+from lostmotion.settings import DEFAULT, Chain
 
 GROUPS = 4
-LONG = 50.0
-"""A chain is long enough at this many autocorrelation times, of a step at least: shorter ones do not know their own."""
-STEADY = 0.02
-"""The longest autocorrelation time has settled when it grows by less than this share from one check to the next: in a
-chain that is too short it comes out too short, and grows with the chain."""
-AGREED = 1.01
-"""Largest R-hat that is believed: Vehtari et al., Bayesian Analysis 16 (2021) 667-718."""
 
 
 @dataclass(frozen=True)
@@ -37,15 +31,17 @@ class Quality:
         """The longest autocorrelation time in steps."""
         return float(np.max(self.tau))
 
-    def lacks(self, ess: float, before: float) -> tuple[str, ...]:
+    def lacks(self, ess: float, before: float, limits: Chain = DEFAULT.chain) -> tuple[str, ...]:
         """Return what keeps the chain from being believed; `before` is the longest time at the last check."""
+        slowest = max(self.slowest, 1.0)
         checks = {  # written so that what is not a number fails too
-            f"{self.steps} steps are less than {LONG:g} autocorrelation times of {max(self.slowest, 1.0):.3g}": not (
-                self.steps >= LONG * max(self.slowest, 1.0)
+            f"{self.steps} steps are less than {limits.long:g} autocorrelation times of {slowest:.3g}": not (
+                self.steps >= limits.long * slowest
             ),
-            "the autocorrelation time still grows": not self.slowest - before < STEADY * self.slowest,
+            "the autocorrelation time still grows": not self.slowest - before < limits.steady * self.slowest,
             f"the effective sample size is {self.ess.min():.0f}, and {ess:g} is wanted": not self.ess.min() >= ess,
-            f"R-hat is {self.rhat.max():.3f}, and {AGREED:g} at most is wanted": not self.rhat.max() <= AGREED,
+            f"R-hat is {self.rhat.max():.3f}, and {limits.agreed:g} at most is wanted": not self.rhat.max()
+            <= limits.agreed,
         }
         return tuple(words for words, failed in checks.items() if failed)
 

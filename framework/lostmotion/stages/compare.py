@@ -25,21 +25,15 @@ from lostmotion.likelihood.predict import (
     observed,
 )
 from lostmotion.likelihood.problem import Problem
+from lostmotion.settings import DEFAULT, HeldOut
 
 STARTS = 150
 REACH = 8.0
 """Error growth is followed over this many Lyapunov times or periods."""
 SEGMENT = 3.0
-RISE = 0.01
-"""A held-out error that rises by a smaller share than this has not changed."""
 
-FALL, MUCH = 0.01, 0.5
-"""A log score that falls by more than this per sample speaks against a model, unless its free runs err by less than
-this share of before."""
 PARTS = 10
 """Free runs are held against those of another model over so many successive parts of what was held out."""
-CHANCE = 0.05
-"""The chance of calling a model better that is not (two-sided test of Student)."""
 
 
 @dataclass(frozen=True)
@@ -159,14 +153,14 @@ def _nrmse(runs: FreeRuns, horizon: Horizon, scale: float) -> float:
     return float(np.sqrt(np.nanmean(runs.error[:, : horizon.steps + 1] ** 2)) / scale)
 
 
-def worsened(before: Prediction, after: Prediction) -> bool:
+def worsened(before: Prediction, after: Prediction, limits: HeldOut = DEFAULT.heldout) -> bool:
     """Return whether held-out data speak against a model: free runs err more after than before, or it scores less.
 
-    A rise of the error by less than `RISE` of it is none. The log score of one-step predictions may not fall by its
-    standard error, from the scatter over blocks of time, and not by `FALL` either unless the error of free runs falls
-    to `MUCH` of what it was: a few large one-step errors make the scatter wide.
+    A small rise of the error is none (`HeldOut.rise`). The log score of one-step predictions may not fall by its
+    standard error, from the scatter over blocks of time, and not by `HeldOut.fall` either unless the error of free
+    runs falls to a small share of what it was: a few large one-step errors make the scatter wide.
     """
-    if after.nrmse > (1.0 + RISE) * before.nrmse or not math.isfinite(after.nrmse):
+    if after.nrmse > (1.0 + limits.rise) * before.nrmse or not math.isfinite(after.nrmse):
         return True
     more = after.scores - before.scores
     if len(more) < 2:
@@ -174,7 +168,7 @@ def worsened(before: Prediction, after: Prediction) -> bool:
     fall = -float(np.mean(more))
     if fall > float(np.std(more, ddof=1)) / math.sqrt(len(more)):
         return True
-    return fall > FALL and after.nrmse > MUCH * before.nrmse
+    return fall > limits.fall and after.nrmse > limits.less * before.nrmse
 
 
 def run_errors(fit: Fit, pieces: Sequence[Piece], horizon: Horizon) -> Array:
@@ -193,7 +187,7 @@ def run_errors(fit: Fit, pieces: Sequence[Piece], horizon: Horizon) -> Array:
     return np.array([math.sqrt(float(np.mean(part))) for part in np.array_split(joint, PARTS) if len(part)])
 
 
-def confirmed(errors: Array, without: Array, chance: float = CHANCE) -> bool:
+def confirmed(errors: Array, without: Array, chance: float = DEFAULT.heldout.chance) -> bool:
     """Return whether `errors` (PARTS,) of one model are smaller than those of another by more than `chance`.
 
     The paired test of Student on their logarithms, so that parts with little motion count as much as others.

@@ -8,9 +8,9 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from lostmotion.case import CaseFile
-from lostmotion.contracts import Array, Interface, Model, SensorTerm, Term, Values, place_of
+from lostmotion.contracts import Array, Interface, Model, SensorTerm, Values, place_of
 from lostmotion.errors import DataError
-from lostmotion.inference.course import RICH, Selection, Visit
+from lostmotion.inference.course import Selection, Visit
 from lostmotion.inference.fit import Fit, maximise
 from lostmotion.inference.learned import Learned, OverTime
 from lostmotion.inference.leftovers import significant_random_force
@@ -20,7 +20,7 @@ from lostmotion.inference.odds import Ratio, likely, log_odds
 from lostmotion.inference.prices import price_of
 from lostmotion.inference.scout import scouted
 from lostmotion.inference.selection import Selector
-from lostmotion.inference.setup import HELD_OUT, polish, problem_of, search, split, stepped
+from lostmotion.inference.setup import polish, problem_of, search, split, stepped
 from lostmotion.inference.shares import Covariate, Share, shares_of, significant
 from lostmotion.inference.stretches import sought
 from lostmotion.inference.unexplained import Curves, Unknown, fewer
@@ -31,16 +31,10 @@ from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import Problem
 from lostmotion.likelihood.space import LEVELS
 from lostmotion.likelihood.system import System
+from lostmotion.settings import DEFAULT, Locate, Settings
 
-SIGNIFICANT = 8.0
-"""A random force beyond the usual noise of the drive counts when it gains this much log-likelihood."""
-STRUCTURED = 0.1
 MANY = 2
 """So many terms together may stand in for one curve: then curves are tried although nothing is left over."""
-MARKED = 0.05
-"""What marks in the stored values bring with them counts from this share of the noise variance on."""
-RISES = 1.02
-"""A missing force that rises by more than this factor is not explained by what was found."""
 LARGEST = 1e100
 """A missing force beyond this means that the filter ran away: its square could not be taken."""
 
@@ -63,6 +57,7 @@ class Located:
     explained: dict[str, Share]
     summary: str
     odds: Mapping[str, Ratio] = field(default_factory=dict)
+    limits: Locate = DEFAULT.locate
 
     @property
     def shares(self) -> dict[str, float]:
@@ -72,12 +67,13 @@ class Located:
     @property
     def significant(self) -> list[str]:
         """The covariates that are beyond chance, the likeliest first."""
-        return likely(self.odds) if self.odds else significant(self.explained)
+        level = self.limits.level
+        return likely(self.odds, level) if self.odds else significant(self.explained, level)
 
     @property
     def structure(self) -> list[str]:
-        """The covariates with which more than `STRUCTURED` of the force goes, beyond chance."""
-        return [name for name in self.significant if self.explained[name].value > STRUCTURED]
+        """The covariates with which much of the force goes, beyond chance."""
+        return [name for name in self.significant if self.explained[name].value > self.limits.structured]
 
 
 @dataclass(frozen=True)
@@ -108,6 +104,11 @@ class Diagnosis:
     withdrawn: tuple[str, ...] = ()
 
     @property
+    def settings(self) -> Settings:
+        """The thresholds that decided."""
+        return self.before.problem.settings
+
+    @property
     def found(self) -> tuple[str, ...]:
         """The keys of the terms that were left out, most probable first; learned curves come last."""
         return tuple(sorted(self.after.problem.active, key=lambda k: -self.selection.inclusion(k)))
@@ -127,61 +128,18 @@ class Diagnosis:
         """Whether the force that is missing is no larger with what was found than with its forces taken out."""
         if self.left is None:
             return True
-        return float(np.std(self.left.missing.force)) <= RISES * float(np.std(self.located.missing.force))
+        most = self.settings.heldout.missing * float(np.std(self.located.missing.force))
+        return float(np.std(self.left.missing.force)) <= most
 
     @property
     def unexplained(self) -> bool:
         """Whether a random force beyond the usual noise of the drive is left."""
-        return self.random_gain > SIGNIFICANT
+        return self.random_gain > self.settings.locate.significant
 
     @property
     def unknown(self) -> bool:
         """Whether something is missing, with structure, that no term of the library explains."""
         return bool(self.learned) or (not self.found and self.unexplained and bool(self.located.structure))
-
-
-def candidates_of(
-    model: Model, terms: Sequence[type[Term]], observations: Sequence[Observation] = ()
-) -> tuple[Term, ...]:
-    """Return each term at each place of the model where it can act, given what drives the recordings.
-
-    Of terms that equal each other the first is enough.
-    """
-    tried = [
-        term(at=place.name)  # type: ignore[call-arg]
-        for place in model.interfaces
-        for term in terms
-        if term.acts == "motion" and (not term.anywhere or place.name == "ground" or len(model.interfaces) == 1)
-    ]
-    tried += [
-        term(at=at, **_channel_of(term, at, observations))  # type: ignore[call-arg]
-        for term in terms
-        if term.acts != "motion"
-        for at in _beside(term, observations)
-    ]
-    driven = all(observation.tone.omega > 0.0 for observation in observations)
-    tried = [term for term in tried if term.fits(model) and (driven or "omega" not in term.needs)]
-    names = [term.name for term in tried]
-    several = any(len(observation.sensors) > 1 for observation in observations)
-    return tuple(t for i, t in enumerate(tried) if several or not set(t.equals) & set(names[:i]))
-
-
-def _channel_of(term: type[Term], at: str, observations: Sequence[Observation]) -> dict[str, str]:
-    """Return the channel of the sensor at which a term acts that has such a field."""
-    if not term.states or term.acts != "sensor" or not observations:
-        return {}
-    return {"channel": next(sensor.channel for sensor in observations[0].sensors if sensor.place == at)}
-
-
-def _beside(term: type[Term], observations: Sequence[Observation]) -> tuple[str, ...]:
-    """Return where a term of the drive or of a sensor may act: at each input that was recorded, or at each sensor."""
-    if not observations:
-        return (term.acts,)
-    first = observations[0]
-    if term.acts == "drive":
-        return ("drive",) if first.driven is None or len(first.driven) == 1 else first.driven
-    alone = len(first.sensors) == 1
-    return () if alone and getattr(term, "relative", False) else tuple(sensor.place for sensor in first.sensors)
 
 
 def diagnose(
@@ -192,17 +150,19 @@ def diagnose(
     rng: np.random.Generator,
     jobs: int = 2,
     say: Callable[[str], None] = lambda _: None,
+    settings: Settings = DEFAULT,
 ) -> Diagnosis:
     """Return the diagnosis of a case; `system` holds the model and every term that is to be tried."""
-    train, held = split(observations)
+    train, held = split(observations, settings.heldout.share)
     _check_moving(held)
     say("fit of the nominal model")
-    nominal = search(problem_of(system, case, train, jobs=jobs), rng)
+    nominal = search(problem_of(system, case, train, jobs=jobs, settings=settings), rng)
     curves = Curves(len(system.keys), say)
     say("shapes: pitches, stops, times")
-    shapes = scouted(nominal, forces=significant_random_force(nominal) > SIGNIFICANT)
+    shapes = scouted(nominal, forces=significant_random_force(nominal) > settings.locate.significant)
     selection = sought(nominal, fitted_keys(system), say, shapes, curves.promise)
-    if selection.chosen.problem.active and significant_random_force(selection.chosen) > SIGNIFICANT:
+    more_left = significant_random_force(selection.chosen) > settings.locate.significant
+    if selection.chosen.problem.active and more_left:
         say("shapes beside what was found")
         if more := {key: found for key, found in scouted(selection.chosen).items() if key not in shapes}:
             selector = Selector(selection.nominal, fitted_keys(system), say, {**shapes, **more}, curves.promise)
@@ -220,7 +180,7 @@ def diagnose(
     bare = Diagnosis(before, after, selection, shown, _NOWHERE, None, _NO, {}, {}, gain, train, held, marks)
     known = _located(bare, chance)
     structured = bool((known.left or known.located).structure)
-    suspicious = known.unexplained or structured or len(known.found) >= MANY or selection.beaten() > RICH
+    suspicious = known.unexplained or structured or len(known.found) >= MANY or selection.beaten() > settings.rival.much
     if not suspicious:
         return known
     learned = curves.unknown(selection.nominal, selection.chosen)
@@ -272,7 +232,9 @@ def _shrunk(selection: Selection, gone: str) -> Selection:
     terms = chosen.problem.active - {gone}
     if terms not in visits:
         less = maximise(chosen.problem.reduced(gone, chosen.values))
-        price = price_of(term_of(chosen.problem, gone)[0], len(fitted_keys(chosen.problem.system)))
+        price = price_of(
+            term_of(chosen.problem, gone)[0], len(fitted_keys(chosen.problem.system)), chosen.problem.settings
+        )
         dearer = chosen.log_evidence - visits[chosen.problem.active].weight
         visits = {**visits, terms: Visit(terms, less, less.log_evidence - dearer + price)}
     return replace(selection, chosen=visits[terms].fit, visits=visits, withdrawn=selection.withdrawn | {gone})
@@ -284,9 +246,9 @@ def _check_moving(held: Sequence[Observation]) -> None:
         if not np.nanstd(np.concatenate([o.readings[:, i] for o in held])) > 0.0:
             names = ", ".join(o.name for o in held)
             raise DataError(
-                f"{names}: the sensor {sensor.label!r} shows one value all through the last {HELD_OUT:.0%}, which are"
-                " held out: nothing can be predicted there; end the recording with t_end where the motion ends, or"
-                " name a recording that moves last"
+                f"{names}: the sensor {sensor.label!r} shows one value all through what is held out: nothing can be"
+                " predicted there; end the recording with t_end where the motion ends, or name a recording that moves"
+                " last"
             )
 
 
@@ -300,7 +262,8 @@ def marks_of(fit: Fit) -> dict[str, tuple[Values, Values]]:
             if sensor.place == term.at and sensor.noise.kind != "quantised":
                 noise = max(fit.problem.measurement(fit.theta, k, i) for k in range(len(observations)))
                 seen = [term.marks(observation.readings[:, i]) for observation in observations]
-                if all(p for p, _ in seen) and term.scatter(seen[0][0]) ** 2 > MARKED * noise:
+                least = fit.problem.settings.locate.marks * noise
+                if all(p for p, _ in seen) and term.scatter(seen[0][0]) ** 2 > least:
                     found[key] = seen[0]
     return found
 
@@ -313,12 +276,12 @@ def _located(bare: Diagnosis, rng: np.random.Generator) -> Diagnosis:
     """Return the diagnosis with the missing force located: found terms taken out first, then with them."""
     after, shown = bare.after, bare.shown
     honest = stepped(after.problem, after.theta).on((shown,))
-    model, plays = after.problem.system.model, plays_of(honest, after.theta)
+    model, plays, limits = after.problem.system.model, plays_of(honest, after.theta), bare.settings.locate
     of_left, of_all = rng, rng.spawn(1)[0]
 
     def placed(problem: Problem, theta: Array, chance: np.random.Generator, fit: Fit) -> Located:
         missing = missing_force(problem, theta)
-        return locate(model, shown, missing, plays=plays, rng=chance, odds=lambda: log_odds(fit))
+        return locate(model, shown, missing, plays=plays, rng=chance, odds=lambda: log_odds(fit), limits=limits)
 
     if not bare.found:
         return replace(bare, located=placed(honest, after.theta, of_left, after))
@@ -352,6 +315,7 @@ def locate(
     plays: Mapping[str, float] | None = None,
     rng: np.random.Generator | None = None,
     odds: Callable[[], Mapping[str, Ratio]] = dict,
+    limits: Locate = DEFAULT.locate,
 ) -> Located:
     """Return where a missing force lives; `plays` are the half gaps by place, `rng` draws surrogates of the force.
 
@@ -367,7 +331,7 @@ def locate(
     found = shares_of(asked, missing.force, rng)
     curves = {name: curve(values, missing.force) for name, values in table.items()}
     ratios = {name: value for name, value in odds().items() if name in found}
-    return Located(missing, curves, found, summary(table, missing.force, found, ratios), ratios)
+    return Located(missing, curves, found, summary(table, missing.force, found, ratios, limits), ratios, limits)
 
 
 def law_of(fit: Fit, observation: Observation, states: Array, key: str) -> Array:

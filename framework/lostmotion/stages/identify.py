@@ -15,6 +15,7 @@ from lostmotion.contracts import Array
 from lostmotion.errors import CaseError, DataError
 from lostmotion.provenance import provenance
 from lostmotion.results import Interval
+from lostmotion.settings import DEFAULT, Chain
 from lostmotion.stages._chains import Quality, autocorrelation, inference_data, quality_of
 from lostmotion.stages._cloud import Cloud
 from lostmotion.stages._keep import Kept, cleared, fingerprint, load, save
@@ -52,6 +53,7 @@ class Plan:
     ess: float = 1000.0
     max_steps: int = 2000
     walkers: int | None = None
+    limits: Chain = DEFAULT.chain
 
 
 @dataclass(frozen=True)
@@ -217,7 +219,7 @@ class _Course:
         earlier = _last_check(sampler.iteration)
         before = float(np.max(autocorrelation(_kept(sampler, earlier)[0]))) if earlier else math.inf
         says = f"tau {quality.slowest:.1f} · ESS {quality.ess.min():.0f} of {self.plan.ess:g}"
-        return quality.lacks(self.plan.ess, before), says
+        return quality.lacks(self.plan.ess, before, self.plan.limits), says
 
     def _result(self, sampler: Any, lacks: tuple[str, ...], **flags: bool) -> Identification:
         coordinates, burn = _kept(sampler, sampler.iteration)

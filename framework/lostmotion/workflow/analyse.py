@@ -17,6 +17,7 @@ from lostmotion.rates import exponent_in
 from lostmotion.registry import Registry
 from lostmotion.report.analysis import write_analysis
 from lostmotion.results import Estimate
+from lostmotion.settings import DEFAULT, Settings
 from lostmotion.signals import checked
 from lostmotion.stages.denoise import Denoised, denoise
 from lostmotion.stages.embed import embed
@@ -64,6 +65,7 @@ class Request:
     unit: str = "1/s"
     seed: int = 0
     jobs: int = 2
+    settings: Settings = DEFAULT
 
     def rng(self, stream: str) -> np.random.Generator:
         """Return the random stream of one stage: no stage depends on what another one has drawn."""
@@ -116,7 +118,8 @@ def told_of(
 ) -> tuple[dict[str, Any], xr.Dataset]:
     """Return the content of `analysis.json` and the arrays behind it; nothing is written."""
     analysis = analyse(source, registry, request, say)
-    settings = {k: v for k, v in asdict(request).items() if k not in ("jobs", "seed")}
+    settings = {k: v for k, v in asdict(request).items() if k not in ("jobs", "seed", "settings")}
+    settings["thresholds"] = asdict(request.settings.motion)
     content = {
         **statement(analysis),
         "provenance": provenance("analyse", settings, request.seed, {**registry.origins(), **source.inputs}),
@@ -154,7 +157,7 @@ def analyse(source: Source, registry: Registry, request: Request, say: Say = lam
         others=others,
         tests=tests,
         surrogate_dims=_surrogate_dims(raw, registry, request, say),
-        verdict=judged(Evidence(beat, raw, denoised, exponent, dimension, entropy, tests)),
+        verdict=judged(Evidence(beat, raw, denoised, exponent, dimension, entropy, tests, request.settings.motion)),
         exponent_method=EXPONENT.removeprefix("lyapunov_"),
         denoiser=denoiser,
         aside=tuple(dict.fromkeys(guests.said)),

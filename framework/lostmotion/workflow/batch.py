@@ -17,6 +17,7 @@ from typing import Any
 from lostmotion.errors import CaseError, DataError, LostMotionError, PlaceError, PluginWarning
 from lostmotion.provenance import digest, provenance
 from lostmotion.registry import Registry
+from lostmotion.settings import DEFAULT, Settings
 from lostmotion.storage import folder_for, load_json, writing
 from lostmotion.workflow.batch_table import SUMMARY, row_aside, row_of, save_rows
 from lostmotion.workflow.campaign import Campaign, Say
@@ -37,6 +38,7 @@ class Batch:
     out: Path
     plugins: tuple[str, ...] = ()
     seed: int = 0
+    settings: Settings = DEFAULT
 
     def __call__(self, number: int) -> dict[str, Any]:
         """Return the row of a case, once its diagnosis stands in its folder; one that cannot be used has none."""
@@ -67,7 +69,7 @@ class Batch:
         """See to it that the diagnosis of a case stands in its folder."""
         if not self._stands(path, place):
             _clear(place)
-            run_diagnosis(path, place, self._registry(), seed=self.seed, jobs=1)
+            run_diagnosis(path, place, self._registry(), seed=self.seed, jobs=1, settings=self.settings)
 
     def _stands(self, path: Path, place: Path) -> bool:
         """Return whether a diagnosis is there and was made of what would be used now."""
@@ -81,7 +83,10 @@ class Batch:
             made: Any = load_json(place / "diagnosis.json", "it is made again").get("provenance")
         except DataError:
             return False
-        return isinstance(made, Mapping) and {**made, "settings": {}} == wanted
+        if not isinstance(made, Mapping) or {**made, "settings": {}} != wanted:
+            return False
+        told = made.get("settings")
+        return isinstance(told, Mapping) and told.get("thresholds") == self.settings.as_dict()
 
     def _registry(self) -> Registry:
         """Return a registry for one case, which may bring plugins that the next one does not know."""
@@ -90,7 +95,7 @@ class Batch:
 
 def run_batch(batch: Batch, *, jobs: int, say: Say = lambda _done, _of: None) -> list[dict[str, Any]]:
     """Return a row for each case after writing its diagnosis into the folder of its name, and all rows as a table."""
-    identity = provenance("diagnose many", {}, batch.seed, {})
+    identity = provenance("diagnose many", {"thresholds": batch.settings.as_dict()}, batch.seed, {})
     campaign = Campaign(batch, len(batch.cases), identity, apart=True, lost=batch.lost)
     rows = campaign.run(folder_for(batch.out) / KEPT, jobs, say, fresh=True)
     save_rows(batch.out / SUMMARY, rows)

@@ -10,6 +10,7 @@ import numpy as np
 
 from lostmotion.contracts import Array, Series
 from lostmotion.results import Estimate
+from lostmotion.settings import DEFAULT, Motion
 from lostmotion.signals import base_line, refined_period, return_spread
 from lostmotion.stages.denoise import Denoised
 from lostmotion.stages.surrogates import SurrogateTest
@@ -40,6 +41,7 @@ class Evidence:
     dimension: Estimate
     entropy: Estimate
     tests: tuple[SurrogateTest, ...]
+    limits: Motion = DEFAULT.motion
 
     @property
     def noise(self) -> float:

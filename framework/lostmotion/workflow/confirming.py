@@ -13,25 +13,20 @@ from dataclasses import replace
 import numpy as np
 
 from lostmotion.contracts import Array
-from lostmotion.inference.course import RICH, Selection, Visit
+from lostmotion.inference.course import Selection, Visit
 from lostmotion.inference.fit import Fit
-from lostmotion.inference.gauges import APART
 from lostmotion.inference.natural import term_of
 from lostmotion.inference.rival import Righted
-from lostmotion.inference.selection import DECISIVE
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.predict import filtered
 from lostmotion.likelihood.problem import RANDOM
 from lostmotion.quantities import TIME
-from lostmotion.stages.compare import CHANCE, Piece, confirmed, pieces_of, run_errors
+from lostmotion.stages.compare import Piece, confirmed, pieces_of, run_errors
 from lostmotion.stages.diagnose import Diagnosis
 from lostmotion.workflow.findings import Outcome
 
 ASKED = 3
 """So many sets of each size are asked what they predict."""
-PART = 0.5
-FARTHEST = 10.0
-"""A term that a smooth force leads by more than this log odds on the fitted data is not asked about held-out data."""
 
 
 def unconfirmed(outcome: Outcome, observations: Sequence[Observation]) -> dict[str, str]:
@@ -51,7 +46,7 @@ def unconfirmed(outcome: Outcome, observations: Sequence[Observation]) -> dict[s
         without = run_errors(less.fit, pieces, outcome.horizon) if less else None
         if sentence := usual(d, key):
             told[key] = sentence
-        elif without is not None and not confirmed(errors, without):
+        elif without is not None and not confirmed(errors, without, d.settings.heldout.chance):
             told[key] = (
                 "The model is not right in other ways too, and free runs over held-out data are better with it in"
                 f" {int(np.sum(errors < without))} of {len(errors)} parts only (they err by {_whole(errors):.2%} of the"
@@ -70,10 +65,10 @@ def predicted_better(outcome: Outcome, observations: Sequence[Observation]) -> F
     here = selection.visits.get(selection.chosen.problem.active)
     if d.learned or here is None or _right(d, here):
         return None
-    pieces, others = pieces_of(observations, d.held), _others(selection, here)
+    pieces, others = pieces_of(observations, d.held), _others(d, here)
     errors = run_errors(here.fit, pieces, outcome.horizon)
     rivals = [(visit, run_errors(visit.fit, pieces, outcome.horizon)) for visit in others]
-    better = [(v, e) for v, e in rivals if confirmed(e, errors, CHANCE / len(rivals))]
+    better = [(v, e) for v, e in rivals if confirmed(e, errors, d.settings.heldout.chance / len(rivals))]
     return min(better, key=lambda rival: _whole(rival[1]))[0].fit if better else None
 
 
@@ -89,10 +84,11 @@ def decided(outcome: Outcome, observations: Sequence[Observation]) -> tuple[Fit,
     here = selection.visits.get(selection.chosen.problem.active)
     if here is None:
         return None
-    unbeaten = [v for v in _unbeaten(selection, here) if selection.lead(v, here) > -FARTHEST]
+    decisive, behind = d.settings.select.decisive, d.settings.heldout.behind
+    unbeaten = [v for v in _unbeaten(selection, here, decisive) if selection.lead(v, here) > -behind]
     for visit in unbeaten:
         selection.check(visit)
-    close = [v for v in unbeaten if selection.lead(v, here) > -FARTHEST]
+    close = [v for v in unbeaten if selection.lead(v, here) > -behind]
     close = sorted(close, key=lambda v: -selection.lead(v, here))[:ASKED]
     if not close:
         return None
@@ -104,12 +100,12 @@ def decided(outcome: Outcome, observations: Sequence[Observation]) -> tuple[Fit,
     worse = selection.expansion(here).worse
     won = {v.terms: (_scored(v.fit, pieces) - bar) / worse for v in close}
     best = max(close, key=lambda v: selection.lead(v, here) + won[v.terms])
-    if not selection.lead(best, here) + won[best.terms] - math.log(len(close)) > DECISIVE:
+    if not selection.lead(best, here) + won[best.terms] - math.log(len(close)) > decisive:
         return None
     return best.fit, won
 
 
-def _unbeaten(selection: Selection, here: Visit) -> list[Visit]:
+def _unbeaten(selection: Selection, here: Visit, decisive: float) -> list[Visit]:
     """Return the sets with one force more than a chosen one that win by evidence, and not over a smooth force.
 
     Flaws of channels are not among them: the usual ones are a part of what stands against a name.
@@ -117,7 +113,7 @@ def _unbeaten(selection: Selection, here: Visit) -> list[Visit]:
     keys = [k for k in sorted(selection.unbeaten - here.terms) if term_of(here.fit.problem, k)[0].acts == "motion"]
     more = [here.terms | {key} for key in keys]
     sets = [selection.visits[terms] for terms in more if terms in selection.visits]
-    return [v for v in sets if v.fit.status != "diverged" and v.weight > here.weight + DECISIVE]
+    return [v for v in sets if v.fit.status != "diverged" and v.weight > here.weight + decisive]
 
 
 def _scored(fit: Fit, pieces: Sequence[Piece]) -> float:
@@ -136,14 +132,15 @@ def _righted(right: Righted, pieces: Sequence[Piece]) -> float:
     return _scored(right.fit, [replace(p, observation=right.put_right(p.observation)) for p in pieces]) + wider
 
 
-def _others(selection: Selection, here: Visit) -> list[Visit]:
+def _others(d: Diagnosis, here: Visit) -> list[Visit]:
     """Return the sets of most weight of each size up to that of a chosen one, but for this one and the empty set.
 
-    One that wins less than `PART` of what the chosen one wins on the fitted data does not explain these, nor does one
+    One that wins a small share of what the chosen one wins on the fitted data does not explain these, nor does one
     that leaves more of a random force than the nominal model.
     """
-    found, nothing = [], selection.visits[frozenset()].weight
-    least = nothing + PART * max(here.weight - nothing, 0.0)
+    selection, found = d.selection, list[Visit]()
+    nothing = selection.visits[frozenset()].weight
+    least = nothing + d.settings.heldout.explains * max(here.weight - nothing, 0.0)
     for size in range(1, len(here.terms) + 1):
         same = [v for v in selection.visits.values() if len(v.terms) == size and v.terms != here.terms]
         same = [v for v in same if v.fit.status != "diverged" and not v.terms & selection.declined]
@@ -162,7 +159,7 @@ def _right(d: Diagnosis, here: Visit) -> bool:
     """Return whether nothing else is wrong with the model beside what was found, each sample counting as one."""
     if not here.terms:
         return True
-    return not d.unexplained and not d.selection.expansion(here).promise(1.0).gain > RICH
+    return not d.unexplained and not d.selection.expansion(here).promise(1.0).gain > d.settings.rival.much
 
 
 def usual(d: Diagnosis, key: str) -> str:
@@ -172,7 +169,7 @@ def usual(d: Diagnosis, key: str) -> str:
     if term.acts == "motion" or not late:
         return ""
     samples = abs(d.after.values[late[0].key]) / d.shown.dt
-    if samples > APART:
+    if samples > d.settings.rival.late:
         return ""
     return (
         f"A delay of {samples:.2g} samples is within what acquisition systems have as a rule, and the model is not"

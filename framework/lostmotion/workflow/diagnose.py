@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -16,6 +17,7 @@ from lostmotion.likelihood.system import System, key_of
 from lostmotion.provenance import provenance
 from lostmotion.registry import Registry
 from lostmotion.report import write_report
+from lostmotion.settings import DEFAULT, Settings
 from lostmotion.stages.compare import (
     exponent_of,
     horizon_for,
@@ -73,6 +75,7 @@ def run_diagnosis(
     jobs: int = 2,
     propose: bool = True,
     say: Say = lambda _: None,
+    settings: Settings = DEFAULT,
 ) -> Mapping[str, Any]:
     """Return the content of `diagnosis.json` after writing it, `arrays.nc` and `report.html` into the folder `out`.
 
@@ -81,7 +84,7 @@ def run_diagnosis(
     say("reading the case")
     prepared = prepare(path, registry)
     folder = folder_for(out)
-    told = told_of(prepared, registry, seed=seed, jobs=jobs, propose=propose, say=say)
+    told = told_of(prepared, registry, seed=seed, jobs=jobs, propose=propose, say=say, settings=settings)
     say("report")
     told.save(folder)
     return told.content
@@ -89,10 +92,18 @@ def run_diagnosis(
 
 @within_numbers()
 def told_of(
-    prepared: Prepared, registry: Registry, *, seed: int, jobs: int, propose: bool = True, say: Say = lambda _: None
+    prepared: Prepared,
+    registry: Registry,
+    *,
+    seed: int,
+    jobs: int,
+    propose: bool = True,
+    say: Say = lambda _: None,
+    settings: Settings = DEFAULT,
 ) -> Told:
     """Return the diagnosis of a case, with all that is told of it; nothing is written."""
-    diagnosis, prepared, rng = _diagnosed(prepared, registry, seed, jobs=jobs, say=say)
+    work = partial(diagnose, jobs=jobs, say=say, settings=settings)
+    diagnosis, prepared, rng = _diagnosed(prepared, registry, seed, work)
     say("held-out predictions")
     outcome = upheld(diagnosis, prepared, rng, say)
     outcome = replace(outcome, unconfirmed=unconfirmed(outcome, prepared.observations))
@@ -121,7 +132,7 @@ def told_of(
 
 
 def _diagnosed(
-    prepared: Prepared, registry: Registry, seed: int, *, jobs: int, say: Say
+    prepared: Prepared, registry: Registry, seed: int, work: Callable[..., Diagnosis]
 ) -> tuple[Diagnosis, Prepared, np.random.Generator]:
     """Return the diagnosis, what it was made of, and its random numbers, for who goes on with them.
 
@@ -129,7 +140,7 @@ def _diagnosed(
     """
     system, rng = System(prepared.model, prepared.terms), np.random.default_rng(seed)
     try:
-        return diagnose(prepared.case, prepared.observations, system, rng=rng, jobs=jobs, say=say), prepared, rng
+        return work(prepared.case, prepared.observations, system, rng=rng), prepared, rng
     except ContractError as err:
         guests = theirs(registry, prepared.terms)
         culprits = {err.plugin} & set(guests)
@@ -141,7 +152,7 @@ def _diagnosed(
         kept = tuple(term for term in prepared.terms if key_of(term) not in culprits)
         told = told_aside(blamed(registry, culprits, err))
         fewer = replace(prepared, terms=kept, aside=(*prepared.aside, told))
-        return _diagnosed(fewer, registry, seed, jobs=jobs, say=say)
+        return _diagnosed(fewer, registry, seed, work)
 
 
 def judged(diagnosis: Diagnosis, prepared: Prepared, rng: np.random.Generator) -> Outcome:
@@ -165,7 +176,7 @@ def upheld(diagnosis: Diagnosis, prepared: Prepared, rng: np.random.Generator, s
     curves are taken back first, then one term after the other, the least probable one first. So it goes where the force
     that is missing rises with what was found. And held-out data choose among sets that explain the fitted data.
     """
-    outcome = judged(diagnosis, prepared, rng)
+    outcome, limits = judged(diagnosis, prepared, rng), diagnosis.settings.heldout
     if (better := predicted_better(outcome, prepared.observations)) is not None:
         say(f"held-out predictions with {' and '.join(sorted(better.problem.active))} instead")
         outcome = judged(instead(diagnosis, better, rng.spawn(1)[0]), prepared, rng)
@@ -174,9 +185,12 @@ def upheld(diagnosis: Diagnosis, prepared: Prepared, rng: np.random.Generator, s
         say(f"held-out data decide for {' and '.join(sorted(fit.problem.active))}")
         weighed = replace(outcome.diagnosis.selection, scored=dict(scored))
         trial = judged(instead(replace(outcome.diagnosis, selection=weighed), fit, rng.spawn(1)[0]), prepared, rng)
-        outcome = trial if not worsened(outcome.before, trial.after) and trial.diagnosis.explains else outcome
-    while outcome.diagnosis.found and (worsened(outcome.before, outcome.after) or not outcome.diagnosis.explains):
-        less = simpler(outcome.diagnosis, rng.spawn(1)[0])
+        good = trial.diagnosis.explains and not worsened(outcome.before, trial.after, limits)
+        outcome = trial if good else outcome
+    while (found := outcome.diagnosis).found:
+        if not worsened(outcome.before, outcome.after, limits) and found.explains:
+            break
+        less = simpler(found, rng.spawn(1)[0])
         if less is None:
             break
         say(f"held-out predictions without {less.withdrawn[-1]}")
@@ -187,6 +201,7 @@ def upheld(diagnosis: Diagnosis, prepared: Prepared, rng: np.random.Generator, s
 def _background(prepared: Prepared, outcome: Outcome, seed: int) -> dict[str, Any]:
     case = prepared.case
     settings = {"model": case.model, "known": dict(case.known), "terms": [f"{t.name}@{t.at}" for t in prepared.terms]}
+    settings["thresholds"] = outcome.diagnosis.settings.as_dict()
     return {
         "machine": _machine(outcome, case),
         "truth": dict(case.truth),

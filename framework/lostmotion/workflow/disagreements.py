@@ -22,10 +22,10 @@ from lostmotion.inference.disagreement import (
     squares_of,
     trend,
 )
-from lostmotion.inference.shares import LEVEL
 from lostmotion.likelihood.observation import Observation
 from lostmotion.quantities import unit_of
 from lostmotion.report.words import chance
+from lostmotion.settings import DEFAULT
 from lostmotion.signals.impacts import Hit, hits_of
 from lostmotion.stages.diagnose import Diagnosis
 from lostmotion.workflow.decays import is_struck
@@ -39,16 +39,22 @@ def disagreement_in(d: Diagnosis, rng: np.random.Generator) -> dict[str, Any]:
     shown = {name: squares_of(fit, d.shown) for name, fit in fits.items()}
     if not all(np.isfinite(one).any() for one in shown.values()):
         return {}
-    content = {"over_time": over_time(d.shown, shown, rng)}
+    level = d.settings.locate.level
+    content = {"over_time": over_time(d.shown, shown, rng, level)}
     if d.shown.samples == d.held[0].samples:
         begun = (*d.after.problem.observations, *d.held)
         all_of = {name: [squares_of(fit, one) for one in begun] for name, fit in fits.items()}
         motion = d.after.problem.system.model.motion
-        content["by_recording"] = by_recording(begun, all_of, len(d.train), motion, rng)
+        content["by_recording"] = by_recording(begun, all_of, len(d.train), motion, rng, level)
     return content
 
 
-def over_time(observation: Observation, squares: Mapping[str, Array], rng: np.random.Generator) -> dict[str, Any]:
+def over_time(
+    observation: Observation,
+    squares: Mapping[str, Array],
+    rng: np.random.Generator,
+    level: float = DEFAULT.locate.level,
+) -> dict[str, Any]:
     """Return the disagreement over windows of a recording (over its hits, where a hammer drives it), and a sentence.
 
     `squares` holds the squared standardised one-step errors (samples,) of the models "before" and, if there is one,
@@ -57,7 +63,7 @@ def over_time(observation: Observation, squares: Mapping[str, Array], rng: np.ra
     hits = hits_of(observation.excitation, observation.dt) if is_struck(observation) else ()
     windows = _windows(observation, squares, hits)
     edges = [round(float(e), 9) for e in (observation.begin + windows.edges) * observation.dt]
-    told = {name: _judged(one, windows, edges, rng) for name, one in squares.items()}
+    told = {name: _judged(one, windows, edges, rng, level) for name, one in squares.items()}
     last = told.get("after", told["before"])
     content: dict[str, Any] = {
         "edges": edges,
@@ -89,7 +95,7 @@ def _windows(observation: Observation, squares: Mapping[str, Array], hits: Seque
 Judged = tuple[list[float | None], dict[str, Any]]
 
 
-def _judged(squares: Array, windows: Windows, edges: Sequence[float], rng: np.random.Generator) -> Judged:
+def _judged(squares: Array, windows: Windows, edges: Sequence[float], rng: np.random.Generator, level: float) -> Judged:
     """Return the disagreement in each window, and the window that stands out most with its p-value."""
     means = means_of(squares, windows)
     p = beyond_chance(squares, windows, rng)
@@ -100,7 +106,7 @@ def _judged(squares: Array, windows: Windows, edges: Sequence[float], rng: np.ra
         "end": edges[at + 1],
         "ratio": float(means[at]),
         "p": None if p is None else float(p[at]),
-        "beyond_chance": bool(p is not None and p[at] <= LEVEL),
+        "beyond_chance": bool(p is not None and p[at] <= level),
     }
     return [float(m) if math.isfinite(m) else None for m in means], worst
 
@@ -138,6 +144,7 @@ def by_recording(
     fitted: int,
     motion: str,
     rng: np.random.Generator,
+    level: float = DEFAULT.locate.level,
 ) -> dict[str, Any]:
     """Return one row for each recording, the first `fitted` of which went into the fit, and what goes with the level.
 
@@ -159,25 +166,25 @@ def by_recording(
         for i, (one, level) in enumerate(zip(recordings, levels, strict=True))
     ]
     told = {"after": last, "before": squares["before"]}
-    worst = {when: _stands_out(rows, when, between(parts, rng)) for when, parts in told.items()}
+    worst = {when: _stands_out(rows, when, between(parts, rng), level) for when, parts in told.items()}
     tends = {when: trend(parts, levels, rng) for when, parts in told.items()}
     return {
         "rows": rows,
         "level_of": "response" if first.free else "drive",
         "expected": EXPECTED,
         "trend": {when: None if t is None else {"correlation": t[0], "p": t[1]} for when, t in tends.items()},
-        "says": _level_says(rows, worst, tends),
+        "says": _level_says(rows, worst, tends, level),
     }
 
 
-def _stands_out(rows: Sequence[dict[str, Any]], when: str, p: Array | None) -> int | None:
+def _stands_out(rows: Sequence[dict[str, Any]], when: str, p: Array | None, level: float) -> int | None:
     """Return the recording in which a model disagrees most beyond chance, after noting all p-values in the rows."""
     if p is None:
         return None
     for row, one in zip(rows, p, strict=True):
         row[f"p_{when}"] = float(one)
     worst = _most(np.array([row[when] for row in rows]), p)
-    return worst if p[worst] <= LEVEL else None
+    return worst if p[worst] <= level else None
 
 
 def _driver(observation: Observation) -> str:
@@ -192,6 +199,7 @@ def _level_says(
     rows: Sequence[Mapping[str, Any]],
     worst: Mapping[str, int | None],
     tends: Mapping[str, tuple[float, float] | None],
+    level: float,
 ) -> str:
     """Return in which recording a model disagrees most, the last model first; empty where that is not beyond chance."""
     when = next((name for name in ("after", "before") if worst[name] is not None), None)
@@ -204,6 +212,6 @@ def _level_says(
         f"Of {len(rows)} recordings the {model} disagrees most in {row['name']} (level {row['level']:.3g} {row['unit']}"
         f" rms, {row[when]:.2g} times the variance expected, {chance(row[f'p_{when}'])})"
     )
-    if tend and tend[1] <= LEVEL:
+    if tend and tend[1] <= level:
         said += f"; the disagreement {'grows' if tend[0] > 0.0 else 'falls'} with the level ({chance(tend[1])})"
     return f"{said}."

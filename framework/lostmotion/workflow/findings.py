@@ -83,7 +83,7 @@ def noise_floor(outcome: Outcome) -> float:
 def why_withheld(outcome: Outcome) -> str:
     """Return why intervals are withheld: the model does not predict held-out data; empty where it does."""
     floor = noise_floor(outcome)
-    if holds(outcome.after, floor):
+    if holds(outcome.after, floor, outcome.diagnosis.settings.name):
         return ""
     model = "model" if outcome.diagnosis.found else "nominal model"
     return (

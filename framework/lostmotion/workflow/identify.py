@@ -22,6 +22,7 @@ from lostmotion.provenance import provenance
 from lostmotion.registry import Registry
 from lostmotion.report.identification import write_identification
 from lostmotion.results import Interval
+from lostmotion.settings import DEFAULT, Settings
 from lostmotion.stages.identify import Identification, Plan, Task, Watch, identify
 from lostmotion.storage import folder_for, save_datasets, save_json
 from lostmotion.study.inversion import Inversion, predicted
@@ -56,6 +57,7 @@ class Order:
     route: str | None = None
     maps: tuple[Path, ...] = ()
     fresh: bool = False
+    settings: Settings = DEFAULT
 
 
 @dataclass(frozen=True)
@@ -136,7 +138,7 @@ def _by_trajectory(prepared: Prepared, out: Path, registry: Registry, asked: Ask
     terms = chosen_terms(prepared, order.terms, registry)
     folder_for(out)
     watch(0, "looking for the maximum")
-    fits = best_fits(prepared, terms, rng, order.jobs)
+    fits = best_fits(prepared, terms, rng, order.jobs, order.settings)
     problem = fits[0].problem
     settings = {"terms": sorted(problem.active), "steps_between_samples": problem.nsub, "sensor": asdict(case.sensor)}
     facts = {
@@ -190,6 +192,8 @@ def _derived(posterior: Inversion, points: Array, result: Identification) -> dic
 
 def _facts(case: CaseFile, order: Order, settings: Mapping[str, Any], inputs: Mapping[str, str]) -> dict[str, Any]:
     told = {"model": case.model, "known": dict(case.known), **settings, **asdict(order.plan)}
+    told["thresholds"] = order.settings.as_dict()
+    del told["limits"]
     return {
         "title": case.title,
         "model": case.model,

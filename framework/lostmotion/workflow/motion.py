@@ -16,17 +16,12 @@ from lostmotion.workflow.signs import CYCLES, FEWEST_SAMPLES, Sign, State, grows
 Motion = Literal["periodic", "quasiperiodic", "chaotic", "stochastic", "undecided"]
 Strength = Literal["firm", "likely", "open"]
 """How far the signs bear a verdict: all that can, some while others are silent, or not at all."""
-MOST_LEFT = 0.5
-"""Share of the variance that may not repeat in a motion that is called periodic but for fluctuations."""
 ENOUGH_PERIODS = 100
 FEWEST_VALUES = 16
-UNEVEN = 2.0
-"""Ratio of the standard deviations of two halves from which on a recording is not taken to be steady."""
 TOLD_APART = 0.25
 """Frequencies closer than this share of one line of the spectrum are not told apart."""
-MEASURED, ENOUGH_MEASURED = ("exponent", "dimension", "entropy"), 2
-"""What is measured of a motion, and how many of these must speak for chaos: any one alone is found in some series that
-are not chaotic, as the tables of `benchmarks/verdicts.py --set wide` show."""
+MEASURED = ("exponent", "dimension", "entropy")
+"""What is measured of a motion."""
 LINEAR = "surrogates_"
 TESTED_CYCLES = LINEAR + CYCLES
 
@@ -90,7 +85,7 @@ def _unsteady(it: Weighed) -> Verdict | None:
     size = [float(np.std(half)) for half in halves]
     pace = [float(np.std(np.diff(half))) / (dt * max(s, 1e-300)) for half, s in zip(halves, size, strict=True)]
     for what, unit, (first, second) in (("size", "", size), ("pace", " rad/s", pace)):
-        if max(first, second) > UNEVEN * min(first, second):
+        if max(first, second) > it.evidence.limits.uneven * min(first, second):
             says = (
                 f"The {what} of the motion changes along the recording, from {first:.3g}{unit} in its first half to "
                 f"{second:.3g}{unit} in its second one (root mean square): all signs suppose a steady motion, so look "
@@ -187,7 +182,7 @@ def _jittering(it: Weighed) -> Verdict | None:
     left = float(np.nanmin(returns(evidence.raw, period)))
     shuffled = it.state(TESTED_CYCLES) == "against"
     signs = "for" in (it.state("exponent"), it.state("dimension")) or grows(evidence.exponent)
-    if left**2 > MOST_LEFT or (signs and not shuffled):
+    if left**2 > it.evidence.limits.left or (signs and not shuffled):
         return None
     p = next((t.p for t in evidence.tests if t.method == CYCLES), np.nan)
     why = (
@@ -209,7 +204,7 @@ def _chaotic(it: Weighed) -> Verdict | None:
     """
     tested = bool(it.tests) and all(s.state == "for" for s in it.tests)
     measured = sum(it.state(key) == "for" for key in MEASURED)
-    if it.those("against") or not tested or measured < ENOUGH_MEASURED:
+    if it.those("against") or not tested or measured < it.evidence.limits.measured:
         return None
     silent, spoken = it.those("silent"), it.those("for")
     opening = f"{len(spoken)} of {len(it.signs)} signs speak for chaos and none against it; silent: {_named(silent)}."

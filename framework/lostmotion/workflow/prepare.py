@@ -14,7 +14,7 @@ from lostmotion.quantities import ROTATES
 from lostmotion.recording import Recording, load_recording
 from lostmotion.recording.decimation import thinned
 from lostmotion.registry import Registry
-from lostmotion.stages.diagnose import candidates_of
+from lostmotion.stages.candidates import candidates_of
 from lostmotion.workflow.vetting import sound, usable_terms
 from lostmotion.written import model_of
 

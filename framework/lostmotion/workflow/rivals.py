@@ -18,11 +18,8 @@ from lostmotion.quantities import unit_of
 from lostmotion.report.words import sentence, spoken
 from lostmotion.stages.diagnose import Diagnosis
 from lostmotion.stages.experiment import Limits, Proposal, natural_of, propose, usual_limits
-from lostmotion.workflow.verdict import WORTH_NAMING, other_level
+from lostmotion.workflow.verdict import other_level
 
-RELATED = math.log(20.0)
-"""A relative of what was found is named where the evidence, without the price of its parameters, is so close; laws of
-friction with a memory contain one another, so among these the likelihood is asked."""
 MOST = 2
 """So many rivals, the heaviest ones, are worth an experiment of their own."""
 LITTLE = 3.0
@@ -52,9 +49,9 @@ def rivals_of(d: Diagnosis) -> dict[str, Visit]:
         remembers = (
             stands_in and bool(term.states) and any(term_of(problem, k)[0].states for k in problem.active - best)
         )
-        likely = course.chosen.log_likelihood - course.visits[best].fit.log_likelihood < RELATED
-        close = stands_in and (short < RELATED or (remembers and likely))
-        if course.inclusion(key) > WORTH_NAMING or close:
+        likely = course.chosen.log_likelihood - course.visits[best].fit.log_likelihood < d.settings.name.related
+        close = stands_in and (short < d.settings.name.related or (remembers and likely))
+        if course.inclusion(key) > d.settings.name.worth or close:
             rows[key] = course.visits[best]
     return dict(sorted(rows.items(), key=lambda row: -row[1].weight))
 
@@ -86,7 +83,10 @@ def confused_with(d: Diagnosis, rows: Sequence[Mapping[str, Any]], proposals: Pr
         p = d.selection.inclusion(key)
         row = {"mechanism": term.name, "at": term.at, "probability": p}
         if proposal is None:
-            told[term.name, term.at] = {**row, "says": f"{_opening(term, p)} {sentence(other_level(d))} would decide."}
+            told[term.name, term.at] = {
+                **row,
+                "says": f"{_opening(d, term, p)} {sentence(other_level(d))} would decide.",
+            }
         else:
             says = _says(d, term, p, proposal)
             told[term.name, term.at] = {**row, "excitation": _excitation(d, proposal), "says": says}
@@ -115,8 +115,8 @@ def _excitation(d: Diagnosis, proposal: Proposal) -> dict[str, Any]:
     }
 
 
-def _opening(term: Term, p: float) -> str:
-    if p > WORTH_NAMING:
+def _opening(d: Diagnosis, term: Term, p: float) -> str:
+    if p > d.settings.name.worth:
         return f"This recording gives {_called(term)} a probability of {p:.2f}."
     return (
         f"This recording does not rule out {_called(term)}: only the price of its further parameters brings it to a"
@@ -129,7 +129,7 @@ def _called(term: Term) -> str:
 
 
 def _says(d: Diagnosis, term: Term, p: float, proposal: Proposal) -> str:
-    opening = _opening(term, p)
+    opening = _opening(d, term, p)
     gain, repeat = proposal.gain, proposal.repeat
     if gain < LITTLE:
         return (

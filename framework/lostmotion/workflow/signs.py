@@ -18,22 +18,13 @@ from lostmotion.stages.surrogates import SurrogateTest
 from lostmotion.workflow.beat import MOST_PERIODS, SLACK, Evidence, returned
 
 State = Literal["for", "against", "silent"]
-SIGNIFICANT, CYCLES = 0.05, "pseudo_periodic"
-EFOLDS = 0.8
-"""Growth over fewer e-foldings is no sign. Noise with a long memory shows up to 0.65, which `benchmarks/verdicts.py`
-and the tests of the exponent have counted; the limit lies a quarter above that."""
-TURNS = 1.0
-"""Growth over less time than one turn of the motion is no sign: within a turn distances rise and fall by themselves."""
+CYCLES = "pseudo_periodic"
 FEWEST_SAMPLES = 1000
 """With fewer samples the rank among surrogates and the slopes depend on single stretches of the orbit."""
 FEWEST_PERIODS = 20
 """With fewer periods it is not told whether a motion comes back, nor how many frequencies it has. Within fewer turns
 surrogates are like any motion that is a line or two of the spectrum, so that a test they pass is silent."""
 TONES_FLOOR = 0.02
-FLAT = 1.5
-"""A dimension whose interval ends below this is that of a closed curve: a chaotic flow has more than 2."""
-STILL = 0.05
-"""An entropy below so many e-foldings in one turn is none that can be told from zero."""
 
 
 @dataclass(frozen=True)
@@ -120,10 +111,10 @@ def _test(test: SurrogateTest, evidence: Evidence) -> Sign:
     if evidence.raw.n < FEWEST_SAMPLES:
         return sign("silent", f"{evidence.raw.n} samples are too few for this test: {FEWEST_SAMPLES} are wanted.")
     turns = evidence.raw.n * evidence.raw.dt / turn_of(evidence)
-    if not test.rejects(SIGNIFICANT) and turns < FEWEST_PERIODS:
+    if not test.rejects(evidence.limits.level) and turns < FEWEST_PERIODS:
         says = f"The surrogates are as easy to predict, but {turns:.0f} turns of the motion are too few to say more."
         return sign("silent", says)
-    if test.rejects(SIGNIFICANT):
+    if test.rejects(evidence.limits.level):
         return sign("for", f"The recording is easier to predict than its surrogates (p = {test.p:.2g}).")
     return sign("against", f"The surrogates are as easy to predict as the recording (p = {test.p:.2g}).")
 
@@ -134,8 +125,11 @@ def _growth(evidence: Evidence) -> Sign:
     folds = found.details.get("e_folds", math.nan)
     turns = (found.details.get("fit_end", math.nan) - found.details.get("fit_begin", math.nan)) / turn
 
+    limits = evidence.limits
+
     def sign(state: State, says: str) -> Sign:
-        figures = {"e_foldings": folds, "turns": turns, "e_foldings_wanted": EFOLDS, "turns_wanted": TURNS}
+        wanted = {"e_foldings_wanted": limits.efolds, "turns_wanted": limits.turns}
+        figures = {"e_foldings": folds, "turns": turns, **wanted}
         name, excludes = "Growth of small differences", "motion that forgets its start"
         return Sign("exponent", name, state, says, excludes, figures)
 
@@ -145,10 +139,11 @@ def _growth(evidence: Evidence) -> Sign:
         value = f"The interval of the exponent, {_spanned(found)}, holds zero." if math.isfinite(found.value) else ""
         return sign("silent", value or found.says)
     over = f"Near states part by {folds:.2g} e-foldings within {turns:.2g} turns of the motion"
-    if not folds >= EFOLDS:
-        return sign("silent", f"{over}: fewer than {EFOLDS:g} e-foldings are no sign, as noise shows so many too.")
-    if not turns >= TURNS:
-        return sign("silent", f"{over}: within less than {TURNS:g} turn distances rise and fall by themselves.")
+    if not folds >= limits.efolds:
+        says = f"{over}: fewer than {limits.efolds:g} e-foldings are no sign, as noise shows so many too."
+        return sign("silent", says)
+    if not turns >= limits.turns:
+        return sign("silent", f"{over}: within less than {limits.turns:g} turn distances rise and fall by themselves.")
     return sign("for", f"{over}, at {_spanned(found)}.")
 
 
@@ -165,7 +160,7 @@ def _dimension(evidence: Evidence) -> Sign:
         return sign("silent", found.says)
     if found.status == "uncertain":
         return sign("silent", found.says or "A condition for the interval of the dimension does not hold.")
-    if evidence.raw.embedding.lag > 1 and found.high < FLAT:
+    if evidence.raw.embedding.lag > 1 and found.high < evidence.limits.flat:
         return sign("against", f"The dimension is {_spanned(found)}, that of a closed curve.")
     flat = ""
     if {"tilt", "scatter"} <= found.details.keys():
@@ -187,7 +182,7 @@ def _entropy(evidence: Evidence) -> Sign:
         return sign("against", found.says)
     if found.status not in ("ok", "uncertain") or not math.isfinite(found.value):
         return sign("silent", found.says)
-    if found.high * turn < STILL:
+    if found.high * turn < evidence.limits.still:
         return sign("against", f"The entropy is {_spanned(found)}: next to nothing in one turn of the motion.")
     if not found.low > 0.0:
         return sign("silent", f"The interval of the entropy, {_spanned(found)}, holds zero.")

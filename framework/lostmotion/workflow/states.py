@@ -9,27 +9,16 @@ from typing import Any
 from lostmotion.inference.natural import term_of
 from lostmotion.quantities import TIME
 from lostmotion.report.words import spoken
+from lostmotion.settings import DEFAULT, Name
 from lostmotion.stages.compare import Prediction
 from lostmotion.stages.diagnose import Diagnosis
 
 NAMED, LIKELY, OPEN = "named", "likely", "open"
-SURE = 0.95
-"""What is named has a probability above this; `prove --world imperfect` counts how many of such names are there."""
-RIVAL = 0.05
-"""A set of terms with a larger share of the posterior is told as a rival."""
-MOVED, PART = 5.0, 0.2
-"""A level that moves by so many standard deviations, and by this share of it, when a further term comes in, was not
-known before, or the further term is wrong."""
-LATE = 0.05
-"""A delay of more than this share of a natural period is unusual: acquisition systems are faster."""
-DOUBTFUL, FAR = 0.3, 5.0
-"""A model does not hold whose free runs over held-out data err by more than this share of the response, and by so many
-times the noise."""
 
 
-def holds(after: Prediction, floor: float) -> bool:
+def holds(after: Prediction, floor: float, limits: Name = DEFAULT.name) -> bool:
     """Return whether a model predicts held-out data, where `floor` is the share of the response that is noise."""
-    return math.isfinite(after.nrmse) and not after.nrmse > max(DOUBTFUL, FAR * floor)
+    return math.isfinite(after.nrmse) and not after.nrmse > max(limits.error, limits.error_noise * floor)
 
 
 def probability_of(d: Diagnosis, key: str) -> float:
@@ -55,7 +44,7 @@ def doubts_of(d: Diagnosis, key: str) -> list[str]:
 
 def _less_sure(d: Diagnosis, key: str) -> Iterator[str]:
     p = probability_of(d, key)
-    if p > SURE:
+    if p > d.settings.name.sure:
         return
     others = _others(d, key)
     rivals = f"; its rivals are {', '.join(others)}" if others else "; its rival is a smooth force without a name"
@@ -75,7 +64,7 @@ def _decided_late(d: Diagnosis, key: str) -> Iterator[str]:
 def _others(d: Diagnosis, key: str) -> list[str]:
     """Return the terms of other sets without this one that have a share of the posterior, in words."""
     found = d.selection.chosen.problem.active
-    sets = [terms for terms, p in d.selection.probabilities().items() if key not in terms and p > RIVAL]
+    sets = [terms for terms, p in d.selection.probabilities().items() if key not in terms and p > d.settings.name.rival]
     names = dict.fromkeys(k for terms in sets for k in sorted(terms - found))
     return [spoken(term_of(d.before.problem, k)[0].name) for k in names]
 
@@ -86,13 +75,13 @@ def unsteady(d: Diagnosis, key: str) -> Iterator[str]:
     without = d.selection.visits.get(chosen.problem.active - {key})
     if without is None:
         return
-    sds = without.fit.sd
+    sds, limits = without.fit.sd, d.settings.name
     for f in without.fit.problem.free:
         owner, _, name = f.key.rpartition(".")
         if not owner or f.log or f.key not in chosen.values:
             continue
         old, new = without.fit.values[f.key], chosen.values[f.key]
-        if abs(new - old) > max(MOVED * sds[f.key], PART * abs(old)):
+        if abs(new - old) > max(limits.moved * sds[f.key], limits.moved_share * abs(old)):
             yield (
                 f"{_called(d, owner)} has a {name} of {old:.3g} {f.unit} without {spoken(key.partition('@')[0])} and of"
                 f" {new:.3g} {f.unit} with it: a level that moves so far was not known, or the further term is wrong."
@@ -112,15 +101,15 @@ def _unusual(d: Diagnosis, key: str) -> Iterator[str]:
         return
     period = 2.0 * math.pi * d.after.problem.scales.time
     share = abs(d.after.values[late[0].key]) / period
-    if share > LATE:
+    if share > d.settings.name.late:
         yield f"A delay of {share:.0%} of a natural period is unusual: measure the time between the channels by itself."
 
 
-def doubted(entry: dict[str, Any]) -> dict[str, Any]:
-    """Return an entry of what was found: with a doubt it is likely, with a probability of `SURE` at most."""
+def doubted(entry: dict[str, Any], sure: float = DEFAULT.name.sure) -> dict[str, Any]:
+    """Return an entry of what was found: with a doubt it is likely, with a probability of `sure` at most."""
     if not entry.get("doubts") or entry.get("state") not in (NAMED, LIKELY):
         return entry
-    return {**entry, "state": LIKELY, "probability": min(entry["probability"], SURE)}
+    return {**entry, "state": LIKELY, "probability": min(entry["probability"], sure)}
 
 
 def in_order(found: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:

@@ -17,7 +17,7 @@ from lostmotion.inference.leftovers import significant_random_force
 from lostmotion.inference.setup import SHARED, frees_for, modes, polished, problem_of, separated
 from lostmotion.likelihood.system import System, key_of
 from lostmotion.registry import Registry
-from lostmotion.stages.diagnose import SIGNIFICANT
+from lostmotion.settings import DEFAULT, Settings
 from lostmotion.stages.identify import Identification, Plan, Task, identify, task_of
 from lostmotion.workflow.prepare import Prepared
 from lostmotion.workflow.vetting import sound
@@ -65,14 +65,16 @@ def chosen_terms(prepared: Prepared, asked: tuple[str, ...], registry: Registry)
     return tuple(offered[key] for key in keys)
 
 
-def best_fits(prepared: Prepared, terms: tuple[Term, ...], rng: np.random.Generator, jobs: int) -> list[Fit]:
+def best_fits(
+    prepared: Prepared, terms: tuple[Term, ...], rng: np.random.Generator, jobs: int, settings: Settings = DEFAULT
+) -> list[Fit]:
     """Return the distinct maxima of the posterior on all recordings, with the terms, best first.
 
     They are those of one problem in fine integration steps.
     """
     case = prepared.case
     bare = replace(case, estimate={k: v for k, v in case.estimate.items() if "." not in k})
-    problem = problem_of(System(prepared.model, terms), bare, prepared.observations, jobs=jobs)
+    problem = problem_of(System(prepared.model, terms), bare, prepared.observations, jobs=jobs, settings=settings)
     found = modes(problem, rng, sensor=SHARED if terms else case.sensor)
     return polished([_with_terms(fit, terms, case) for fit in found])
 
@@ -102,7 +104,7 @@ def _as_the_case_says(fit: Fit, case: CaseFile) -> Fit:
 
 def doubts(fit: Fit) -> list[str]:
     """Return what makes the intervals too narrow although the chain has converged."""
-    if significant_random_force(fit) <= SIGNIFICANT:
+    if significant_random_force(fit) <= fit.problem.settings.locate.significant:
         return []
     return [
         "A force is left over that this model does not explain. The intervals hold only if the model is right: they are"

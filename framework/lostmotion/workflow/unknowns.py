@@ -17,8 +17,7 @@ from lostmotion.inference.locate import listed
 from lostmotion.inference.natural import term_of
 from lostmotion.inference.odds import p_values
 from lostmotion.inference.proposal import Axis, proposed
-from lostmotion.inference.selection import DECISIVE
-from lostmotion.inference.shares import LEVEL, SURROGATES
+from lostmotion.inference.shares import SURROGATES
 from lostmotion.inference.surfaces import OverHistory, Surface
 from lostmotion.inference.unexplained import Unknown
 from lostmotion.quantities import LENGTH, NUMBER, SPEED, TIME, Dimension
@@ -75,7 +74,7 @@ def learned_entry(d: Diagnosis) -> dict[str, Any]:
 def _why_unnamed(d: Diagnosis, unknown: Unknown) -> str:
     """Return why a learned force has no name: none explains it, or a smooth force explains as much as the best one."""
     selection = d.selection
-    as_good = [key for key in selection.unbeaten if selection.gain(key) > unknown.gain - DECISIVE]
+    as_good = [key for key in selection.unbeaten if selection.gain(key) > unknown.gain - d.settings.select.decisive]
     if not as_good:
         return "that no term of the library explains"
     term, _ = term_of(d.before.problem, max(as_good, key=selection.gain))
@@ -195,7 +194,7 @@ def _formula(d: Diagnosis, band: Band) -> tuple[str, float] | None:
     if band.beside is not None or band.term.over == "history":
         return None
     axis = Axis(*OVER[band.term.over], band.term.params[0].dimension, d.after.problem.system.model.motion)
-    found = proposed(band.at, band.mean, band.covariance, axis)
+    found = proposed(band.at, band.mean, band.covariance, axis, d.settings.unknown.formula)
     if found is None:
         return None
     return (f"{band.term.times} ({found.text})" if band.term.times else found.text), found.share
@@ -226,5 +225,5 @@ def where(located: Located, learned: Unknown | None = None) -> dict[str, Any]:
         "p_value": p_values(located.odds) if located.odds else by_share,
         "p_value_of_share": by_share,
         "significant": located.significant,
-        "against": f"{against}, at {LEVEL:.0%} over all covariates together",
+        "against": f"{against}, at {located.limits.level:.0%} over all covariates together",
     }

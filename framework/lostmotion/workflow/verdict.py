@@ -33,7 +33,6 @@ from lostmotion.workflow.states import LIKELY, doubted, in_order, open_of
 from lostmotion.workflow.unknowns import unknown_odds, where
 from lostmotion.written import Written
 
-WORTH_NAMING = 0.01
 MOST_OPEN = 2
 """So many of the terms that stay open are told in the opening; the others stand in the report."""
 
@@ -43,7 +42,7 @@ def verdict(outcome: Outcome) -> dict[str, Any]:
     d = outcome.diagnosis
     found, why, rest = found_in(outcome), why_withheld(outcome), open_of(d)
     shared = shared_in(d, found)
-    found = in_order([doubted(entry) for entry in shared.pop("found", found)])
+    found = in_order([doubted(entry, d.settings.name.sure) for entry in shared.pop("found", found)])
     return {
         "schema": "lostmotion.diagnosis/1",
         "verdict": "mismatch" if found else "adequate",
@@ -101,20 +100,18 @@ def _setting(outcome: Outcome) -> dict[str, Any]:
                 k: p.valid_time / outcome.horizon.unit_time for k, p in predictions.items()
             },
         },
-        "whiteness": {k: {"p": p.white, "says": _white(p.white)} for k, p in predictions.items()},
+        "whiteness": {
+            k: {"p": p.white, "says": _white(p.white, d.settings.name.white)} for k, p in predictions.items()
+        },
     }
 
 
-CERTAIN, DOUBTFUL = 0.01, 0.05
-"""A p-value below the first is told as a finding, one below the second as a doubt."""
-
-
-def _white(p: float) -> str:
-    if p < CERTAIN:
+def _white(p: float, certain: float) -> str:
+    if p < certain:
         return (
             f"One-step errors are not white (Ljung-Box {chance(p)}): they still hold something that can be predicted."
         )
-    if p < DOUBTFUL:
+    if p < 5.0 * certain:
         return f"One-step errors may hold something that can be predicted (Ljung-Box p = {p:.2g})."
     return f"One-step errors cannot be told from white noise (Ljung-Box p = {p:.2g})."
 
@@ -187,7 +184,7 @@ def _ranking(d: Diagnosis, found: Sequence[dict[str, Any]], *, failed: bool) -> 
                 "at": term.at,
                 "log_evidence_gain": selection.gain(key),
                 "probability": p,
-                "price": price_of(term, many),
+                "price": price_of(term, many, d.settings),
                 "fitted": frozenset({key}) in selection.visits,
             }
         )
@@ -206,7 +203,7 @@ def _confused(d: Diagnosis) -> list[dict[str, Any]]:
     for term in d.selection.nominal.problem.system.terms:
         key = key_of(term)
         p = 0.0 if d.learned else d.selection.inclusion(key)
-        if key not in d.found and p > WORTH_NAMING:
+        if key not in d.found and p > d.settings.name.worth:
             says = f"This recording gives {spoken(term.name)} a probability of {p:.2f}: {other_level(d)} would decide."
             rows.append({"mechanism": term.name, "at": term.at, "probability": p, "says": says})
     return rows + [row for key in d.named for row in _equal(d, key)]

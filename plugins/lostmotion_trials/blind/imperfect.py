@@ -15,7 +15,7 @@ from functools import partial
 import numpy as np
 
 from lostmotion.contracts import Array
-from lostmotion.inference.setup import HELD_OUT
+from lostmotion.settings import DEFAULT
 from lostmotion_trials.blind.mechanisms import NOISY, TABLE, UNKNOWN, Effect, Pilot
 from lostmotion_trials.blind.simulator import (
     ACROSS,
@@ -42,7 +42,7 @@ SIZE = (0.02, 0.3)
 SMOOTH = (0.005, 0.05)
 """The rms of all smooth forces together over the amplitude of the drive, or of the force of inertia if that is less."""
 WAVES = 4
-FITTED = 1.0 - HELD_OUT
+FITTED = 1.0 - DEFAULT.heldout.share
 """The share of a recording that a diagnosis fits."""
 Curve = tuple[tuple[float, float], ...]
 """Cosine and sine of each wave of a random function."""

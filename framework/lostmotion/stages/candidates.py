@@ -1,0 +1,52 @@
+"""Which terms may act where in a machine, given what was recorded."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from lostmotion.contracts import Model, Term
+from lostmotion.likelihood.observation import Observation
+
+
+def candidates_of(
+    model: Model, terms: Sequence[type[Term]], observations: Sequence[Observation] = ()
+) -> tuple[Term, ...]:
+    """Return each term at each place of the model where it can act, given what drives the recordings.
+
+    Of terms that equal each other the first is enough.
+    """
+    tried = [
+        term(at=place.name)  # type: ignore[call-arg]
+        for place in model.interfaces
+        for term in terms
+        if term.acts == "motion" and (not term.anywhere or place.name == "ground" or len(model.interfaces) == 1)
+    ]
+    tried += [
+        term(at=at, **_channel_of(term, at, observations))  # type: ignore[call-arg]
+        for term in terms
+        if term.acts != "motion"
+        for at in _beside(term, observations)
+    ]
+    driven = all(observation.tone.omega > 0.0 for observation in observations)
+    tried = [term for term in tried if term.fits(model) and (driven or "omega" not in term.needs)]
+    names = [term.name for term in tried]
+    several = any(len(observation.sensors) > 1 for observation in observations)
+    return tuple(t for i, t in enumerate(tried) if several or not set(t.equals) & set(names[:i]))
+
+
+def _channel_of(term: type[Term], at: str, observations: Sequence[Observation]) -> dict[str, str]:
+    """Return the channel of the sensor at which a term acts that has such a field."""
+    if not term.states or term.acts != "sensor" or not observations:
+        return {}
+    return {"channel": next(sensor.channel for sensor in observations[0].sensors if sensor.place == at)}
+
+
+def _beside(term: type[Term], observations: Sequence[Observation]) -> tuple[str, ...]:
+    """Return where a term of the drive or of a sensor may act: at each input that was recorded, or at each sensor."""
+    if not observations:
+        return (term.acts,)
+    first = observations[0]
+    if term.acts == "drive":
+        return ("drive",) if first.driven is None or len(first.driven) == 1 else first.driven
+    alone = len(first.sensors) == 1
+    return () if alone and getattr(term, "relative", False) else tuple(sensor.place for sensor in first.sensors)
