@@ -9,6 +9,7 @@ velocity or acceleration, at a size that is to gain a given log-likelihood. Ever
 from __future__ import annotations
 
 import argparse
+import itertools
 import json
 import math
 import os
@@ -20,8 +21,11 @@ from pathlib import Path
 import numpy as np
 
 from lostmotion.case import dump_case
+from lostmotion.errors import LostMotionError
+from lostmotion.registry import default
 from lostmotion.storage import save_table
-from lostmotion_trials.blind.bound import alike, spelled
+from lostmotion.workflow.prepare import prepare
+from lostmotion_trials.blind.bound import alike, spelled, yardstick
 from lostmotion_trials.blind.hiding import hidden_in
 from lostmotion_trials.blind.mechanisms import NOISY, TABLE, Effect
 from lostmotion_trials.blind.pilot import Pilot
@@ -122,7 +126,19 @@ def concealed(task, folder):
     dump_case(
         {"title": f"{name} {channel} {kind} {seed}", "recordings": [recording], "model": model}, folder / "case.toml"
     )
-    return effects, rig
+    return effects, rig, noise
+
+
+def reached(folder, row, noise):
+    """Return what the true term gains in log-likelihood on the fitted data, by our own likelihood, begun there."""
+    told = {"mechanism": row["truth"][0]["name"], "at": row["truth"][0]["at"]}
+    parameters = {k: v for k, v in row["truth"][0].items() if k not in ("name", "at")}
+    machine = {**row["machine"], "measurement_noise": noise}
+    truth = {"machine": machine, "effects": [{**told, "parameters": parameters}]}
+    try:
+        return yardstick(prepare(folder / "case.toml", default()), truth, None).gains[0]
+    except (LostMotionError, ValueError, ArithmeticError) as err:
+        return f"not reached: {err}"
 
 
 def work(task):
@@ -134,7 +150,7 @@ def work(task):
     with tempfile.TemporaryDirectory() as place:
         folder = Path(place)
         try:
-            effects, rig = concealed(task, folder)
+            effects, rig, noise = concealed(task, folder)
         except (ValueError, ArithmeticError) as err:
             return {**row, "status": f"not made: {err}"}
         begin = time.process_time()
@@ -154,6 +170,8 @@ def work(task):
         row["headline"] = told.get("headline", "")
         row["ranking"] = told["ranking"][:6]
         row["nrmse"] = [told["fit"][k]["heldout_nrmse"] for k in ("before", "after")]
+        if effects:
+            row["reached"] = reached(folder, row, noise)
     return row
 
 
@@ -180,7 +198,8 @@ def gain_of(args, name, sensor, drive, seed):
 
 def named(row):
     """Return the names that a row has, and whether the hidden one is among them, or one that counts as it."""
-    found = [f["mechanism"] for f in row["found"] if f["mechanism"] not in ("unknown", "random_force")]
+    unnamed = {"unknown", "random_force"} - {row["name"]}
+    found = [f["mechanism"] for f in row["found"] if f["mechanism"] not in unnamed]
     return found, any(alike(name, row["name"]) for name in found)
 
 
@@ -195,33 +214,44 @@ def covered(row):
     return [i["low"] <= known[k] <= i["high"] for k, i in told.items() if k in known and i["low"] is not None]
 
 
+LEAST = 50.0
+BINS = (0.0, 20.0, 50.0, 150.0, 500.0, math.inf)
+
+
+def line(rows):
+    """Return how many were named, how many intervals hold, how many names were one too many, and the median time."""
+    hits = sum(named(r)[1] for r in rows)
+    held = [ok for r in rows for ok in covered(r)]
+    extra = sum(sum(not alike(n, r["name"]) for n in named(r)[0]) for r in rows)
+    seconds = float(np.median([r["seconds"] for r in rows]))
+    return f"{hits} of {len(rows)} | {sum(held)} of {len(held)} | {extra} | {seconds:.0f} |"
+
+
 def summary(rows):
-    """Print how many were named, how many intervals hold, and how many names were one too many, by sensor and drive."""
-    head = ("sensor", "drive", "named", "intervals that hold", "names too many", "seconds (median)")
-    print(f"\n| {' | '.join(head)} |\n|{'---|' * len(head)}")
-    good = [r for r in rows if r.get("status") == 0 and r["name"] != "clean"]
-    for sensor in SENSORS:
-        for drive in DRIVES:
-            own = [r for r in good if (r["sensor"], r["drive"]) == (sensor, drive)]
-            if not own:
-                continue
-            hits = sum(named(r)[1] for r in own)
-            held = [ok for r in own for ok in covered(r)]
-            extra = sum(sum(not alike(n, r["name"]) for n in named(r)[0]) for r in own)
-            seconds = float(np.median([r["seconds"] for r in own]))
-            print(
-                f"| {sensor} | {drive} | {hits} of {len(own)} | {sum(held)} of {len(held)} | {extra} | {seconds:.0f} |"
-            )
+    """Print the table by gain, by sensor and drive, and what was missed: of machines that show enough of an effect.
+
+    The gain is what the true term wins in log-likelihood on the fitted data, by our own likelihood begun at the truth.
+    """
+    hidden = [r for r in rows if r.get("status") == 0 and r["name"] != "clean"]
+    good = [r for r in hidden if isinstance(r.get("reached"), float)]
+    heads = "named | intervals that hold | names too many | seconds (median)"
+    print(f"\n| gain | {heads} |\n|{'---|' * 5}")
+    for low, high in itertools.pairwise(BINS):
+        if own := [r for r in good if low <= r["reached"] < high]:
+            print(f"| {low:g} to {high:g} | {line(own)}")
+    if other := [r for r in hidden if r not in good]:
+        print(f"| not known | {line(other)}")
+    shown = [r for r in good if r["reached"] >= LEAST]
+    print(f"\n| sensor | drive | {heads} |\n|{'---|' * 6}")
+    for sensor, drive in itertools.product(SENSORS, DRIVES):
+        if own := [r for r in shown if (r["sensor"], r["drive"]) == (sensor, drive)]:
+            print(f"| {sensor} | {drive} | {line(own)}")
     clean = [r for r in rows if r.get("status") == 0 and r["name"] == "clean"]
     if clean:
         print(f"\nOf {len(clean)} machines that hide nothing {sum(bool(named(r)[0]) for r in clean)} had a name.")
-    missed = [
-        (r["name"], r["sensor"], r["drive"], named(r)[0] or [f["mechanism"] for f in r["found"]])
-        for r in good
-        if not named(r)[1]
-    ]
-    for name, sensor, drive, found in missed:
-        print(f"- {name}, {sensor}, {drive}: {', '.join(found) or 'nothing'}")
+    for r in (r for r in shown if not named(r)[1]):
+        found = ", ".join(f["mechanism"] for f in r["found"]) or "nothing"
+        print(f"- {r['name']}, {r['sensor']}, {r['drive']}, {r['model']}, gain {r['reached']:.0f}: {found}")
 
 
 def main():
