@@ -20,8 +20,9 @@ class Param:
     """A number that may be known or estimated: `low` and `high` are physical bounds, not a prior.
 
     Of a term: `null` is where all of it does nothing; `typical` the prior width in natural scales (drive force, rms
-    position and velocity; if `lasting`, the time is that of the whole recording); `choices` are tried in turn and held;
-    `far` lists multiples of `typical` tried as well. With `scale="log"` it is positive, known by order of magnitude.
+    position and velocity; if `lasting`, the time is that of the whole recording); `choices` are tried in turn and held,
+    and `words` are what a sentence says in place of each; `far` lists multiples of `typical` tried as well. With
+    `scale="log"` it is positive, known by order of magnitude.
     `scan` are the least and the largest multiple of `typical` between which a recording is searched for it; for an
     amplitude that a response is far from linear in, too.
     """
@@ -36,6 +37,7 @@ class Param:
     typical: float = 1.0
     aliases: tuple[str, ...] = ()
     choices: tuple[float, ...] = ()
+    words: tuple[str, ...] = ()
     lasting: bool = False
     far: tuple[float, ...] = ()
     scan: tuple[float, float] | None = None

@@ -41,7 +41,9 @@ def _param(param: Any) -> Iterator[str]:
     yield from _told(param, ("name", "meaning", "scale"), _text, "text")
     yield from _told(param, ("low", "high", "typical"), _real, "a number")
     yield from _told(param, ("null",), lambda value: value is None or _real(value), "a number or None")
-    yield from _told(param, ("aliases",), _texts, "a tuple of texts")
+    yield from _told(param, ("aliases", "words"), _texts, "a tuple of texts")
+    if getattr(param, "words", ()) and len(param.words) != len(getattr(param, "choices", ())):
+        yield f"{len(param.words)} words for {len(param.choices)} choices: write one for each"
     yield from _told(param, ("choices", "far"), lambda value: _all(value, _real), "a tuple of numbers")
     yield from _told(param, ("dimension",), lambda value: isinstance(value, Dimension), "a Dimension")
 

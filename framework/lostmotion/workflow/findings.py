@@ -112,6 +112,7 @@ def _entry(outcome: Outcome, key: str, after: Mapping[str, Interval]) -> dict[st
     own = {s.param.name: after.get(s.key) or _of(np.full(1, held[s.key]), s.unit) for s in slots}
     why = why_withheld(outcome)
     numbers = {name: f"{i.median:.3g} {i.unit}" if why else str(i) for name, i in own.items()}
+    numbers |= {q.name: q.words[q.choices.index(own[q.name].median)] for q in term.params if q.words}
     sentence = term.physics.format(**numbers) + _whose(d, term)
     if term.at in elsewhere(system.model):
         sentence += f" at the place {term.at!r}"

@@ -280,9 +280,9 @@ def says(outcome: Outcome, found: list[dict[str, Any]], rest: Sequence[dict[str,
     if not d.found:
         return [entry["says"] for entry in found] + left
     opening = list(_said(found))
-    if len(found) == 1:
+    if len(found) == 1 and found[0].get("state") != LIKELY:
         opening[0] = f"{opening[0][:-1]}, and the model leaves it out."
-    else:
+    elif len(found) > 1:
         opening.append(f"The model leaves out {'both' if len(found) == 2 else f'all {len(found)} of them'}.")
     old, new = _unexplained(d, after=False), _unexplained(d, after=True)
     errors = [fit[when]["heldout_nrmse"] for when in ("before", "after")]

@@ -8,6 +8,8 @@ from typing import ClassVar
 from lostmotion.contracts import Array, Model, Param, Term, Values
 from lostmotion.quantities import LENGTH, NUMBER, STIFFNESS
 
+_SIDES = ("at both ends", "on the positive side", "on the negative side")
+
 
 @dataclass(frozen=True)
 class Backlash(Term):
@@ -42,15 +44,13 @@ class EndStop(Term):
     at: str = "ground"
     name: ClassVar[str] = "end_stop"
     unlikely: ClassVar[float] = 1.0
-    physics: ClassVar[str] = (
-        "Beyond {travel} an end stop of {stiffness} is hit (side {side}: 0 both, 1 positive, -1 negative)"
-    )
+    physics: ClassVar[str] = "Beyond {travel} an end stop of {stiffness} is hit {side}"
     formula: ClassVar[str] = "-stiffness * (|x| - travel) * sign(x) where |x| > travel, on one side or both"
     paper: ClassVar[str] = "Shaw, Holmes, J. Sound and Vibration 90 (1983) 129-155, eq. (1)"
     params = (
         Param("stiffness", "stiffness of the stop", STIFFNESS, low=0.0, null=0.0, typical=10.0),
         Param("travel", "travel to the stop", LENGTH, low=0.0, scale="log", typical=1.0, scan=(0.5, 3.0)),
-        Param("side", "0 for both ends, 1 or -1 for one of them", NUMBER, choices=(0.0, 1.0, -1.0)),
+        Param("side", "0 for both ends, 1 or -1 for one of them", NUMBER, choices=(0.0, 1.0, -1.0), words=_SIDES),
     )
     resembles = ("cubic_stiffness",)
 
