@@ -14,6 +14,7 @@ import pytest
 
 from lostmotion import hookspecs
 from lostmotion.cli import main
+from lostmotion.registry import Registry
 from lostmotion.registry.hooks import HOOKS
 
 ROOT = Path(__file__).parents[2]
@@ -101,3 +102,13 @@ def test_nothing_is_imported_through_the_folders():
             names = [a.name for a in node.names] if isinstance(node, ast.Import) else []
             names += [node.module or ""] if isinstance(node, ast.ImportFrom) else []
             assert not [n for n in names if n.split(".")[0] in ("framework", "plugins")], path
+
+
+def test_the_framework_knows_plugins_by_name_in_one_file_alone():
+    """Engines are ours, the proper names of methods are words, and `fixed` is a key of a file."""
+    kinds = ("model", "term", "embedder", "quantifier", "surrogate", "denoiser")
+    names = {e.name for e in Registry.discover().entries() if e.kind in kinds and e.ours}
+    words = {"fixed", "fourier", "aaft", "iaaft"}
+    for path in (p for p in sources() if "lostmotion" in p.parts and p.name not in ("defaults.py", "words.py")):
+        said = {node.value for node in ast.walk(tree(path)) if isinstance(node, ast.Constant)}
+        assert not {word for word in said if isinstance(word, str)} & (names - words), path

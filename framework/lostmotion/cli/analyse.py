@@ -9,6 +9,7 @@ import click
 from lostmotion.cli._lazy import PluginName, examples, registry_of
 from lostmotion.cli.options import settable, usual_folder
 from lostmotion.cli.progress import progress
+from lostmotion.defaults import EMBEDDER
 
 RATES = ("1/s", "bit/s", "1/period", "bit/period")
 
@@ -40,7 +41,7 @@ RATES = ("1/s", "bit/s", "1/period", "bit/period")
 @click.option("--rate", type=float, metavar="HZ", help="The sampling rate, where there is no column 'time'.")
 @click.option("--every", default=1, show_default=True, type=click.IntRange(1), help="Keep one sample of so many.")
 @click.option("--period", type=float, metavar="S", help="The period of the drive, where it was not recorded.")
-@click.option("--embedder", type=PluginName("embedder"), default="ami_cao", show_default=True)
+@click.option("--embedder", type=PluginName("embedder"), default=EMBEDDER, show_default=True)
 @click.option(
     "--denoiser",
     type=PluginName("denoiser"),

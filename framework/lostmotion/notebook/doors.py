@@ -16,6 +16,7 @@ import numpy as np
 
 from lostmotion.case import Prior
 from lostmotion.contracts import Model
+from lostmotion.defaults import EMBEDDER
 from lostmotion.errors import CaseError, DataError, nearest
 from lostmotion.notebook.analysis import AnalysisResult, load_analysis
 from lostmotion.notebook.case import Case, model
@@ -135,7 +136,7 @@ def analyse(
     rate: float | None = None,
     every: int = 1,
     period: float | None = None,
-    embedder: str = "ami_cao",
+    embedder: str = EMBEDDER,
     denoiser: str | None = None,
     quantifiers: str | Iterable[str] = (),
     surrogates: str | Iterable[str] = (),

@@ -11,6 +11,7 @@ from matplotlib.colors import LinearSegmentedColormap, TwoSlopeNorm
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
+from lostmotion.defaults import FLOW_EXPONENT
 from lostmotion.errors import DataError
 from lostmotion.report import style
 from lostmotion.report.words import with_unit
@@ -45,7 +46,7 @@ def draw(dataset: xr.Dataset) -> Figure:
     axes.set_xlabel(_label(dataset, names[0]))
     axes.set_ylabel(_label(dataset, names[1]))
     style.few_ticks(axes, 9, 7)
-    _bar(figure, axes, mesh, str(dataset["lyapunov_max"].attrs["units"]))
+    _bar(figure, axes, mesh, str(dataset[FLOW_EXPONENT].attrs["units"]))
     starts = dataset.sizes["start"]
     axes.set_title(_title(starts), fontsize=9.0)
     return figure
@@ -69,7 +70,7 @@ def _bar(figure: Figure, axes: Axes, mesh: object, unit: str) -> None:
 
 def _mean(dataset: xr.Dataset) -> Array:
     """Return the mean over the starts that gave a number, NaN where none did."""
-    values = dataset["lyapunov_max"].to_numpy()
+    values = dataset[FLOW_EXPONENT].to_numpy()
     good = np.isfinite(values)
     many = good.sum(axis=-1)
     total = np.where(good, values, 0.0).sum(axis=-1)

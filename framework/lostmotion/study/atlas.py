@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lostmotion.contracts import Array
+from lostmotion.defaults import FLOW_EXPONENT, SECTION_DIMENSION
 from lostmotion.errors import DataError
 from lostmotion.study.axes import warped
 from lostmotion.study.cells import CODES
@@ -27,7 +28,6 @@ PERIODIC, CHAOTIC, UNSURE, MISSING = 0, 1, 2, -1
 """What a motion is: it repeats itself; its exponent is positive; neither can be told; nothing was computed."""
 SURE = 2.0
 """Standard errors by which an exponent must lie above zero."""
-DIMENSION = "section_dimension"
 RATIO = "frequency_ratio"
 _EDGE = 5e-3
 """Share of an axis by which a point may lie beyond its end: an amplitude that was read is not quite the nominal one."""
@@ -71,7 +71,14 @@ class Atlas:
         starts = data.sizes["start"]
         lyapunov, error, d2, d2_error, period, status = (
             np.asarray(_found(data, name), dtype=float).reshape(-1, starts)
-            for name in ("lyapunov_max", "lyapunov_stderr", DIMENSION, f"{DIMENSION}_stderr", "period", "status")
+            for name in (
+                FLOW_EXPONENT,
+                "lyapunov_stderr",
+                SECTION_DIMENSION,
+                f"{SECTION_DIMENSION}_stderr",
+                "period",
+                "status",
+            )
         )
         if (status == CODES["not_computed"]).any():
             raise DataError("the map is not finished: make it again with the same settings, and it goes on")
@@ -168,7 +175,7 @@ class Atlas:
 
 def _found(data: Any, name: str) -> Any:
     if name not in data:
-        raise DataError(f"the map has no {name}: make one with --quantity {DIMENSION} beside lyapunov_max")
+        raise DataError(f"the map has no {name}: make one with --quantity {SECTION_DIMENSION} beside lyapunov_max")
     return data[name].to_numpy()
 
 
@@ -176,7 +183,7 @@ def _ratio(data: Any, names: tuple[str, ...], made: Mapping[str, Any]) -> Array:
     """Return the frequency ratio of each cell, or of all of them."""
     if not {"alpha", "zeta"} <= {*names} <= {"alpha", "zeta", RATIO}:
         raise DataError(f"the map is over {', '.join(names)}: one over alpha and zeta (and {RATIO}) is wanted")
-    unit = str(data["lyapunov_max"].attrs.get("units"))
+    unit = str(data[FLOW_EXPONENT].attrs.get("units"))
     if unit != "1/t_bar":
         raise DataError(f"the exponents of the map are in {unit}: wanted 1/t_bar, of a map in dimensionless numbers")
     if RATIO in names:

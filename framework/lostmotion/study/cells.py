@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lostmotion.contracts import Array, Embedder, Flow, Orbit, Quantifier
+from lostmotion.defaults import FLOW_EXPONENT
 from lostmotion.errors import ContractError, DataError, LostMotionError, PluginWarning
 from lostmotion.rates import exponent_in
 from lostmotion.results import STATUSES, Estimate
@@ -116,7 +117,7 @@ def computed(study: Study, cells: NDArray[np.int64]) -> Columns:
 def blank_columns(study: Study, many: int) -> Columns:
     """Return columns in which nothing is computed."""
     shape = (many, study.starts)
-    columns: Columns = {"lyapunov_max": np.full(shape, np.nan), "lyapunov_stderr": np.full(shape, np.nan)}
+    columns: Columns = {FLOW_EXPONENT: np.full(shape, np.nan), "lyapunov_stderr": np.full(shape, np.nan)}
     for name in study.further:
         columns[name], columns[f"{name}_stderr"] = np.full(shape, np.nan), np.full(shape, np.nan)
         columns[f"{name}_status"] = np.full(shape, CODES["not_computed"], np.int8)
@@ -154,7 +155,7 @@ def _follow(study: Study, flow: Followed, rng: np.random.Generator, into: tuple[
     scaled = _scaled(study, estimate)
     orbit = flow.march(flow.start, periods=study.transient + study.periods, tangents=1)
     period = period_of(orbit.states)
-    columns["lyapunov_max"][at], columns["lyapunov_stderr"][at] = scaled
+    columns[FLOW_EXPONENT][at], columns["lyapunov_stderr"][at] = scaled
     columns["status"][at], columns["period"][at] = CODES[estimate.status], period
     for name, quantifier in study.further.items():
         further = _further(study, flow, quantifier, rng)

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from lostmotion.defaults import FLOW_EXPONENT
 from lostmotion.provenance import provenance
 from lostmotion.results import STATUSES
 from lostmotion.study.cells import BEGINNING, CODES, LONGEST, WIDE, Study
@@ -76,7 +77,7 @@ class Layout:
         """The arrays of the map; the one that is written last, `status`, stands last."""
         every, unit = (*self.dims, "start"), self.study.unit
         table = {
-            "lyapunov_max": Variable(every, "f8", math.nan, _said(unit, "largest Lyapunov exponent")),
+            FLOW_EXPONENT: Variable(every, "f8", math.nan, _said(unit, "largest Lyapunov exponent")),
             "lyapunov_stderr": Variable(every, "f8", math.nan, _said(unit, "standard error of lyapunov_max")),
         }
         for name, quantifier in self.study.further.items():

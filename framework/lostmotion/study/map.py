@@ -14,6 +14,7 @@ import xarray as xr
 from scipy.special import ndtr
 
 from lostmotion.contracts import Array
+from lostmotion.defaults import FLOW_EXPONENT
 from lostmotion.errors import DataError, nearest
 from lostmotion.study.axes import warped
 from lostmotion.study.store import load
@@ -69,14 +70,14 @@ class Map:
         return tuple(warped(axis.to_numpy(), axis.attrs.get("spacing", "linear")) for axis in axes)
 
     def at(
-        self, point: Mapping[str, float] | None = None, /, *, quantity: str = "lyapunov_max", **more: float
+        self, point: Mapping[str, float] | None = None, /, *, quantity: str = FLOW_EXPONENT, **more: float
     ) -> Reading:
         """Return what the map says at a point, given as `at(alpha=0.5, zeta=0.02)` or as a dictionary.
 
         Raises `DataError` for a point that is not inside the map, or where nothing has been computed.
         """
         corners = self._corners({**(point or {}), **more})
-        stderr = {"lyapunov_max": "lyapunov_stderr"}.get(quantity, f"{quantity}_stderr")
+        stderr = {FLOW_EXPONENT: "lyapunov_stderr"}.get(quantity, f"{quantity}_stderr")
         fields = (self._numbers(quantity), self._numbers(stderr), self._rough(quantity))
         means, spreads, weights = _mixture(corners, fields)
         if not len(means):
@@ -84,7 +85,7 @@ class Map:
         value = float(weights @ means)
         sd = math.sqrt(float(weights @ (spreads**2 + (means - value) ** 2)))
         low, high = (_quantile(q, means, spreads, weights) for q in (0.025, 0.975))
-        flags = self._numbers("status" if quantity == "lyapunov_max" else f"{quantity}_status")
+        flags = self._numbers("status" if quantity == FLOW_EXPONENT else f"{quantity}_status")
         share = self._numbers("chaotic_fraction")
         chaotic = sum(w * float(share[place]) for place, w in corners)
         settled = sum(w * float((flags[place] == 0).mean()) for place, w in corners)

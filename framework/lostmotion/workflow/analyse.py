@@ -11,6 +11,18 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from lostmotion.contracts import Array, Quantifier, Series
+from lostmotion.defaults import (
+    DENOISER,
+    DIMENSION,
+    EMBEDDER,
+    ENTROPY,
+    EXPONENT,
+    EXPONENT_CHECKS,
+    METER,
+    STATISTIC,
+    SURROGATE,
+    SURROGATE_OF_CYCLES,
+)
 from lostmotion.errors import DataError
 from lostmotion.provenance import provenance
 from lostmotion.rates import exponent_in
@@ -28,7 +40,6 @@ from lostmotion.workflow.analysis_arrays import arrays_of
 from lostmotion.workflow.analysis_words import statement
 from lostmotion.workflow.beat import Beat, Evidence, beat_of, returns
 from lostmotion.workflow.motion import Verdict, judged
-from lostmotion.workflow.signs import CYCLES
 from lostmotion.workflow.source import Source, Wanted, source_of
 from lostmotion.workflow.vetting import Guests
 
@@ -36,10 +47,6 @@ if TYPE_CHECKING:
     import xarray as xr
 
 Say = Callable[[str], None]
-EXPONENT, DIMENSION, ENTROPY = "lyapunov_kantz", "correlation_dimension", "correlation_entropy"
-EMBEDDER = "ami_cao"
-METER, CHECKS = "noise_level", ("lyapunov_rosenstein",)
-CLEANER, STATISTIC, NULL = "local_projective", "prediction_error", "iaaft"
 STREAMS = ("denoise", "exponent", "dimension", "entropy", "surrogates", "others", "dimensions")
 QUIET, LOUD = 0.003, 0.3
 """Noise below this share of the standard deviation is left alone, as no method here sees it; and above it, as no
@@ -144,7 +151,7 @@ def analyse(source: Source, registry: Registry, request: Request, say: Say = lam
     measured = _Measured(denoised.series, guests, request, beat, say)
     exponent, dimension = grown(EXPONENT, "exponent"), measured(DIMENSION, "dimension")
     entropy = measured(ENTROPY, "entropy")
-    others = {name: grown(name, "others") for name in dict.fromkeys((*CHECKS, *request.quantifiers))}
+    others = {name: grown(name, "others") for name in dict.fromkeys((*EXPONENT_CHECKS, *request.quantifiers))}
     tests = _tests(raw, guests, request, say)
     return Analysis(
         source=source,
@@ -219,7 +226,7 @@ def _cleaned(raw: Series, guests: Guests, request: Request) -> tuple[Denoised, s
     level = meter.estimate(raw, rng=rng)
     if request.denoiser == "none" or (request.denoiser is None and not QUIET < level.value < LOUD):
         return Denoised(raw, level, level), "none"
-    name = request.denoiser or CLEANER
+    name = request.denoiser or DENOISER
     denoiser = registry.make("denoiser", name)
     cleaned = guests("denoiser", name, raw.x, lambda: denoise(raw, denoiser, meter, rng=rng))
     return (cleaned, name) if cleaned else (Denoised(raw, level, level), "none")
@@ -236,7 +243,7 @@ def _converted(estimate: Estimate, request: Request, beat: Beat) -> Estimate:
 
 def _tests(raw: Series, guests: Guests, request: Request, say: Say) -> tuple[SurrogateTest, ...]:
     """Return the surrogate tests: on the recording as it is, since noise reduction makes any series look ruled."""
-    names = request.surrogates or ((NULL, "pseudo_periodic") if raw.period else (NULL,))
+    names = request.surrogates or ((SURROGATE, SURROGATE_OF_CYCLES) if raw.period else (SURROGATE,))
     statistic, tests = _reader(guests.registry, STATISTIC), []
     for stream, name in zip(request.rng("surrogates").spawn(len(names)), names, strict=True):
         say(f"{name} surrogates")
@@ -244,12 +251,12 @@ def _tests(raw: Series, guests: Guests, request: Request, say: Say) -> tuple[Sur
         test = partial(surrogate_test, raw, surrogate, statistic, draws=request.draws, sided="low", jobs=request.jobs)
         tests.append(guests("surrogate", name, raw.x, partial(test, rng=stream)))
     found = tuple(test for test in tests if test)
-    return found or _tests(raw, guests, replace(request, surrogates=(NULL,)), say)
+    return found or _tests(raw, guests, replace(request, surrogates=(SURROGATE,)), say)
 
 
 def _options(name: str, raw: Series) -> dict[str, int]:
     """Return the options of a surrogate: cycles stay together over as many periods as the motion needs to return."""
-    if name != CYCLES or raw.period is None:
+    if name != SURROGATE_OF_CYCLES or raw.period is None:
         return {}
     spread = returns(raw, raw.period)[:FEW]
     best = int(np.nanargmin(spread))
@@ -262,7 +269,7 @@ def _surrogate_dims(raw: Series, registry: Registry, request: Request, say: Say)
     rng = request.rng("dimensions")
     quantifier = registry.make("quantifier", DIMENSION, fast=True)
     rows = []
-    for x in registry.make("surrogate", NULL).draw(raw, draws=PICTURED, rng=rng):
+    for x in registry.make("surrogate", SURROGATE).draw(raw, draws=PICTURED, rng=rng):
         found = quantify(replace(raw, x=x), quantifier, rng=rng)
         if "dimension_by_dim" in found.curve:
             rows.append(found.curve["dimension_by_dim"])

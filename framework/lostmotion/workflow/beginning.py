@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from lostmotion.case import WRITTEN
 from lostmotion.contracts import Array, Model
+from lostmotion.defaults import CARRIAGE, JOINT, OSCILLATOR, SLIDER
 from lostmotion.errors import CaseError
 from lostmotion.parts import Param
 from lostmotion.quantities import LENGTH, si_factor
@@ -98,8 +99,8 @@ def _model_for(outline: Outline, scales: Scales) -> str:
     """Return the textbook model of what was recorded: a joint where the base moves, else an oscillator or a drive."""
     drive = outline.drive
     if drive is not None and drive.kind == "position":
-        return "robot_joint" if drive.turns else "backlash_slider"
-    return "linear_oscillator" if "k" in scales.straight or drive is None or drive.kind != "force" else "rigid_drive"
+        return JOINT if drive.turns else SLIDER
+    return OSCILLATOR if "k" in scales.straight or drive is None or drive.kind != "force" else CARRIAGE
 
 
 def _check(outline: Outline, machine: Model) -> None:

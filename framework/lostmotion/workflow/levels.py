@@ -14,13 +14,14 @@ import numpy as np
 from lostmotion.case import CaseFile, Prior
 from lostmotion.case.levels import Level
 from lostmotion.contracts import Array, Model
+from lostmotion.defaults import SECTION_DIMENSION
 from lostmotion.errors import CaseError, ContractError, DataError, nearest
 from lostmotion.likelihood.space import Free
 from lostmotion.likelihood.system import System
 from lostmotion.quantities import unit_of
 from lostmotion.registry import Registry
 from lostmotion.stages.identify import Cloud, Shown, Task
-from lostmotion.study.atlas import DIMENSION, RATIO, Atlas
+from lostmotion.study.atlas import RATIO, Atlas
 from lostmotion.study.inversion import Inversion, grouped
 from lostmotion.study.map import Map
 from lostmotion.study.numbers import Law, Power, law_of
@@ -248,7 +249,8 @@ def request_for(wanted: Wanted, group: Sequence[int], survey: Survey) -> Request
         fixed[RATIO] = float(f"{np.mean([wanted.fixed[f'{RATIO} {k}'] for k in group]):.5g}")
     return Request(
         wanted.model.name, tuple(axes), survey.periods, survey.transient, survey.starts,
-        sets=tuple(f"{key}={value!r}" for key, value in fixed.items()), quantities=(DIMENSION,), seed=survey.seed,
+        sets=tuple(f"{key}={value!r}" for key, value in fixed.items()),
+        quantities=(SECTION_DIMENSION,), seed=survey.seed,
     )  # fmt: skip
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field, fields
 from pathlib import Path
 
+from lostmotion.defaults import DIMENSION, EMBEDDER, ENTROPY, FLOW_EXPONENT
 from lostmotion.errors import CaseError, DataError
 from lostmotion.registry import Registry
 from lostmotion.storage import folder_for
@@ -19,9 +20,8 @@ from lostmotion.study.sweep import Crew, Say, sweep
 from lostmotion.workflow.drives import Options, number, pairs
 from lostmotion.workflow.simulate import assembly_of
 
-SHORT = {"d2": "correlation_dimension", "k2": "correlation_entropy"}
+SHORT = {"d2": DIMENSION, "k2": ENTROPY}
 """Short names of quantities."""
-EMBEDDER = "ami_cao"
 
 
 @dataclass(frozen=True)
@@ -57,12 +57,12 @@ def study_of(request: Request, registry: Registry) -> Study:
     settings = {"periods": request.periods, "transient": request.transient}
     further = {}
     for name in request.quantities:
-        if name != "lyapunov_max":
+        if name != FLOW_EXPONENT:
             full = SHORT.get(name, name)
             known = {entry.name for entry in fields(registry.load("quantifier", full))}
             further[name] = registry.make("quantifier", full, **{k: v for k, v in settings.items() if k in known})
     embedder = registry.make("embedder", EMBEDDER) if any(q.reads == "series" for q in further.values()) else None
-    exponent = registry.make("quantifier", "lyapunov_max", **settings)
+    exponent = registry.make("quantifier", FLOW_EXPONENT, **settings)
     used = [("model", request.model), *(("term", t.name) for t in assembly.terms)]
     used += [("quantifier", SHORT.get(name, name)) for name in further]
     study = Study(

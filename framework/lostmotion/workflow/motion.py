@@ -9,9 +9,10 @@ from typing import Literal
 import numpy as np
 
 from lostmotion.contracts import Series
+from lostmotion.defaults import SURROGATE_OF_CYCLES
 from lostmotion.results import Estimate, percent
 from lostmotion.workflow.beat import MOST_PERIODS, Evidence, returned, returns
-from lostmotion.workflow.signs import CYCLES, FEWEST_SAMPLES, Sign, State, grows, signs_of, turn_of
+from lostmotion.workflow.signs import FEWEST_SAMPLES, Sign, State, grows, signs_of, turn_of
 
 Motion = Literal["periodic", "quasiperiodic", "chaotic", "stochastic", "undecided"]
 Strength = Literal["firm", "likely", "open"]
@@ -23,7 +24,7 @@ TOLD_APART = 0.25
 MEASURED = ("exponent", "dimension", "entropy")
 """What is measured of a motion."""
 LINEAR = "surrogates_"
-TESTED_CYCLES = LINEAR + CYCLES
+TESTED_CYCLES = LINEAR + SURROGATE_OF_CYCLES
 
 
 @dataclass(frozen=True)
@@ -184,7 +185,7 @@ def _jittering(it: Weighed) -> Verdict | None:
     signs = "for" in (it.state("exponent"), it.state("dimension")) or grows(evidence.exponent)
     if left**2 > it.evidence.limits.left or (signs and not shuffled):
         return None
-    p = next((t.p for t in evidence.tests if t.method == CYCLES), np.nan)
+    p = next((t.p for t in evidence.tests if t.method == SURROGATE_OF_CYCLES), np.nan)
     why = (
         f"cycles in any other order look just like it (p = {p:.2g})"
         if shuffled

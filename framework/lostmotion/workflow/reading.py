@@ -14,6 +14,7 @@ import numpy as np
 from lostmotion.case import CaseFile
 from lostmotion.case.levels import Level, Measured
 from lostmotion.contracts import Array
+from lostmotion.defaults import DIMENSION, EMBEDDER, EXPONENT, METER
 from lostmotion.errors import CaseError
 from lostmotion.recording import Recording, load_recording
 from lostmotion.registry import Registry
@@ -23,7 +24,6 @@ from lostmotion.stages.embed import embed
 from lostmotion.stages.quantify import quantify
 from lostmotion.workflow.beat import LOUDEST, returned
 
-EMBEDDER, EXPONENT, DIMENSION, METER = "ami_cao", "lyapunov_kantz", "correlation_dimension", "noise_level"
 PAIRS = 8_000_000
 """Pairs of points for a dimension: a fifth of the time of `analyse`, and an interval that is hardly wider."""
 ERRORS = {

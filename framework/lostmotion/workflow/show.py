@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from lostmotion.contracts import Array, Series
+from lostmotion.defaults import DIMENSION, EMBEDDER
 from lostmotion.errors import LostMotionError
 from lostmotion.inference.fit import Fit
 from lostmotion.likelihood.observation import Observation
@@ -26,7 +27,6 @@ from lostmotion.workflow.decays import stretches_of
 from lostmotion.workflow.findings import Outcome
 from lostmotion.workflow.show_words import TRANSIENT, said
 
-EMBEDDER, DIMENSION = "ami_cao", "correlation_dimension"
 PAIRS = 250_000
 """Pairs of points for a dimension: a few tenths of a second for 20,000 samples."""
 LONGEST = 50_000

@@ -12,13 +12,13 @@ from typing import Literal
 
 import numpy as np
 
+from lostmotion.defaults import SURROGATE_OF_CYCLES
 from lostmotion.results import Estimate, percent
 from lostmotion.signals.tones import TwoTones, two_tones
 from lostmotion.stages.surrogates import SurrogateTest
 from lostmotion.workflow.beat import MOST_PERIODS, SLACK, Evidence, returned
 
 State = Literal["for", "against", "silent"]
-CYCLES = "pseudo_periodic"
 FEWEST_SAMPLES = 1000
 """With fewer samples the rank among surrogates and the slopes depend on single stretches of the orbit."""
 FEWEST_PERIODS = 20
@@ -99,7 +99,7 @@ def _return(evidence: Evidence) -> Sign:
 
 
 def _test(test: SurrogateTest, evidence: Evidence) -> Sign:
-    cycles = test.method == CYCLES
+    cycles = test.method == SURROGATE_OF_CYCLES
     name = "Order of the cycles" if cycles else f"Not linear noise ({test.method.replace('_', ' ')})"
     excludes = "a periodic motion with noise" if cycles else test.null
 
