@@ -99,7 +99,7 @@ def concealed(task, folder):
             hidden = hidden_in(rig, effects)
             truth = moved(seen, *hidden, np.random.default_rng([seed, attempt]))
             own = moved(rig, *hidden, np.random.default_rng([seed, attempt]))
-        except ValueError:
+        except (ValueError, LostMotionError):
             continue
         if float(np.std(own)) > 3.0 * float(np.std(pilot.q)) or (
             "x0" in rig.values
@@ -151,7 +151,7 @@ def work(task):
         folder = Path(place)
         try:
             effects, rig, noise = concealed(task, folder)
-        except (ValueError, ArithmeticError) as err:
+        except (ValueError, ArithmeticError, LostMotionError) as err:
             return {**row, "status": f"not made: {err}"}
         begin = time.process_time()
         told = ["diagnose", str(folder / "case.toml"), "--out", str(folder / "out"), "--quiet", "--jobs", "1"]

@@ -173,6 +173,9 @@ def test_what_makes_predictions_worse_is_taken_back_until_they_are_not(monkeypat
     assert outcome.diagnosis.withdrawn == ("curve", "b")
 
 
+NOTHING = SimpleNamespace(active=frozenset())
+
+
 @pytest.mark.parametrize(
     ("scores", "leads", "chosen"),
     [
@@ -186,7 +189,7 @@ def test_what_makes_predictions_worse_is_taken_back_until_they_are_not(monkeypat
 )
 def test_held_out_data_decide_between_a_term_and_a_smooth_force(monkeypatch, scores, leads, chosen):
     """Log odds of the fitted data and log scores of held-out data add; odds of 20, times those asked, are wanted."""
-    fits = {k: SimpleNamespace(status="converged", key=k, problem=None) for k in scores}
+    fits = {k: SimpleNamespace(status="converged", key=k, problem=NOTHING) for k in scores}
     visits = {frozenset(k): Visit(frozenset(k), fits[k], 50.0 if k else 0.0) for k in ("", *leads)}
     selection = SimpleNamespace(
         chosen=SimpleNamespace(problem=SimpleNamespace(active=frozenset())),

@@ -37,9 +37,8 @@ class Visit:
 class Won(NamedTuple):
     """What smooth forces have won when they were fitted: log evidence, their log price, and what is promised `beside`.
 
-    That rest, wrong known values and channels, is believed up to a limit, and not at all once it was tried and did not
-    come true. `fit` is the one with the smooth forces, to the recordings as they are, and `right` the one to recordings
-    whose channels were put right.
+    That rest, wrong known values and channels, is believed up to a limit. `fit` is the one with the smooth
+    forces, to the recordings as they are, and `right` the one to recordings whose channels were put right.
     """
 
     evidence: float
@@ -47,11 +46,6 @@ class Won(NamedTuple):
     beside: float
     fit: Fit
     right: Righted | None = None
-
-    @property
-    def proven(self) -> Won:
-        """The same without what is only promised."""
-        return self._replace(beside=min(self.beside, 0.0))
 
     @property
     def open(self) -> float:
@@ -67,28 +61,28 @@ def _won_by(found: tuple[Fit, float] | None, fit: Fit) -> Won | None:
     """Return what a fit with smooth forces has won over the one without; None where there is none."""
     if found is None or found[0].status == "diverged":
         return None
-    best, price, rest, tried = _settled(*found)
+    best, price, rest = _settled(*found)
     right = None
-    won = Won(best.log_evidence - fit.log_evidence, price, _believed(rest, tried), best)
+    won = Won(best.log_evidence - fit.log_evidence, price, _believed(rest), best)
     for _ in range(RIGHTED):
         if not rest.bare(rest.worse) > rest.fit.problem.settings.rival.much:
-            return won
+            break
         right = righted(rest, right)
         if right is None or right.fit.status == "diverged":
-            return won
+            break
         rest = expanded(right.fit)
         evidence = right.fit.log_evidence + right.wider - fit.log_evidence
-        more = Won(evidence, price + right.price, _believed(rest, tried), best, right)
+        more = Won(evidence, price + right.price, _believed(rest), best, right)
         if not more.over(rest.worse) > won.over(rest.worse):
-            return max(won.proven, more.proven, key=lambda w: w.over(rest.worse))
+            break
         won = more
-    return won.proven
+    return won
 
 
-def _settled(best: Fit, price: float) -> tuple[Fit, float, Expansion, bool]:
+def _settled(best: Fit, price: float) -> tuple[Fit, float, Expansion]:
     """Return a fit with smooth forces, and with more of them as long as these promise news and it comes true.
 
-    With it its log price, the expansion about it, and whether more was tried and did not come true.
+    With it its log price, and the expansion about it.
     """
     rest = expanded(best)
     for _ in range(AGAIN):
@@ -96,19 +90,16 @@ def _settled(best: Fit, price: float) -> tuple[Fit, float, Expansion, bool]:
             break
         more = fitted(rest)
         if more is None or more[0].status == "diverged" or more[0].log_evidence - more[1] < best.log_evidence:
-            return best, price, rest, True
+            break
         best, price = more[0], price + more[1]
         rest = expanded(best)
-    return best, price, rest, False
+    return best, price, rest
 
 
-def _believed(rest: Expansion, tried: bool) -> float:
-    """Return what is believed of the promise of an expansion about a fit with smooth forces, up to a limit.
-
-    Where more smooth forces were `tried` and did not come true, that of known values and channels alone.
-    """
+def _believed(rest: Expansion) -> float:
+    """Return what is believed of the promise of an expansion about a fit with smooth forces: no more than a limit."""
     promised, limits = rest.gain(), rest.fit.problem.settings.rival
-    return min(promised if promised < limits.absurd and not tried else rest.bare(rest.worse), limits.much)
+    return min(promised if promised < limits.absurd else rest.bare(rest.worse), limits.much)
 
 
 class Lead(NamedTuple):

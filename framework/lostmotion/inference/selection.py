@@ -66,7 +66,7 @@ class Selector:
         self._settled: set[frozenset[str]] = set()
         self._been: set[frozenset[str]] = set()
         self._retold: set[frozenset[str]] = set()
-        self._sure: dict[tuple[frozenset[str], frozenset[str]], tuple[float, float]] = {}
+        self._sure: dict[frozenset[str], tuple[float, float]] = {}
         self._visit(nominal)
 
     def run(self) -> Selection:
@@ -254,10 +254,9 @@ class Selector:
         stand out of its robust deviation; where that is more than some times the usual, the set has to take a
         share off the random force.
         """
-        both = visit.terms, here.terms
-        if both not in self._sure:
-            self._sure[both] = standing(visit.fit, here.fit if visit.terms > here.terms else None)
-        least, memory = self._sure[both]
+        if visit.terms not in self._sure:
+            self._sure[visit.terms] = standing(visit.fit)
+        least, memory = self._sure[visit.terms]
         levels = [v.fit.theta[v.fit.problem.keys.index(RANDOM)] for v in (visit, here)]
         calm = memory < self.limits.memory or levels[0] < levels[1] + math.log(1.0 - self.limits.share)
         return least > self.limits.certain and calm

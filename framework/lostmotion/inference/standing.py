@@ -16,24 +16,17 @@ CERTAIN = 3.0
 """An amplitude counts when it is this many robust standard deviations from nothing."""
 
 
-def standing(fit: Fit, without: Fit | None = None) -> tuple[float, float]:
+def standing(fit: Fit) -> tuple[float, float]:
     """Return the least amplitude in robust standard deviations, and how much wider those are than usual.
 
-    The signed amplitudes of a term are one: a wave has a cosine and a sine, and either may be nothing. Terms that a fit
-    `without` them lacks count by the root of twice the log-likelihood that they gain too, over that width, whichever is
-    more: an amplitude may be vague since a shape goes with it, such as the share of a drive beyond a limit and that
-    limit, where their product is well known (Rotnitzky, Jewell, Biometrika 77 (1990) 485-497).
+    The signed amplitudes of a term are one: a wave has a cosine and a sine, and either may be nothing.
     """
     robust, usual = robust_covariance(fit), fit.local.covariance
-    groups = [(term, at) for term in sorted(fit.problem.active) for at in _amplitudes(fit.problem, term)]
-    every = [i for _, at in groups for i in at]
-    ratios = np.sqrt(np.diag(robust)[every] / np.maximum(np.diag(usual)[every], 1e-300))
-    wider, gained = float(np.max(ratios, initial=1.0)), 0.0
-    new = fit.problem.active - without.problem.active if without else frozenset[str]()
-    if without:
-        gained = math.sqrt(max(2.0 * (fit.log_likelihood - without.log_likelihood), 0.0)) / wider
-    sizes = [max(deviations(fit.theta[at], robust[np.ix_(at, at)]), gained * (term in new)) for term, at in groups]
-    return min(sizes, default=math.inf), wider
+    groups = [at for term in sorted(fit.problem.active) for at in _amplitudes(fit.problem, term)]
+    sizes = [deviations(fit.theta[at], robust[np.ix_(at, at)]) for at in groups]
+    every = [i for at in groups for i in at]
+    wider = np.sqrt(np.diag(robust)[every] / np.maximum(np.diag(usual)[every], 1e-300))
+    return min(sizes, default=math.inf), float(np.max(wider, initial=1.0))
 
 
 def _amplitudes(problem: Problem, key: str) -> list[list[int]]:

@@ -15,6 +15,7 @@ import numpy as np
 from lostmotion.contracts import Array
 from lostmotion.inference.course import Selection, Visit
 from lostmotion.inference.fit import Fit
+from lostmotion.inference.learned import OverTime
 from lostmotion.inference.natural import term_of
 from lostmotion.inference.rival import Righted
 from lostmotion.likelihood.observation import Observation
@@ -82,7 +83,7 @@ def decided(outcome: Outcome, observations: Sequence[Observation]) -> tuple[Fit,
     """
     d, selection = outcome.diagnosis, outcome.diagnosis.selection
     here = selection.visits.get(selection.chosen.problem.active)
-    if here is None:
+    if here is None or _over_time(selection, here):
         return None
     decisive, behind = d.settings.select.decisive, d.settings.heldout.behind
     unbeaten = [v for v in _unbeaten(selection, here, decisive) if selection.lead(v, here) > -behind]
@@ -103,6 +104,12 @@ def decided(outcome: Outcome, observations: Sequence[Observation]) -> tuple[Fit,
     if not selection.lead(best, here) + won[best.terms] - math.log(len(close)) > decisive:
         return None
     return best.fit, won
+
+
+def _over_time(selection: Selection, here: Visit) -> bool:
+    """Return whether the smooth force beside a set is one over time: nobody knows how that goes on."""
+    rival = selection.won(here)
+    return rival is not None and any(OverTime.name in key for key in rival.fit.problem.active)
 
 
 def _unbeaten(selection: Selection, here: Visit, decisive: float) -> list[Visit]:
