@@ -15,6 +15,7 @@ from lostmotion.inference.course import Selection, Visit
 from lostmotion.likelihood.drive import Tone
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.space import FADE, SLOW, Free
+from lostmotion.settings import DEFAULT
 from lostmotion.stages._excitations import Limits, candidates_for, usual_limits
 from lostmotion.stages._rehearsal import Asked, Model, _slow, evidence, simulated
 from lostmotion.stages.experiment import Proposal, _counted, natural_of, news, propose
@@ -195,6 +196,7 @@ class Outcome:
     def __init__(self, fit, visits):
         self.found = tuple(fit.problem.active)
         self.selection = Selection(fit, fit, visits)
+        self.settings = DEFAULT
 
 
 @pytest.fixture

@@ -180,14 +180,14 @@ def test_a_diagnosis_begins_anew_without_the_term_that_broke_down(known, monkeyp
     prepared = Prepared(Nothing(), (), (), guests.Cart(), (ours, guests.Drag(), more()))
     tried = []
 
-    def fails_at_first(case, observations, system, *, rng, jobs, say):
+    def fails_at_first(case, observations, system, *, rng):
         tried.append((system.keys, float(rng.random())))
         if len(tried) == 1:
             raise ContractError("the force is not a finite number along the recorded motion", plugin)
         return "diagnosis"
 
     monkeypatch.setattr(diagnose, "diagnose", fails_at_first)
-    found, kept, _ = diagnose._diagnosed(prepared, known, 3, jobs=1, say=print)
+    found, kept, _ = diagnose._diagnosed(prepared, known, 3, diagnose.diagnose)
     assert found == "diagnosis"
     assert set(tried[0][0]) - set(tried[1][0]) == left
     assert tried[0][1] == tried[1][1]
@@ -199,7 +199,7 @@ def test_a_diagnosis_begins_anew_without_the_term_that_broke_down(known, monkeyp
 
     monkeypatch.setattr(diagnose, "diagnose", fails)
     with pytest.raises(ContractError, match="one of ours"):
-        diagnose._diagnosed(prepared, known, 3, jobs=1, say=print)
+        diagnose._diagnosed(prepared, known, 3, diagnose.diagnose)
 
 
 CASE = """
