@@ -97,6 +97,7 @@ def test_a_method_is_set_aside_and_its_samples_are_as_they_were(known, cls, why)
     assert np.array_equal(series.x, x)
 
 
+@pytest.mark.slow
 def test_good_methods_are_used(known):
     x = np.sin(0.3 * np.arange(1200.0)) + 0.1 * np.random.default_rng(0).normal(size=1200)
     watch, beat = Guests(known), Beat(None, "none")

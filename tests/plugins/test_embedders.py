@@ -145,6 +145,7 @@ def slow_knn(x, lag, k):
     return digamma(k) + digamma(len(a)) - np.mean(digamma(along) + digamma(across))
 
 
+@pytest.mark.slow
 def test_mutual_information_by_neighbours_is_the_formula_of_its_paper(lorenz):
     x = lorenz[:600]
     ami, error = information.mutual_information_knn(x, 12, rng=np.random.default_rng(0))
