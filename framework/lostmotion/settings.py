@@ -18,7 +18,8 @@ from lostmotion.errors import CaseError, nearest
 
 def _number(value: float, why: str, source: str = "", least: float = 0.0, most: float = math.inf) -> Any:
     """Return a field with its default, the reason for it, where it comes from and the range it may have."""
-    return field(default=value, metadata={"why": why, "source": source, "least": least, "most": most})
+    told = {"default": value, "why": why, "source": source, "least": least, "most": most}
+    return field(default=value, metadata=told)
 
 
 @dataclass(frozen=True)
@@ -39,7 +40,7 @@ class Locate:
     )
     told: float = _number(0.05, "A covariate that explains less than this share of the variance is not told.", most=1.0)
     tied: float = _number(
-        3.0, ("Covariates whose log likelihood ratios differ by less than this are not told apart: a factor of twenty.")
+        3.0, "Covariates whose log likelihood ratios differ by less than this are not told apart: a factor of twenty."
     )
     signed: float = _number(
         0.97,
@@ -51,7 +52,7 @@ class Locate:
     )
     marks: float = _number(
         0.05,
-        ("Marks in the stored values, such as steps of a converter, count from this share of the noise variance on."),
+        "Marks in the stored values, such as steps of a converter, count from this share of the noise variance on.",
         most=1.0,
     )
 
@@ -84,7 +85,7 @@ class Select:
     )
     outshone: float = _number(
         0.1,
-        ("Terms that win less than this share, each, of what one learned curve promises only stand in for it."),
+        "Terms that win less than this share, each, of what one learned curve promises only stand in for it.",
         most=1.0,
     )
     commoner: float = _number(
@@ -114,7 +115,7 @@ class Rival:
     )
     late: float = _number(
         0.5,
-        ("The standard deviation of the time between channels, in samples: acquisition systems filter and multiplex."),
+        "The standard deviation of the time between channels, in samples: acquisition systems filter and multiplex.",
     )
     much: float = _number(
         20.0,
@@ -167,12 +168,12 @@ class HeldOut:
     less: float = _number(0.5, "Free runs err by much less when their error falls below this share.", most=1.0)
     chance: float = _number(
         0.05,
-        ("The chance of calling a model better that is not: Student's paired test over ten parts of held-out data."),
+        "The chance of calling a model better that is not: Student's paired test over ten parts of held-out data.",
         most=1.0,
     )
     explains: float = _number(
         0.5,
-        ("A set of terms that may predict better must win this share of what the chosen one wins on the fitted data."),
+        "A set of terms that may predict better must win this share of what the chosen one wins on the fitted data.",
         most=1.0,
     )
     behind: float = _number(
@@ -235,7 +236,7 @@ class Chain:
     )
     steady: float = _number(
         0.02,
-        ("The longest autocorrelation time has settled when it grows by less than this share between checks."),
+        "The longest autocorrelation time has settled when it grows by less than this share between checks.",
         most=1.0,
     )
     agreed: float = _number(
@@ -258,15 +259,15 @@ class Motion:
         ),
     )
     turns: float = _number(
-        1.0, ("Growth over fewer turns of the motion is no sign: within a turn distances rise and fall by themselves.")
+        1.0, "Growth over fewer turns of the motion is no sign: within a turn distances rise and fall by themselves."
     )
     flat: float = _number(
-        1.5, ("A dimension whose interval ends below this is that of a closed curve: a chaotic flow has more than 2.")
+        1.5, "A dimension whose interval ends below this is that of a closed curve: a chaotic flow has more than 2."
     )
     still: float = _number(0.05, "An entropy below so many e-foldings in a turn cannot be told from zero.")
     left: float = _number(
         0.5,
-        ("The share of the variance that may not repeat in a motion that is called periodic but for fluctuations."),
+        "The share of the variance that may not repeat in a motion that is called periodic but for fluctuations.",
         most=1.0,
     )
     uneven: float = _number(
@@ -278,13 +279,15 @@ class Motion:
 
 
 class Setting(NamedTuple):
-    """One threshold as people look it up: `stage.name`, its value and default, why it is so, and where that is from."""
+    """One threshold as people look it up: `stage.name`, value and default, why it is so, its source, and its range."""
 
     key: str
     value: float
     default: float
     why: str
     source: str
+    least: float
+    most: float
 
 
 @dataclass(frozen=True)
@@ -308,7 +311,7 @@ class Settings:
             if key not in known:
                 raise CaseError(f"there is no setting {key!r}{nearest(key, known)}: `lostmotion settings` lists them")
             stage, _, name = key.partition(".")
-            made = replace(made, **{stage: replace(getattr(made, stage), **{name: _checked(key, value)})})
+            made = replace(made, **{stage: replace(getattr(made, stage), **{name: _checked(known[key], value)})})
         return made
 
     def __iter__(self) -> Iterator[Setting]:
@@ -316,9 +319,7 @@ class Settings:
         for stage in fields(self):
             own = getattr(self, stage.name)
             for f in fields(own):
-                told: Mapping[str, Any] = {"default": f.default, **f.metadata}
-                value, usual = float(getattr(own, f.name)), float(told["default"])
-                yield Setting(f"{stage.name}.{f.name}", value, usual, told["why"], told["source"])
+                yield Setting(f"{stage.name}.{f.name}", getattr(own, f.name), **f.metadata)
 
     def as_dict(self) -> dict[str, dict[str, float]]:
         """Return all of them as nested mappings, for the provenance of a result."""
@@ -329,16 +330,15 @@ DEFAULT = Settings()
 """The settings that hold where nobody says anything."""
 
 
-def _checked(key: str, value: object) -> float:
+def _checked(setting: Setting, value: object) -> float:
     """Return a value for a setting, or raise `CaseError` with what was wanted."""
-    stage, _, name = key.partition(".")
-    told = next(f for f in fields(getattr(DEFAULT, stage)) if f.name == name).metadata
     try:
         number = float(value)  # type: ignore[arg-type]
     except (TypeError, ValueError):
         number = math.nan
-    if not told["least"] <= number <= told["most"] or not math.isfinite(number):
-        raise CaseError(f"the setting {key} is {value!r}: wanted a number from {told['least']:g} to {told['most']:g}")
+    if not setting.least <= number <= setting.most or not math.isfinite(number):
+        wanted = f"a number from {setting.least:g} to {setting.most:g}"
+        raise CaseError(f"the setting {setting.key} is {value!r}: wanted {wanted}")
     return number
 
 

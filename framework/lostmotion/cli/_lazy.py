@@ -96,10 +96,10 @@ class LazyGroup(click.Group):
         """Return name, command and the arguments left; an unknown name is told with the nearest known one."""
         if args[0] not in self.table and not args[0].startswith("-"):
             known = self.commands_of(ctx)
-            for entry in registry_of(ctx).entries():
-                if (entry.kind, entry.name) == (COMMAND, args[0]) and entry.why:
-                    raise SentenceError(entry.why)
             if args[0] not in known:
+                for entry in registry_of(ctx).entries():
+                    if (entry.kind, entry.name) == (COMMAND, args[0]):
+                        raise SentenceError(entry.why)
                 raise click.UsageError(f"there is no command {args[0]!r}{nearest(args[0], known)}", ctx)
         return super().resolve_command(ctx, args)
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import click
 
 from lostmotion.cli._lazy import PluginName, examples, registry_of
-from lostmotion.cli.options import settable, usual_folder
+from lostmotion.cli.options import on_a_trial, settable
 from lostmotion.cli.progress import progress
 from lostmotion.defaults import EMBEDDER
 
@@ -23,14 +23,6 @@ RATES = ("1/s", "bit/s", "1/period", "bit/period")
     )
 )
 @click.argument("recording", metavar="CASE.toml|RECORDING", type=click.Path(path_type=Path))
-@click.option(
-    "--out",
-    default=usual_folder,
-    show_default="lostmotion-analyse",
-    metavar="DIR",
-    type=click.Path(file_okay=False, path_type=Path),
-    help="Where the results go.",
-)
 @click.option(
     "--column",
     "columns",
@@ -51,10 +43,8 @@ RATES = ("1/s", "bit/s", "1/period", "bit/period")
 @click.option("--surrogate", "surrogates", type=PluginName("surrogate"), multiple=True, help="A null to be tested.")
 @click.option("--draws", default=99, show_default=True, type=click.IntRange(19, 9999), help="Surrogates for each test.")
 @click.option("--unit", default="1/s", show_default=True, type=click.Choice(RATES), help="Unit of the exponents.")
-@click.option("--seed", default=0, show_default=True, type=click.IntRange(0), help="The same seed, the same bytes.")
-@click.option("--jobs", default=2, show_default=True, type=click.IntRange(1), help="How many cores to use.")
-@click.option("--quiet", is_flag=True, help="Show no progress.")
 @settable
+@on_a_trial
 @click.pass_context
 def command(ctx: click.Context, /, recording: Path, out: Path, quiet: bool, **asked: object) -> None:
     """Tell whether a recorded motion is periodic, chaotic, or noise that looks like it, and how sure that is.

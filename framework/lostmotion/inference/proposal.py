@@ -22,7 +22,7 @@ TURNS = np.arange(1.0, 20.01, 0.1)
 MIDDLES = np.linspace(-0.9, 0.9, 73)
 WIDTHS = (0.06, 0.08, 0.1, 0.15, 0.25, 0.4)
 ENOUGH = 0.98
-"""A formula tells so much of a curve at least; once it tells so much, nothing is added."""
+"""Once a formula tells so much of a curve, nothing is added."""
 MORE = 6.0
 """A further piece has to better Akaike's criterion by this."""
 

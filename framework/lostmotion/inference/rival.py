@@ -356,12 +356,11 @@ def righted(expansion: Expansion, before: Righted | None = None) -> Righted | No
     best, observations = expansion.promise(), fit.problem.observations
     widths, already = best.widths[-count:], before.sizes if before else np.zeros(count)
     sizes = np.clip(already + best.mean[-count:], -USUAL * widths, USUAL * widths)
-    wider = before.wider if before else 0.0
-    steps = zip([gauge.change for gauge in expansion.gauges], map(float, sizes - already), strict=True)
-    changes = (*(before.changes if before else ()), *steps)
-    for gauge, size in zip(expansion.gauges, sizes - already, strict=True):
-        observations = tuple(gauge.change(o, float(size)) for o in observations)
-        wider += gauge.stretch * float(size)
+    wider, changes = (before.wider, before.changes) if before else (0.0, ())
+    for gauge, size in zip(expansion.gauges, map(float, sizes - already), strict=True):
+        observations = tuple(gauge.change(o, size) for o in observations)
+        wider += gauge.stretch * size
+        changes += ((gauge.change, size),)
     problem = restarted(fit).on(observations)
     begin = problem.clip(expansion.moved_by(sizes - already))
     better = maximise(problem, begin, rounds=RIGHTING, tolerance=0.3)

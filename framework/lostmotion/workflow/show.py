@@ -89,7 +89,7 @@ def shown(seen: Seen, rng: np.random.Generator) -> dict[str, Any]:
         "whiteness": "1",
     }
     table["horizon"] = {"value": outcome.horizon.number, "unit": unit}
-    return {**table, "says": said(table, strobed, driven=not d.shown.free)}
+    return {**table, "says": said(table, strobed, driven=not d.shown.free, white=d.settings.name.white)}
 
 
 def _no_distances(names: Iterable[str]) -> dict[str, Apart]:

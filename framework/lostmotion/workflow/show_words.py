@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from lostmotion.report.words import span
+from lostmotion.settings import DEFAULT
 
 LUCK, DOUBTFUL = 0.01, 0.05
 TRANSIENT = "transient"
@@ -14,8 +15,11 @@ TRANSIENT = "transient"
 Table = Mapping[str, Any]
 
 
-def said(table: Table, strobed: bool, *, driven: bool = True) -> dict[str, str]:
-    """Return a sentence for each measure that stands in the table; `driven` says whether an input was recorded."""
+def said(table: Table, strobed: bool, *, driven: bool = True, white: float = DEFAULT.name.white) -> dict[str, str]:
+    """Return a sentence for each measure that stands in the table; `driven` says whether an input was recorded.
+
+    A p-value of whiteness below `white` is told as a finding, and below five times that as a doubt.
+    """
     last = "after" if "after" in table else "before"
     return {
         "heldout_log_score": _score(table, last),
@@ -24,7 +28,7 @@ def said(table: Table, strobed: bool, *, driven: bool = True) -> dict[str, str]:
         "attractor_distance": _apart(table, last, strobed),
         "largest_exponent": _exponent(table, last, driven=driven),
         "d2": _dimension(table, last),
-        "whiteness": _white(table, last),
+        "whiteness": _white(table, last, white),
     }
 
 
@@ -98,10 +102,10 @@ def _dimension(table: Table, last: str) -> str:
     return f"{opening}: their intervals {'meet' if meet else 'do not meet'}."
 
 
-def _white(table: Table, last: str) -> str:
+def _white(table: Table, last: str, certain: float) -> str:
     p = _number(table, last, "whiteness", "p")
-    if p < LUCK:
+    if p < certain:
         return "Ljung-Box test of one-step errors: they still hold something that can be predicted."
-    if p < DOUBTFUL:
+    if p < 5.0 * certain:
         return f"Ljung-Box test of one-step errors: they may hold something that can be predicted (p = {p:.2g})."
     return "Ljung-Box test of one-step errors: they cannot be told from white noise."
