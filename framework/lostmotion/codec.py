@@ -1,0 +1,145 @@
+"""One codec for all results: frozen dataclasses to plain JSON values and back, and what each key of a file means.
+
+A field is written under its name, or under that of `told(key=...)`. Fields that are None by default are left out where
+they are None. Numbers that are not finite are written as null, and null is read as NaN where a number is wanted. Keys
+that nobody knows are ignored when a file is read, so that newer files can be read by older programs.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Iterator, Mapping
+from functools import cache
+from typing import Any, NamedTuple, TypeVar, get_args, get_type_hints
+
+import numpy as np
+from cattrs import BaseValidationError, Converter, transform_error
+from cattrs.gen import make_dict_structure_fn, make_dict_unstructure_fn, override
+
+from lostmotion.errors import DataError
+
+T = TypeVar("T")
+WORDS: Mapping[Any, str] = {float: "number", int: "whole number", str: "text", bool: "true or false"}
+
+
+def told(doc: str, *, unit: str = "", key: str = "", default: Any = dataclasses.MISSING) -> Any:
+    """Return a field of a result: what it means, for the schema; its unit; its `key` in a file where that differs.
+
+    A `default` that is a mapping stands for an empty one of its own in each result.
+    """
+    metadata = {"doc": doc, "unit": unit, "key": key}
+    if isinstance(default, dict):
+        return dataclasses.field(default_factory=dict, metadata=metadata)
+    return dataclasses.field(default=default, metadata=metadata)
+
+
+def to_plain(result: Any) -> Any:
+    """Return a result as JSON has it: mappings, lists, strings, numbers, true and false, null."""
+    return _converter().unstructure(result)
+
+
+def from_plain(kind: type[T], plain: Any, what: str = "the file") -> T:
+    """Return a result of a `kind` from plain JSON values; `DataError` says which key of `what` is wrong."""
+    try:
+        return _converter().structure(plain, kind)
+    except (BaseValidationError, TypeError, ValueError, KeyError) as err:
+        first = transform_error(err, path="", format_exception=_why)[0]
+        raise DataError(f"{what} is not what this program writes: {first}") from err
+
+
+class Entry(NamedTuple):
+    """A key of a result file: `path` such as `found[].probability`, its type in words, unit and meaning."""
+
+    path: str
+    type: str
+    unit: str
+    doc: str
+
+
+def schema(kind: type) -> Iterator[Entry]:
+    """Yield each key of the files of a kind of result, in the order in which it is written."""
+    yield from _entries(kind, "")
+
+
+def _entries(kind: Any, before: str) -> Iterator[Entry]:
+    hints = get_type_hints(kind)
+    for f in dataclasses.fields(kind):
+        path = before + (f.metadata.get("key") or f.name)
+        core, ending, words = _read(hints[f.name])
+        yield Entry(path + ending, words, f.metadata.get("unit", ""), f.metadata.get("doc", ""))
+        if dataclasses.is_dataclass(core):
+            yield from _entries(core, f"{path}{ending}.")
+
+
+def _read(hint: Any) -> tuple[Any, str, str]:
+    """Return the innermost type of a hint, the ending of a path into it, and the type in words."""
+    options = [one for one in get_args(hint) if one is not type(None)]
+    if type(None) in get_args(hint):
+        core, ending, words = _read(options[0])
+        return core, ending, f"{words}, or absent"
+    origin = getattr(hint, "__origin__", None)
+    if origin is tuple:
+        core, ending, words = _read(options[0])
+        return core, f"[]{ending}", f"list of {words}"
+    if isinstance(origin, type) and issubclass(origin, Mapping):
+        core, ending, words = _read(options[1])
+        return core, f".NAME{ending}", f"mapping of names to {words}"
+    return hint, "", "object" if dataclasses.is_dataclass(hint) else WORDS.get(hint, "value")
+
+
+@cache
+def _converter() -> Converter:
+    made = Converter()
+    made.register_unstructure_hook(float, lambda x: float(x) if math.isfinite(x) else None)
+    made.register_structure_hook(float, lambda x, _: _number(x))
+    made.register_structure_hook(int, lambda x, _: _whole(x))
+    made.register_structure_hook(bool, lambda x, _: _wanted(x, bool, "true or false"))
+    made.register_structure_hook(str, lambda x, _: _wanted(x, str, "a text"))
+    made.register_unstructure_hook_func(lambda kind: kind is np.ndarray, lambda x: made.unstructure(x.tolist()))
+    made.register_unstructure_hook_func(_is_scalar, lambda x: made.unstructure(x.item()))
+    made.register_unstructure_hook_factory(dataclasses.is_dataclass, lambda kind: _writer(kind, made))
+    made.register_structure_hook_factory(dataclasses.is_dataclass, lambda kind: _reader(kind, made))
+    return made
+
+
+def _is_scalar(kind: Any) -> bool:
+    return isinstance(kind, type) and issubclass(kind, np.generic)
+
+
+def _writer(kind: type, converter: Converter) -> Any:
+    how = {f.name: override(rename=f.metadata.get("key") or None, omit_if_default=f.default is None) for f in _of(kind)}
+    return make_dict_unstructure_fn(kind, converter, _cattrs_use_linecache=False, **how)  # type: ignore[arg-type]
+
+
+def _reader(kind: type, converter: Converter) -> Any:
+    how = {f.name: override(rename=f.metadata.get("key") or None) for f in _of(kind)}
+    return make_dict_structure_fn(kind, converter, _cattrs_use_linecache=False, **how)  # type: ignore[arg-type]
+
+
+def _of(kind: Any) -> tuple[dataclasses.Field[Any], ...]:
+    return dataclasses.fields(kind)
+
+
+def _number(x: Any) -> float:
+    if x is None:
+        return math.nan
+    if isinstance(x, bool) or not isinstance(x, int | float):
+        raise TypeError(f"wanted a number, found {x!r}")
+    return float(x)
+
+
+def _whole(x: Any) -> int:
+    if isinstance(x, bool) or not isinstance(x, int):
+        raise TypeError(f"wanted a whole number, found {x!r}")
+    return x
+
+
+def _wanted(x: Any, kind: type[T], words: str) -> T:
+    if not isinstance(x, kind):
+        raise TypeError(f"wanted {words}, found {x!r}")
+    return x
+
+
+def _why(err: BaseException, _: Any) -> str:
+    return f"{err.args[0]!r} is absent" if isinstance(err, KeyError) else str(err)

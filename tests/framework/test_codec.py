@@ -1,0 +1,81 @@
+"""Results are written and read by one codec: nothing is lost, and a file that is wrong is told at its key."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+
+from lostmotion.codec import from_plain, schema, to_plain, told
+from lostmotion.errors import DataError
+from lostmotion.results import Interval
+
+
+@dataclass(frozen=True)
+class Part:
+    name: str = told("what it is called")
+    size: float = told("how large it is", unit="m")
+    numbers: Mapping[str, Interval] = told("its numbers", default={})
+    late: Interval | None = told("since when", default=None)
+
+
+@dataclass(frozen=True)
+class Whole:
+    parts: tuple[Part, ...] = told("what it is made of")
+    curve: tuple[tuple[float, ...], ...] = told("a table", key="in", default=())
+    many: int = told("how many", default=3)
+    good: bool = told("whether it is good", default=True)
+
+
+WHOLE = Whole((Part("a", np.float64(0.5), {"k": Interval(1.0, 0.5, 2.0, "N")}), Part("b", 1.0)), ((1.0, 2.0),))
+
+
+def test_what_is_written_is_read():
+    plain = json.loads(json.dumps(to_plain(WHOLE)))
+    assert from_plain(Whole, plain) == WHOLE
+    assert list(plain) == ["parts", "in", "many", "good"]
+
+
+def test_none_is_left_out_and_what_is_not_finite_is_null():
+    plain = to_plain(Part("a", math.inf, {"k": Interval(1.0, math.nan, 2.0, "N")}))
+    assert plain["size"] is None
+    assert plain["numbers"]["k"] == {"median": 1.0, "low": None, "high": 2.0, "unit": "N"}
+    assert "late" not in plain
+    assert math.isnan(from_plain(Part, plain).size)
+
+
+def test_arrays_are_lists():
+    assert to_plain(Whole((), np.eye(2), np.int64(4)))["in"] == [[1.0, 0.0], [0.0, 1.0]]
+
+
+def test_a_key_that_nobody_knows_is_ignored():
+    assert from_plain(Whole, {"parts": [], "newer": 1}) == Whole(())
+
+
+@pytest.mark.parametrize(
+    ("plain", "said"),
+    [
+        ({"parts": [{"name": 3, "size": 1.0}]}, r"wanted a text, found 3 @ \.parts\[0\]\.name"),
+        ({"parts": [{"name": "a"}]}, r"'size' is absent"),
+        ({"parts": [{"name": "a", "size": "x"}]}, r"wanted a number, found 'x'"),
+        ({"parts": [], "many": 1.5}, "wanted a whole number, found 1.5"),
+        ({"parts": [], "good": 1}, "wanted true or false, found 1"),
+        ([1], "not what this program writes"),
+        (None, "not what this program writes"),
+    ],
+)
+def test_a_wrong_file_is_told_at_its_key(plain, said):
+    with pytest.raises(DataError, match=said):
+        from_plain(Whole, plain)
+
+
+def test_the_schema_has_each_key_with_unit_and_meaning():
+    rows = {row.path: row for row in schema(Whole)}
+    assert rows["parts[].size"][1:] == ("number", "m", "how large it is")
+    assert rows["parts[].numbers.NAME.low"].type == "number"
+    assert rows["parts[].late"].type == "object, or absent"
+    assert rows["in[][]"].type == "list of list of number"
