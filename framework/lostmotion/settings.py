@@ -205,6 +205,17 @@ class Name:
         5.0, "A level that moves by so many standard deviations when a further term comes in was not known."
     )
     moved_share: float = _number(0.2, "And by this share of it.", most=1.0)
+    beside: float = _number(
+        3.0,
+        "Beside a learned curve a name is sure when it wins so many times the log evidence that the curve wins: less"
+        " may be a part of what has no name.",
+        "`lostmotion prove --world imperfect --seed 900`: names below were as often wrong as right",
+    )
+    remains: float = _number(
+        0.5,
+        "A name is no more than likely where a random force is left of more than this share of what was missing.",
+        most=1.0,
+    )
     late: float = _number(
         0.05,
         "A delay of more than this share of a natural period is unusual: acquisition systems are faster.",

@@ -43,11 +43,17 @@ def fit_of(values, active, sds=None):
     return SimpleNamespace(problem=problem, values=values, sd=sds or dict.fromkeys(values, 0.01))
 
 
+def missing(size):
+    """What is told of a force that is missing, here of a given standard deviation."""
+    return SimpleNamespace(missing=SimpleNamespace(force=np.array([size, -size])))
+
+
 def diagnosis(after, probabilities, visits=None, **course):
     sets = {frozenset(k): p for k, p in probabilities.items()}
     selection = SimpleNamespace(
         chosen=after,
-        visits={frozenset(k): SimpleNamespace(fit=f) for k, f in (visits or {}).items()},
+        visits={frozenset(k): SimpleNamespace(fit=f) for k, f in (visits or {}).items()} | course.get("weights", {}),
+        gain=lambda key: 10.0,
         probabilities=lambda: sets,
         inclusion=lambda key: sum(p for terms, p in sets.items() if key in terms),
         unbeaten=course.get("unbeaten", set()),
@@ -60,6 +66,11 @@ def diagnosis(after, probabilities, visits=None, **course):
         after=after,
         before=after,
         found=found,
+        named=found,
+        learned=course.get("learned"),
+        left=course.get("left"),
+        located=missing(1.0),
+        unexplained=course.get("left") is not None,
         withdrawn=course.get("withdrawn", ()),
         settings=DEFAULT,
     )
@@ -73,6 +84,22 @@ def _slots(monkeypatch):
 
     monkeypatch.setattr("lostmotion.workflow.states.term_of", term_of)
     monkeypatch.setattr("lostmotion.workflow.confirming.term_of", term_of)
+
+
+@pytest.mark.parametrize(("gain", "sure"), [(29.0, False), (31.0, True)])
+def test_a_name_has_to_win_three_times_what_has_no_name_beside_it(gain, sure):
+    after = fit_of({f"{FRICTION}.force": 1.0}, [FRICTION])
+    weights = {frozenset({FRICTION}): SimpleNamespace(weight=gain), frozenset(): SimpleNamespace(weight=0.0)}
+    d = diagnosis(after, {(FRICTION,): 1.0}, weights=weights, learned=SimpleNamespace(gain=10.0))
+    doubts = doubts_of(d, FRICTION)
+    assert doubts == [] if sure else ["29 in log evidence" in doubt for doubt in doubts] == [True]
+
+
+@pytest.mark.parametrize(("left", "sure"), [(0.6, False), (0.4, True)])
+def test_a_name_that_leaves_most_of_the_force_missing_is_likely(left, sure):
+    after = fit_of({f"{FRICTION}.force": 1.0}, [FRICTION])
+    doubts = doubts_of(diagnosis(after, {(FRICTION,): 1.0}, left=missing(left)), FRICTION)
+    assert doubts == [] if sure else ["60% is still missing" in doubt for doubt in doubts] == [True]
 
 
 def test_a_sure_term_is_named_and_one_with_rivals_is_not():

@@ -6,6 +6,8 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import Any
 
+import numpy as np
+
 from lostmotion.inference.natural import term_of
 from lostmotion.quantities import TIME
 from lostmotion.report.words import spoken
@@ -39,7 +41,7 @@ def doubts_of(d: Diagnosis, key: str) -> list[str]:
     term, _ = term_of(d.after.problem, key)
     imitates = term.unlikely > 0.0 or term.acts != "motion"
     steady = unsteady(d, key) if imitates else ()
-    return [*_less_sure(d, key), *_decided_late(d, key), *steady, *_unusual(d, key)]
+    return [*_less_sure(d, key), *_decided_late(d, key), *_beside(d, key), *steady, *_unusual(d, key)]
 
 
 def _less_sure(d: Diagnosis, key: str) -> Iterator[str]:
@@ -59,6 +61,27 @@ def _decided_late(d: Diagnosis, key: str) -> Iterator[str]:
             "On the data that were fitted a small smooth force without a name explains about as much; held-out data"
             f" decide, by {d.selection.scored[chosen]:.2g} in log score."
         )
+
+
+def _beside(d: Diagnosis, key: str) -> Iterator[str]:
+    """Yield a sentence where much has no name beside a term: as a learned curve, or as a random force."""
+    limits = d.settings.name
+    if d.learned and won_by(d, key) < limits.beside * d.learned.gain:
+        yield (
+            f"It wins {won_by(d, key):.3g} in log evidence, and what has no name beside it wins {d.learned.gain:.3g}:"
+            " it may be a part of that."
+        )
+    elif d.unexplained and d.left:
+        share = float(np.std(d.left.missing.force) / np.std(d.located.missing.force))
+        if share > limits.remains:
+            yield f"Of the force that was missing, {share:.0%} is still missing with it."
+
+
+def won_by(d: Diagnosis, key: str) -> float:
+    """Return the log weight that a found term adds to the other found ones; to the nominal model where no one knows."""
+    visits, terms = d.selection.visits, frozenset(d.named)
+    here, less = visits.get(terms), visits.get(terms - {key})
+    return here.weight - less.weight if here and less else d.selection.gain(key)
 
 
 def _others(d: Diagnosis, key: str) -> list[str]:
