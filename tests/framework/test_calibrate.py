@@ -80,7 +80,14 @@ def gone(group):
     return False
 
 
-@pytest.mark.parametrize(("jobs", "how"), [(1, signal.SIGKILL), (2, signal.SIGKILL), (2, signal.SIGINT)])
+@pytest.mark.parametrize(
+    ("jobs", "how"),
+    [
+        (2, signal.SIGKILL),
+        (2, signal.SIGINT),
+        pytest.param(1, signal.SIGKILL, marks=pytest.mark.slow),
+    ],
+)
 def test_a_killed_campaign_goes_on_with_the_same_bytes(tmp_path, whole, jobs, how):
     process, out = began(tmp_path, jobs), tmp_path / "out"
     os.kill(process.pid, how)

@@ -96,6 +96,7 @@ def test_a_louder_drive_is_taken_to_be_noisier(springs):
     assert model.under(loud).free[i].low > truth.problem.free[i].low
 
 
+@pytest.mark.slow
 def test_a_model_believes_what_it_has_made(springs):
     """A recording made by either model speaks for it: with a gain of 50 to be expected, no chance."""
     *_, fits = springs
@@ -111,6 +112,7 @@ def test_a_model_believes_what_it_has_made(springs):
         assert evidence(truth, loud, z, asked) > evidence(other, loud, z, asked) + 10.0
 
 
+@pytest.mark.slow
 def test_simulated_noise_has_the_memory_that_was_found(springs):
     """The slow part of the noise fades as it was estimated: 20000 samples know its correlation to 0.01."""
     *_, (truth, _) = springs

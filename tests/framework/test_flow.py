@@ -86,7 +86,13 @@ def test_a_force_that_jumps_in_position_says_so():
     assert len(estimate.curve["running"]) > 10
 
 
-@pytest.mark.parametrize("values", [{"coulomb_friction@base.force": 0.5}, {"coulomb_friction@base.force": 20.0}])
+@pytest.mark.parametrize(
+    "values",
+    [
+        {"coulomb_friction@base.force": 20.0},
+        pytest.param({"coulomb_friction@base.force": 0.5}, marks=pytest.mark.slow),
+    ],
+)
 def test_dry_friction_of_ours_is_resolved_by_the_step(values):
     flow = flow_of(RobotJoint() + CoulombFriction("base"), {**JOINT, **values}, drive=(0.05, 9.7))
     assert flow.march(flow.start, periods=200, tangents=2).status == "ok"

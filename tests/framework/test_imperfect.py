@@ -115,7 +115,7 @@ def test_readings_lie_on_a_lattice(ten):
         assert np.abs(shown / step - np.round(shown / step)).max() < 1e-3
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("kind", [KINDS[0], *(pytest.param(kind, marks=pytest.mark.slow) for kind in KINDS[1:])])
 def test_smooth_forces_over_the_motion_have_their_size_and_no_straight_line(kind):
     """To within 5 %: a curve is constant beyond three deviations of the motion."""
     found = 0
@@ -143,6 +143,7 @@ def test_smooth_forces_over_phase_have_their_size():
     assert found >= 2
 
 
+@pytest.mark.slow
 def test_smooth_forces_over_time_have_their_size_and_no_mean_before_nor_in_what_is_held_out():
     found = 0
     for seed in range(20):
@@ -157,6 +158,7 @@ def test_smooth_forces_over_time_have_their_size_and_no_mean_before_nor_in_what_
     assert found >= 5
 
 
+@pytest.mark.slow
 def test_all_smooth_forces_together_are_a_small_share_of_the_drive():
     for kind in KINDS:
         for seed in range(4):
@@ -190,6 +192,7 @@ def test_hidden_force_is_a_share_of_that_of_inertia():
         assert min(shares) < 0.0 < max(shares)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", NAMES)
 def test_every_mechanism_can_be_hidden_under_one_cycle(name, tmp_path):
     concealed(replace(ROUGH, only=(name,), most=500), tmp_path, 0)

@@ -18,7 +18,12 @@ from lostmotion.quantities import quantity_of, unit_of
 from lostmotion.registry import default
 
 DT, SAMPLES = 0.01, 200
-MODELS = [default().make("model", name) for name in default().names("model")]
+USUAL = ("lin_backlash", "robot_joint")
+"""A force and a base motion; each further model has to be compiled, and runs with the slow tests."""
+MODELS = [
+    pytest.param(default().make("model", name), id=name, marks=() if name in USUAL else pytest.mark.slow)
+    for name in default().names("model")
+]
 GAP = {"x0": 0.02, "k0": 300.0}
 """A gap that the motion crosses; all other parameters are one, or zero where they may be."""
 
@@ -40,7 +45,7 @@ def problem_of(model, inputs, **more):
     return Problem(system, (observation,), Scales(1.0, 0.2, 0.2), full, frees, frozenset({key}), **more)
 
 
-@pytest.mark.parametrize("model", MODELS, ids=lambda m: m.name)
+@pytest.mark.parametrize("model", MODELS)
 def test_inputs_that_a_recording_lacks_are_zero(model):
     inputs = moved(model)
     whole = np.concatenate([inputs, np.zeros((SAMPLES, len(model.inputs) - inputs.shape[1]))], axis=1)
@@ -52,7 +57,7 @@ def test_inputs_that_a_recording_lacks_are_zero(model):
     assert wide.on(wide.observations).observations[0] is wide.observations[0]
 
 
-@pytest.mark.parametrize("model", MODELS, ids=lambda m: m.name)
+@pytest.mark.parametrize("model", MODELS)
 def test_motion_and_derivatives_take_fewer_inputs(model):
     system, inputs = problem_of(model, moved(model)).system, moved(model)
     full = problem_of(model, inputs).known
@@ -69,7 +74,7 @@ def test_motion_and_derivatives_take_fewer_inputs(model):
         np.testing.assert_array_equal(few, all_of_them)
 
 
-@pytest.mark.parametrize("model", MODELS, ids=lambda m: m.name)
+@pytest.mark.parametrize("model", MODELS)
 def test_a_harmonic_drive_moves_the_first_input_alone(model):
     problem = problem_of(model, moved(model))
     values = {slot.key: float(problem.known[i]) for i, slot in enumerate(problem.system.slots)}

@@ -110,6 +110,7 @@ def test_good_methods_are_used(known):
     assert watch.said == []
 
 
+@pytest.mark.slow
 def test_a_map_goes_on_without_a_quantifier_that_breaks(known, tmp_path):
     done = run(
         "map", "--model", "lin_backlash", "--x", "alpha=0.2:0.4:2", "--set", "zeta=0.02", "--periods", 40, "--starts",

@@ -247,6 +247,7 @@ def test_further_quantities_stand_beside_the_exponent():
     assert np.array_equal(plain["lyapunov_max"], found["lyapunov_max"])
 
 
+@pytest.mark.slow
 def test_a_dimension_of_a_series_may_be_asked_for():
     found = computed(study(quantities=("d2",), starts=1, periods=150), np.array([[0, 1]]))
     assert np.isfinite(found["d2"]).all() or (found["d2_status"] > 0).all()

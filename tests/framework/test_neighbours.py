@@ -84,6 +84,7 @@ def test_balls_hold_what_all_distances_say(kind, norm):
             np.testing.assert_array_equal(found, wanted)
 
 
+@pytest.mark.slow
 def test_a_guess_and_a_choice_of_queries_change_nothing():
     points = delay_vectors(series("slow"), 3, 3)
     index, far = neighbours.nearest(points, theiler=10)

@@ -13,15 +13,8 @@ from lostmotion.testing import check, rules_for
 AGREES = "filter_agrees_with_matrices"
 
 
-@pytest.mark.parametrize(
-    "engine",
-    [
-        Lanes(),
-        pytest.param(Lanes(compiled=False), marks=pytest.mark.slow),
-        pytest.param(Reference(), marks=pytest.mark.slow),
-    ],
-    ids=["lanes", "twin", "reference"],
-)
+@pytest.mark.slow
+@pytest.mark.parametrize("engine", [Lanes(), Lanes(compiled=False), Reference()], ids=["lanes", "twin", "reference"])
 def test_the_engines_of_the_house_break_no_rule(engine):
     assert [str(f) for f in check(engine) if not f.ok] == []
 

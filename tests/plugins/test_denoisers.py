@@ -91,7 +91,7 @@ def test_clean_data_is_left_alone(lorenz, denoiser):
 
 
 @pytest.mark.parametrize("denoiser", BOTH, ids=lambda d: d.name)
-@pytest.mark.parametrize("level", [0.02, 0.05, 0.1, 0.2])
+@pytest.mark.parametrize("level", [0.02, 0.2, *(pytest.param(level, marks=pytest.mark.slow) for level in (0.05, 0.1))])
 def test_more_iterations_never_make_the_data_worse(lorenz, denoiser, level):
     """An established program with a neighbourhood that is not shrunk ends above the raw noise after three.
 

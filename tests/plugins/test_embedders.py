@@ -254,7 +254,7 @@ def test_a_torus_and_a_map_unfold_where_they_should():
     assert (found.lag, found.dim, found.status) == (1, 2, "ok")
 
 
-@pytest.mark.parametrize("phi", [0.0, 0.5, 0.9])
+@pytest.mark.parametrize("phi", [0.5, *(pytest.param(phi, marks=pytest.mark.slow) for phi in (0.0, 0.9))])
 def test_linear_noise_is_told_from_e2(phi):
     """E2 is 1 in all dimensions for white noise and AR(1), as Cao (1997) says: 20 of 20 records are recognised."""
     rng = np.random.default_rng(11)

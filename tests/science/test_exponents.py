@@ -79,6 +79,7 @@ def test_lin(lin, per_period, noise, method):
     assert got.value == pytest.approx(LIN, rel=0.15 if per_period == 50 and noise == 0.0 else 0.3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", [Rosenstein(), Kantz()], ids=lambda m: m.name)
 def test_an_eight_bit_sensor_changes_little(lorenz, method):
     step = np.ptp(lorenz) / 256
@@ -121,7 +122,7 @@ def test_roessler(method):
     assert got.value == pytest.approx(ROESSLER, rel=0.2)
 
 
-@pytest.mark.parametrize("method", [Rosenstein(), Kantz()], ids=lambda m: m.name)
+@pytest.mark.parametrize("method", [Rosenstein(), pytest.param(Kantz(), marks=pytest.mark.slow)], ids=lambda m: m.name)
 def test_a_forced_oscillator_on_a_torus_is_regular(method):
     def rates(t, y):
         # Weakly forced van der Pol: between the tongues the motion is quasiperiodic, with an exponent of zero

@@ -80,7 +80,7 @@ def exponent_at_rest(values):
     return float(flow.march(np.zeros(2), periods=2000, tangents=1).growth[200:].mean() / flow.period)
 
 
-@pytest.mark.parametrize("kappa", [0.1, 0.5])
+@pytest.mark.parametrize("kappa", [pytest.param(0.1, marks=pytest.mark.slow), 0.5])
 def test_mesh_stiffness_makes_rest_unstable_where_mathieu_says(kappa):
     low, high = tongue(kappa)
     inside, outside = (low * 1.003, high * 0.997), (low * 0.997, high * 1.003)

@@ -21,7 +21,12 @@ def study():
 
 @pytest.mark.parametrize(
     ("number", "first"),
-    [(14, "velocity"), (10, "position at base"), (3, "position"), (21, "sign of velocity at base")],
+    [
+        (14, "velocity"),
+        (21, "sign of velocity at base"),
+        pytest.param(10, "position at base", marks=pytest.mark.slow),
+        pytest.param(3, "position", marks=pytest.mark.slow),
+    ],
 )
 def test_the_true_covariate_and_place_come_first_of_two(study, number, first):
     """Machines with two places, fixed by seed and number."""

@@ -102,6 +102,7 @@ def test_least_random_force_is_what_a_clean_recording_costs():
     assert 1.2 < relative(fit)[1] / bounds(machine, seen, sigma, 0.0)[1] < 1.6
 
 
+@pytest.mark.slow
 def test_chaotic_motion_is_read_as_sharply_as_pieces_of_ten_periods_allow():
     """Followed as one motion, chaos would give away its parameters to 1e-40, which no data do: the start is never so
     well known. Stated are pieces of ten periods, eleven Lyapunov times, and the bound with the noise in the force.

@@ -85,7 +85,7 @@ def test_a_spring_behind_a_dashpot_is_a_force_that_depends_on_the_history(tmp_pa
     assert TIME / 3.0 < time < 3.0 * TIME
 
 
-@pytest.mark.parametrize("seed", [0, 1])
+@pytest.mark.parametrize("seed", [0, pytest.param(1, marks=pytest.mark.slow)])
 def test_a_force_over_one_thing_stays_a_curve(tmp_path, seed):
     assert depends(learned(tmp_path, over_one_thing, seed)) == ["position"]
 
