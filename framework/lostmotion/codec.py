@@ -11,7 +11,7 @@ import dataclasses
 import math
 from collections.abc import Iterator, Mapping
 from functools import cache
-from typing import Any, NamedTuple, TypeVar, get_args, get_type_hints
+from typing import Any, Literal, NamedTuple, TypeVar, get_args, get_origin, get_type_hints
 
 import numpy as np
 from cattrs import BaseValidationError, Converter, transform_error
@@ -74,6 +74,8 @@ def _entries(kind: Any, before: str) -> Iterator[Entry]:
 
 def _read(hint: Any) -> tuple[Any, str, str]:
     """Return the innermost type of a hint, the ending of a path into it, and the type in words."""
+    if _is_literal(hint):
+        return hint, "", _choice(hint)
     options = [one for one in get_args(hint) if one is not type(None)]
     if type(None) in get_args(hint):
         core, ending, words = _read(options[0])
@@ -97,10 +99,27 @@ def _converter() -> Converter:
     made.register_structure_hook(bool, lambda x, _: _wanted(x, bool, "true or false"))
     made.register_structure_hook(str, lambda x, _: _wanted(x, str, "a text"))
     made.register_unstructure_hook_func(lambda kind: kind is np.ndarray, lambda x: made.unstructure(x.tolist()))
+    made.register_structure_hook_func(_is_literal, _one_of)
     made.register_unstructure_hook_func(_is_scalar, lambda x: made.unstructure(x.item()))
     made.register_unstructure_hook_factory(dataclasses.is_dataclass, lambda kind: _writer(kind, made))
     made.register_structure_hook_factory(dataclasses.is_dataclass, lambda kind: _reader(kind, made))
     return made
+
+
+def _is_literal(kind: Any) -> bool:
+    return get_origin(kind) is Literal
+
+
+def _choice(kind: Any) -> str:
+    """Return the words that a field may hold, as a sentence has them."""
+    *first, last = (f'"{word}"' for word in get_args(kind))
+    return f"{', '.join(first)} or {last}" if first else last
+
+
+def _one_of(x: Any, kind: Any) -> Any:
+    if x not in get_args(kind):
+        raise TypeError(f"wanted {_choice(kind)}, found {x!r}")
+    return x
 
 
 def _is_scalar(kind: Any) -> bool:
