@@ -27,7 +27,7 @@ from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import RANDOM, Problem
 from lostmotion.likelihood.reference import Reference
 from lostmotion.likelihood.system import System
-from lostmotion.stages.identify import Identification, Plan, identify, task_of
+from lostmotion.stages.identify import Plan, SampledPosterior, identify, task_of
 from studies import TRUE, case_of, system_of
 
 from cramer_rao import bounds  # isort: skip - beside the tests, as `studies` has made known
@@ -208,7 +208,7 @@ def _samplers(fits: list[Fit]) -> Iterator[tuple[str, Callable[[], Result]]]:
     fit, parameters = fits[0], len(fits[0].theta)
 
     def ours() -> Result:
-        found: Identification = identify(task_of(fits), rng=np.random.default_rng(1), plan=Plan())
+        found: SampledPosterior = identify(task_of(fits), rng=np.random.default_rng(1), plan=Plan())
         return found.evaluations, float(found.quality.ess.min()), np.log(found.draws)
 
     def zeus(steps: int = 400, walkers: int = 16) -> Result:

@@ -9,6 +9,7 @@ import pytest
 
 from lostmotion.case import CaseFile, Prior
 from lostmotion.case.levels import Level, Measured
+from lostmotion.codec import to_plain
 from lostmotion.errors import CaseError, DataError
 from lostmotion.likelihood.space import Free
 from lostmotion.registry import default
@@ -16,6 +17,7 @@ from lostmotion.study.atlas import CHAOTIC, PERIODIC, Atlas
 from lostmotion.study.inversion import WEAK, Inversion, grouped, likelihood_of, predicted
 from lostmotion.study.map import RING, Map
 from lostmotion.study.numbers import Law, Power, law_of
+from lostmotion.workflow.identify import level_told
 from lostmotion.workflow.levels import Survey, _free, derived, inversion_of, quantifier_task, wanted_of
 from lostmotion.workflow.mapping import How, Request, make_map, study_of
 
@@ -137,9 +139,12 @@ def test_predictions_are_those_of_the_map():
     found = predicted(inversion([level], atlas(window)), np.tile([1.0, 0.05], (200, 1)), np.random.default_rng(1))[0]
     assert found.chaotic_share == 1.0
     assert found.lyapunov.median == pytest.approx(2.0 * 0.15, rel=0.05)
-    told = found.as_dict()
+    assert found.lyapunov.low <= found.lyapunov.median <= found.lyapunov.high
+    told = to_plain(level_told(replace(found, level=replace(level, lyapunov=Measured(0.3, 0.1)))))
     assert told["predicted"]["chaotic_share"] == 1.0
-    assert {"low", "median", "high"} <= told["predicted"]["lyapunov"].keys()
+    assert {"low", "median", "high"} == told["predicted"]["lyapunov"].keys()
+    assert told["lyapunov"] == {"value": 0.3, "low": pytest.approx(0.104), "high": pytest.approx(0.496), "unit": "1/s"}
+    assert "d2" not in told
 
 
 @pytest.mark.parametrize("name", ["lin_backlash", "robot_joint"])

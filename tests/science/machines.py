@@ -22,7 +22,7 @@ from lostmotion.likelihood.predict import filtered, free_run, observed
 from lostmotion.likelihood.problem import NOISE, RANDOM, Problem
 from lostmotion.likelihood.system import System
 from lostmotion.registry import default
-from lostmotion.stages.identify import Identification, Plan, identify
+from lostmotion.stages.identify import Plan, SampledPosterior, identify
 from lostmotion.workflow.prepare import prepare
 from lostmotion.workflow.trajectory import Sampled, chosen_terms, sampled, task_for
 
@@ -83,7 +83,7 @@ SPANS = {0.25: (4.6, 24.0), 0.5: (2.3, 12.0), 1.0: (1.15, 6.0)}
 class Found:
     """A posterior, the fit it was drawn around, and how the fit does when it runs free from the first sample."""
 
-    result: Identification
+    result: SampledPosterior
     fit: Fit
     free_error: float
 

@@ -119,7 +119,7 @@ def identify(
             prepared = case_from(case, model, known, estimate, known_to).prepared(known_to)
             done = identified(prepared.case, prepared, place, known_to, order, lambda _steps, says: say(says))
         data = inference_of(done)
-    found = IdentificationResult(done.content, {name: data[name] for name in data.groups()})
+    found = IdentificationResult(done.result, {name: data[name] for name in data.groups()})
     if out is not None:
         found.save(out)
     return found

@@ -23,7 +23,7 @@ from lostmotion.stages._population import Population, adapted, refitted
 from lostmotion.stages._sampling import FEWER, JUMPS, Density, moves, sampler_of, state_of
 from lostmotion.stages._task import NOISES, Shown, Task, task_of
 
-__all__ = ["NOISES", "Cloud", "Identification", "Plan", "Shown", "Task", "Watch", "identify", "task_of"]
+__all__ = ["NOISES", "Cloud", "Plan", "SampledPosterior", "Shown", "Task", "Watch", "identify", "task_of"]
 
 WALKERS = 16
 TRIAL = 60
@@ -57,7 +57,7 @@ class Plan:
 
 
 @dataclass(frozen=True)
-class Identification:
+class SampledPosterior:
     """The posterior of the parameters `keys`, in SI `units`: draws, intervals, and whether they may be believed.
 
     `chain` is (walkers, steps, parameters) without the burn-in, `log_density` (walkers, steps); `maximum` holds the
@@ -115,7 +115,7 @@ def identify(
     plan: Plan | None = None,
     watch: Watch = lambda _steps, _says: None,
     keep: Path | None = None,
-) -> Identification:
+) -> SampledPosterior:
     """Return the posterior of a task, sampled with emcee as `plan` says.
 
     Weighted pilot draws fit the cloud from which most proposals come; it stays as it is while the draws that count are
@@ -136,7 +136,7 @@ class _Course:
         if not math.isfinite(self.height):
             raise DataError("the posterior has no density at the maximum it came with: look for that again")
 
-    def run(self, keep: Path | None) -> Identification:
+    def run(self, keep: Path | None) -> SampledPosterior:
         """Return the posterior, converged or not."""
         there = keep is not None and keep.exists()
         found = load(keep, self.digest) if keep and there else None
@@ -221,11 +221,11 @@ class _Course:
         says = f"tau {quality.slowest:.1f} · ESS {quality.ess.min():.0f} of {self.plan.ess:g}"
         return quality.lacks(self.plan.ess, before, self.plan.limits), says
 
-    def _result(self, sampler: Any, lacks: tuple[str, ...], **flags: bool) -> Identification:
+    def _result(self, sampler: Any, lacks: tuple[str, ...], **flags: bool) -> SampledPosterior:
         coordinates, burn = _kept(sampler, sampler.iteration)
         task = self.task
         names = tuple(one.name for one in task.shown)
-        return Identification(
+        return SampledPosterior(
             keys=names,
             units=tuple(one.unit for one in task.shown),
             chain=task.values(coordinates),

@@ -18,7 +18,7 @@ from lostmotion.inference.setup import SHARED, frees_for, modes, polished, probl
 from lostmotion.likelihood.system import System, key_of
 from lostmotion.registry import Registry
 from lostmotion.settings import DEFAULT, Settings
-from lostmotion.stages.identify import Identification, Plan, Task, identify, task_of
+from lostmotion.stages.identify import Plan, SampledPosterior, Task, identify, task_of
 from lostmotion.workflow.prepare import Prepared
 from lostmotion.workflow.vetting import sound
 
@@ -27,7 +27,7 @@ from lostmotion.workflow.vetting import sound
 class Sampled:
     """A posterior that was sampled, and the fits of its modes, best first."""
 
-    result: Identification
+    result: SampledPosterior
     fits: tuple[Fit, ...]
 
 
