@@ -147,7 +147,14 @@ def _writer(kind: type, converter: Converter) -> Any:
     from cattrs.gen import make_dict_unstructure_fn, override
 
     how = {f.name: override(rename=f.metadata.get("key") or None, omit_if_default=f.default is None) for f in _of(kind)}
-    return make_dict_unstructure_fn(kind, converter, _cattrs_use_linecache=False, **how)  # type: ignore[arg-type]
+    write: Any = make_dict_unstructure_fn(kind, converter, _cattrs_use_linecache=False, **how)  # type: ignore[arg-type]
+    keys = [f.metadata.get("key") or f.name for f in _of(kind)]
+
+    def in_order(result: Any) -> dict[str, Any]:  # what may be left out would stand last otherwise
+        plain = write(result)
+        return {key: plain[key] for key in keys if key in plain}
+
+    return in_order
 
 
 def _reader(kind: type, converter: Converter) -> Any:

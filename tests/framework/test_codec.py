@@ -22,6 +22,7 @@ class Part:
     size: float = told("how large it is", unit="m")
     numbers: Mapping[str, Interval] = told("its numbers", default={})
     late: Interval | None = told("since when", default=None)
+    rest: float = told("what is left", default=0.0)
 
 
 @dataclass(frozen=True)
@@ -48,6 +49,11 @@ def test_none_is_left_out_and_what_is_not_finite_is_null():
     assert plain["numbers"]["k"] == {"median": 1.0, "low": None, "high": 2.0, "unit": "N"}
     assert "late" not in plain
     assert math.isnan(from_plain(Part, plain).size)
+
+
+def test_keys_stand_in_the_order_of_the_fields():
+    late = Interval(1.0, 0.5, 2.0, "s")
+    assert list(to_plain(Part("a", 1.0, late=late))) == ["name", "size", "numbers", "late", "rest"]
 
 
 def test_arrays_are_lists():
