@@ -179,8 +179,8 @@ def analyse(
         wanted = Wanted(request.columns or _texts(channel or ()), request.rate, request.every)
         source = source_of(Path(recording), wanted, known_to)
     with shown("analyse", progress) as say:
-        content, arrays = told_of(source, known_to, request, say)
-    found = AnalysisResult(content, arrays)
+        result, arrays = told_of(source, known_to, request, say)
+    found = AnalysisResult(result, arrays)
     if out is not None:
         found.save(out)
     return found

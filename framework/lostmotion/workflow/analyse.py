@@ -6,10 +6,11 @@ from collections.abc import Callable
 from dataclasses import asdict, dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from lostmotion.codec import from_plain, to_plain
 from lostmotion.contracts import Array, Quantifier, Series
 from lostmotion.defaults import (
     DENOISER,
@@ -29,6 +30,8 @@ from lostmotion.rates import exponent_in
 from lostmotion.registry import Registry
 from lostmotion.report.analysis import write_analysis
 from lostmotion.results import Estimate
+from lostmotion.results.analysis import Analysis
+from lostmotion.results.background import Origin
 from lostmotion.settings import DEFAULT, Settings
 from lostmotion.signals import checked
 from lostmotion.stages.denoise import Denoised, denoise
@@ -38,7 +41,7 @@ from lostmotion.stages.surrogates import SurrogateTest, surrogate_test
 from lostmotion.storage import dataset_of, folder_for, save_datasets, save_json
 from lostmotion.workflow.analysis_arrays import arrays_of
 from lostmotion.workflow.analysis_words import statement
-from lostmotion.workflow.beat import Beat, Evidence, beat_of, returns
+from lostmotion.workflow.beat import Beat, MotionEvidence, beat_of, returns
 from lostmotion.workflow.motion import Verdict, judged
 from lostmotion.workflow.source import Source, Wanted, source_of
 from lostmotion.workflow.vetting import Guests
@@ -80,7 +83,7 @@ class Request:
 
 
 @dataclass(frozen=True, eq=False)
-class Analysis:
+class AnalysedChannel:
     """Everything that was found out about one recorded channel."""
 
     source: Source
@@ -106,36 +109,33 @@ class Analysis:
 
 def run_analysis(
     path: Path, out: Path, registry: Registry, request: Request, say: Say = lambda _step: None
-) -> dict[str, Any]:
-    """Return the content of `analysis.json` after writing it, the arrays and the report into the folder `out`."""
+) -> Analysis:
+    """Return what was found after writing `analysis.json`, the arrays and the report into the folder `out`."""
     say("reading")
     source = source_of(path, Wanted(request.columns, request.rate, request.every), registry)
     _require_known(registry, request)
     folder = folder_for(out)
-    content, arrays = told_of(source, registry, request, say)
+    result, arrays = told_of(source, registry, request, say)
     say("report")
     save_datasets(folder / "analysis.nc", {None: arrays})
-    save_json(folder / "analysis.json", content)
+    save_json(folder / "analysis.json", to_plain(result))
     write_analysis(folder)
-    return content
+    return result
 
 
 def told_of(
     source: Source, registry: Registry, request: Request, say: Say = lambda _step: None
-) -> tuple[dict[str, Any], xr.Dataset]:
-    """Return the content of `analysis.json` and the arrays behind it; nothing is written."""
-    analysis = analyse(source, registry, request, say)
+) -> tuple[Analysis, xr.Dataset]:
+    """Return what was found and the arrays behind it; nothing is written."""
+    found = analyse(source, registry, request, say)
     settings = {k: v for k, v in asdict(request).items() if k not in ("jobs", "seed", "settings")}
     settings["thresholds"] = asdict(request.settings.motion)
-    content = {
-        **statement(analysis),
-        "provenance": provenance("analyse", settings, request.seed, {**registry.origins(), **source.inputs}),
-    }
-    variables, coords = arrays_of(analysis)
-    return content, dataset_of(variables, coords, {"title": source.title})
+    made = provenance("analyse", settings, request.seed, {**registry.origins(), **source.inputs})
+    variables, coords = arrays_of(found)
+    return statement(found, from_plain(Origin, made)), dataset_of(variables, coords, {"title": source.title})
 
 
-def analyse(source: Source, registry: Registry, request: Request, say: Say = lambda _step: None) -> Analysis:
+def analyse(source: Source, registry: Registry, request: Request, say: Say = lambda _step: None) -> AnalysedChannel:
     """Return what the chain finds: delay, dimension, noise, exponent, correlation dimension, surrogate tests."""
     beat = beat_of(checked(source.x), source, request.period)
     guests = Guests(registry)
@@ -153,7 +153,8 @@ def analyse(source: Source, registry: Registry, request: Request, say: Say = lam
     entropy = measured(ENTROPY, "entropy")
     others = {name: grown(name, "others") for name in dict.fromkeys((*EXPONENT_CHECKS, *request.quantifiers))}
     tests = _tests(raw, guests, request, say)
-    return Analysis(
+    weighed = MotionEvidence(beat, raw, denoised, exponent, dimension, entropy, tests, request.settings.motion)
+    return AnalysedChannel(
         source=source,
         beat=beat,
         raw=raw,
@@ -164,7 +165,7 @@ def analyse(source: Source, registry: Registry, request: Request, say: Say = lam
         others=others,
         tests=tests,
         surrogate_dims=_surrogate_dims(raw, registry, request, say),
-        verdict=judged(Evidence(beat, raw, denoised, exponent, dimension, entropy, tests, request.settings.motion)),
+        verdict=judged(weighed),
         exponent_method=EXPONENT.removeprefix("lyapunov_"),
         denoiser=denoiser,
         aside=tuple(dict.fromkeys(guests.said)),
