@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-import json
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -23,6 +22,7 @@ from lostmotion.registry import Registry
 from lostmotion.stages.identify import Cloud, Shown, Task
 from lostmotion.study.atlas import RATIO, Atlas
 from lostmotion.study.inversion import Inversion, grouped
+from lostmotion.study.layout import origin_in, settings_in
 from lostmotion.study.map import Map
 from lostmotion.study.numbers import Law, Power, law_of
 from lostmotion.study.sweep import Crew
@@ -272,10 +272,9 @@ def _given(wanted: Wanted, group: Sequence[int], survey: Survey) -> Map:
 
 def _unfit(found: Map, wanted: Wanted, group: Sequence[int]) -> str:
     """Return why a map does not serve, or nothing."""
-    settings = json.loads(str(found.dataset.attrs["provenance"]))["settings"]
-    names, fixed = wanted.laws[group[0]], settings["fixed"]
-    if settings["model"] != wanted.model.name:
-        return f"is of {settings['model']}"
+    settings, names = settings_in(origin_in(found.dataset.attrs)), wanted.laws[group[0]]
+    if settings.model != wanted.model.name:
+        return f"is of {settings.model}"
     if {*found.axes} != {*names}:
         return f"is over {', '.join(found.axes)}, and {', '.join(names)} are wanted"
     for name in names:
@@ -285,8 +284,8 @@ def _unfit(found: Map, wanted: Wanted, group: Sequence[int]) -> str:
             return f"goes from {name} = {ends[0]:.4g} to {ends[-1]:.4g}, and the priors ask for {low:.4g} to {high:.4g}"
     if RATIO not in names:
         ratio = wanted.fixed[f"{RATIO} {group[0]}"]
-        if not math.isclose(fixed.get(RATIO, math.nan), ratio, rel_tol=ALIKE):
-            return f"has a frequency ratio of {fixed.get(RATIO)}, and {ratio:.6g} is wanted"
+        if not math.isclose(settings.fixed.get(RATIO, math.nan), ratio, rel_tol=ALIKE):
+            return f"has a frequency ratio of {settings.fixed.get(RATIO)}, and {ratio:.6g} is wanted"
     return ""
 
 
