@@ -17,7 +17,7 @@ import numpy as np
 from scipy.stats import beta
 
 from lostmotion.registry import default
-from lostmotion.workflow.analyse import AnalysedChannel, Request, analyse
+from lostmotion.workflow.analyse import AnalysedChannel, AnalysisRequest, analyse
 from lostmotion.workflow.source import Source
 from zoo import Animal, zoo
 from zoo_fresh import fresh_zoo
@@ -35,7 +35,7 @@ def verdict(animal: Animal, seed: int, told: bool, draws: int) -> AnalysedChanne
     """Return what the chain makes of one series; `told` gives it the period of the drive."""
     x = animal.draw(np.random.default_rng(seed))
     source = Source(animal.name, x, animal.dt, "", "x", None, {})
-    return analyse(source, default(), Request(seed=seed, period=animal.period if told else None, draws=draws))
+    return analyse(source, default(), AnalysisRequest(seed=seed, period=animal.period if told else None, draws=draws))
 
 
 def animals(which: str, samples: int) -> list[Animal]:

@@ -69,10 +69,10 @@ def command(
     cut short goes on where it stopped. Exit status 0 when the sampling ended, converged or not; no interval is given of
     a chain that has not converged. 2 for a case that cannot be used.
     """
-    from lostmotion.stages.identify import Plan
+    from lostmotion.stages.identify import SamplingPlan
     from lostmotion.workflow.identify import Order, run_identification
 
-    plan = Plan(**{key: given.pop(key) for key in ("ess", "max_steps", "walkers")}, limits=settings.chain)  # type: ignore[arg-type]
+    plan = SamplingPlan(**{key: given.pop(key) for key in ("ess", "max_steps", "walkers")}, limits=settings.chain)  # type: ignore[arg-type]
     order = Order(seed=seed, jobs=jobs, plan=plan, settings=settings, **given)  # type: ignore[arg-type]
     with _bar(plan.max_steps, quiet=quiet) as watch:
         done = run_identification(case, out, registry_of(ctx), order, watch)

@@ -48,7 +48,7 @@ class ChosenDimension:
 
 
 @dataclass(frozen=True, kw_only=True)
-class NoiseLevel:
+class RecordedNoise:
     """The noise of the recording, before and after noise reduction."""
 
     before: float = told("noise as recorded; null where it could not be told from the motion")
@@ -109,7 +109,7 @@ class Analysis:
     because: tuple[str, ...] = told("what the verdict rests on, in sentences")
     delay: ChosenDelay = told("the delay of the embedding")
     dimension: ChosenDimension = told("the dimension of the embedding")
-    noise: NoiseLevel = told("the noise of the recording")
+    noise: RecordedNoise = told("the noise of the recording")
     lyapunov: Measure = told("largest Lyapunov exponent")
     d2: Measure = told("correlation dimension")
     k2: Measure = told("correlation entropy")

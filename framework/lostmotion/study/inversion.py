@@ -25,7 +25,7 @@ from lostmotion.contracts import Array
 from lostmotion.likelihood.space import Free
 from lostmotion.results.identification import ExpectedRange
 from lostmotion.study.atlas import CHAOTIC, MISSING, PERIODIC, Atlas, Places
-from lostmotion.study.numbers import Law
+from lostmotion.study.numbers import NumberLaw
 
 SEEN = ("periodic", "chaotic", None)
 WEAK = 0.5
@@ -57,7 +57,7 @@ class Inversion:
     levels: tuple[Level, ...]
     atlases: tuple[Atlas, ...]
     which: tuple[int, ...]
-    laws: tuple[Mapping[str, Law], ...]
+    laws: tuple[Mapping[str, NumberLaw], ...]
     free: tuple[Free, ...]
 
     def log_prior(self, theta: Array) -> float:

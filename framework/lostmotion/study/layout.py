@@ -78,7 +78,7 @@ class MapSettings:
 
 
 @dataclass(frozen=True)
-class Layout:
+class MapLayout:
     """The grid (`shape`, with names `dims`) of a map, and how it is cut into chunks.
 
     A list of places has `cells` (many, axes) and the one dimension `cell`. A `refined` map has the level of each cell.
@@ -163,14 +163,14 @@ class Layout:
         return {**table, "start": Coordinate(("start",), np.arange(self.study.starts), start)}
 
 
-def layout_of(study: Study) -> Layout:
+def layout_of(study: Study) -> MapLayout:
     """Return the layout of a map over a whole grid."""
-    return Layout(study, tuple(axis.name for axis in study.axes), study.shape, origin_of(study))
+    return MapLayout(study, tuple(axis.name for axis in study.axes), study.shape, origin_of(study))
 
 
-def listed(study: Study, cells: NDArray[np.int64], *, level: int) -> Layout:
+def listed(study: Study, cells: NDArray[np.int64], *, level: int) -> MapLayout:
     """Return the layout of a list of places (many, axes) on the grid of a study: those of one halving, the `level`."""
-    return Layout(study, ("cell",), (len(cells),), origin_of(study, level=level), cells)
+    return MapLayout(study, ("cell",), (len(cells),), origin_of(study, level=level), cells)
 
 
 def origin_of(study: Study, *, level: int | None = None, levels: int | None = None) -> Origin:

@@ -26,7 +26,7 @@ from lostmotion.recording.unpacked import RESULT, check_hdf5
 from lostmotion.results.background import Origin
 from lostmotion.storage import held, save_datasets, writing
 from lostmotion.study.cells import Columns
-from lostmotion.study.layout import SCHEMA, Layout, origin_in
+from lostmotion.study.layout import SCHEMA, MapLayout, origin_in
 
 ENDINGS = (".zarr", ".nc")
 """The endings of a map, which tell its format."""
@@ -34,7 +34,7 @@ _LAST = "status"
 
 
 @contextmanager
-def opened(path: Path, layout: Layout, *, fresh: bool = False) -> Iterator[Store]:
+def opened(path: Path, layout: MapLayout, *, fresh: bool = False) -> Iterator[Store]:
     """Yield the store of a map at `path`, made if it is not there, and held by this process alone.
 
     Raises `DataError` when something else is there, or a map with other settings, unless a `fresh` one is wanted.
@@ -52,7 +52,7 @@ def opened(path: Path, layout: Layout, *, fresh: bool = False) -> Iterator[Store
 class Store:
     """The growing map: which chunks are pending, and where a finished one goes."""
 
-    def __init__(self, path: Path, layout: Layout) -> None:
+    def __init__(self, path: Path, layout: MapLayout) -> None:
         self.path, self.layout = path, layout
         self._group = zarr.open_group(path, mode="r+", zarr_format=3)
 
@@ -78,7 +78,7 @@ class Store:
                 self._group[name][chunk] = values.reshape(*shape, *values.shape[1:])  # type: ignore[index]
 
 
-def holds(path: Path, layout: Layout, *, fresh: bool) -> bool:
+def holds(path: Path, layout: MapLayout, *, fresh: bool) -> bool:
     """Return whether the finished map is at `path` already; raise `DataError` when something else is.
 
     A `fresh` one is never there: what is in its place is removed if it is ours.
@@ -130,7 +130,7 @@ def save_netcdf(path: Path, dataset: xr.Dataset) -> None:
     save_datasets(path, {None: told})
 
 
-def save_zarr(path: Path, layout: Layout, columns: Mapping[str, NDArray[Any]]) -> None:
+def save_zarr(path: Path, layout: MapLayout, columns: Mapping[str, NDArray[Any]]) -> None:
     """Write a finished map to a zarr store that appears whole or not at all; what was there gives way."""
     spare, old = _spare(path), path.with_name(f".{path.name}.old")
     for rest in (spare, old):
@@ -143,14 +143,14 @@ def save_zarr(path: Path, layout: Layout, columns: Mapping[str, NDArray[Any]]) -
     shutil.rmtree(old, ignore_errors=True)
 
 
-def as_dataset(layout: Layout, columns: Mapping[str, NDArray[Any]]) -> xr.Dataset:
+def as_dataset(layout: MapLayout, columns: Mapping[str, NDArray[Any]]) -> xr.Dataset:
     """Return a finished map as a dataset."""
     table = {name: (spec.dims, columns[name], to_plain(spec.attrs)) for name, spec in layout.variables.items()}
     coords = {name: (one.dims, one.values, to_plain(one.attrs)) for name, one in layout.coords.items()}
     return xr.Dataset(table, coords, layout.attrs)
 
 
-def _make(path: Path, layout: Layout) -> None:
+def _make(path: Path, layout: MapLayout) -> None:
     """Make the store beside its place, and put it there when it is whole."""
     spare = _spare(path)
     shutil.rmtree(spare, ignore_errors=True)
@@ -159,7 +159,7 @@ def _make(path: Path, layout: Layout) -> None:
         spare.rename(path)
 
 
-def _fill_store(path: Path, layout: Layout, columns: Mapping[str, NDArray[Any]]) -> None:
+def _fill_store(path: Path, layout: MapLayout, columns: Mapping[str, NDArray[Any]]) -> None:
     group = zarr.create_group(path, zarr_format=3, attributes=layout.attrs)
     sizes = dict(zip(layout.dims, zip(layout.shape, layout.block, strict=True), strict=True))
     sizes["start"] = (layout.study.starts, layout.study.starts)
@@ -208,7 +208,7 @@ def _require_ours(path: Path) -> Mapping[str, object]:
     return attrs
 
 
-def _require_same(path: Path, old: Origin, layout: Layout) -> None:
+def _require_same(path: Path, old: Origin, layout: MapLayout) -> None:
     new = layout.origin
     if old == new:
         return

@@ -43,7 +43,7 @@ from lostmotion.workflow.analysis_arrays import arrays_of
 from lostmotion.workflow.analysis_words import statement
 from lostmotion.workflow.beat import Beat, MotionEvidence, beat_of, returns
 from lostmotion.workflow.motion import Verdict, judged
-from lostmotion.workflow.source import Source, Wanted, source_of
+from lostmotion.workflow.source import Source, WantedChannel, source_of
 from lostmotion.workflow.vetting import Guests
 
 if TYPE_CHECKING:
@@ -60,7 +60,7 @@ FEW, APART = 8, 0.7
 
 
 @dataclass(frozen=True)
-class Request:
+class AnalysisRequest:
     """What is asked for: which channel, which methods, how many surrogates, the unit of exponents, seed and cores."""
 
     columns: tuple[str, ...] = ()
@@ -108,11 +108,11 @@ class AnalysedChannel:
 
 
 def run_analysis(
-    path: Path, out: Path, registry: Registry, request: Request, say: Say = lambda _step: None
+    path: Path, out: Path, registry: Registry, request: AnalysisRequest, say: Say = lambda _step: None
 ) -> Analysis:
     """Return what was found after writing `analysis.json`, the arrays and the report into the folder `out`."""
     say("reading")
-    source = source_of(path, Wanted(request.columns, request.rate, request.every), registry)
+    source = source_of(path, WantedChannel(request.columns, request.rate, request.every), registry)
     _require_known(registry, request)
     folder = folder_for(out)
     result, arrays = told_of(source, registry, request, say)
@@ -124,7 +124,7 @@ def run_analysis(
 
 
 def told_of(
-    source: Source, registry: Registry, request: Request, say: Say = lambda _step: None
+    source: Source, registry: Registry, request: AnalysisRequest, say: Say = lambda _step: None
 ) -> tuple[Analysis, xr.Dataset]:
     """Return what was found and the arrays behind it; nothing is written."""
     found = analyse(source, registry, request, say)
@@ -135,7 +135,9 @@ def told_of(
     return statement(found, from_plain(Origin, made)), dataset_of(variables, coords, {"title": source.title})
 
 
-def analyse(source: Source, registry: Registry, request: Request, say: Say = lambda _step: None) -> AnalysedChannel:
+def analyse(
+    source: Source, registry: Registry, request: AnalysisRequest, say: Say = lambda _step: None
+) -> AnalysedChannel:
     """Return what the chain finds: delay, dimension, noise, exponent, correlation dimension, surrogate tests."""
     beat = beat_of(checked(source.x), source, request.period)
     guests = Guests(registry)
@@ -187,7 +189,7 @@ class _Measured:
 
     series: Series
     guests: Guests
-    request: Request
+    request: AnalysisRequest
     beat: Beat
     say: Say
 
@@ -201,7 +203,7 @@ class _Measured:
         return _converted(found, self.request, self.beat)
 
 
-def _require_known(registry: Registry, request: Request) -> None:
+def _require_known(registry: Registry, request: AnalysisRequest) -> None:
     """Refuse a name that is unknown before the work begins."""
     registry.load("embedder", request.embedder)
     for name in request.surrogates:
@@ -220,7 +222,7 @@ def _reader(registry: Registry, name: str) -> Quantifier[Series]:
     return quantifier
 
 
-def _cleaned(raw: Series, guests: Guests, request: Request) -> tuple[Denoised, str]:
+def _cleaned(raw: Series, guests: Guests, request: AnalysisRequest) -> tuple[Denoised, str]:
     """Return the series with less noise, and how that was done; a denoiser that breaks down leaves it as it is."""
     registry = guests.registry
     meter, rng = _reader(registry, METER), request.rng("denoise")
@@ -233,7 +235,7 @@ def _cleaned(raw: Series, guests: Guests, request: Request) -> tuple[Denoised, s
     return (cleaned, name) if cleaned else (Denoised(raw, level, level), "none")
 
 
-def _converted(estimate: Estimate, request: Request, beat: Beat) -> Estimate:
+def _converted(estimate: Estimate, request: AnalysisRequest, beat: Beat) -> Estimate:
     """Return an exponent in the unit that was asked for; any other estimate as it is."""
     if estimate.unit != "1/s":
         return estimate
@@ -242,7 +244,7 @@ def _converted(estimate: Estimate, request: Request, beat: Beat) -> Estimate:
     return exponent_in(estimate, request.unit, period=beat.period)
 
 
-def _tests(raw: Series, guests: Guests, request: Request, say: Say) -> tuple[SurrogateTest, ...]:
+def _tests(raw: Series, guests: Guests, request: AnalysisRequest, say: Say) -> tuple[SurrogateTest, ...]:
     """Return the surrogate tests: on the recording as it is, since noise reduction makes any series look ruled."""
     names = request.surrogates or ((SURROGATE, SURROGATE_OF_CYCLES) if raw.period else (SURROGATE,))
     statistic, tests = _reader(guests.registry, STATISTIC), []
@@ -264,7 +266,7 @@ def _options(name: str, raw: Series) -> dict[str, int]:
     return {"together": best + 1} if spread[best] < APART * spread[0] else {}
 
 
-def _surrogate_dims(raw: Series, registry: Registry, request: Request, say: Say) -> Array | None:
+def _surrogate_dims(raw: Series, registry: Registry, request: AnalysisRequest, say: Say) -> Array | None:
     """Return the dimension of a few surrogates over the embedding dimension (draws, dims), as in Fig. 21."""
     say("dimension of surrogates")
     rng = request.rng("dimensions")

@@ -12,7 +12,7 @@ from lostmotion.results.analysis import (
     ChosenDimension,
     DrivePeriod,
     Measure,
-    NoiseLevel,
+    RecordedNoise,
     SurrogateOutcome,
 )
 from lostmotion.results.background import Origin
@@ -38,7 +38,7 @@ def statement(found: AnalysedChannel, origin: Origin) -> Analysis:
         because=found.verdict.because,
         delay=ChosenDelay(samples=int(embedding.lag), seconds=embedding.lag * clean.dt, method=delay),
         dimension=ChosenDimension(value=int(embedding.dim), method=dimension, theiler=int(embedding.theiler)),
-        noise=NoiseLevel(
+        noise=RecordedNoise(
             before=denoised.before.value,
             after=denoised.after.value,
             unit=SHARE,

@@ -32,7 +32,7 @@ from lostmotion.results.identification import (
     MeasuredRange,
 )
 from lostmotion.settings import DEFAULT, Settings
-from lostmotion.stages.identify import Plan, SampledPosterior, Task, Watch, identify
+from lostmotion.stages.identify import SampledPosterior, SamplingPlan, Task, Watch, identify
 from lostmotion.storage import folder_for, save_datasets, save_json
 from lostmotion.study.inversion import Inversion, Predicted, predicted
 from lostmotion.workflow.identification_words import modes_said, statement
@@ -62,7 +62,7 @@ class Order:
     terms: tuple[str, ...] = ()
     seed: int = 0
     jobs: int = 2
-    plan: Plan = field(default_factory=Plan)
+    plan: SamplingPlan = field(default_factory=SamplingPlan)
     route: str | None = None
     maps: tuple[Path, ...] = ()
     fresh: bool = False
