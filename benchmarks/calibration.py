@@ -24,7 +24,7 @@ from typing import Any
 from tqdm import tqdm
 
 from lostmotion.case import dump_case
-from lostmotion.stages.identify import Plan
+from lostmotion.stages.identify import SamplingPlan
 from lostmotion_trials.coverage.design import Design
 from lostmotion_trials.coverage.machines import Bench
 from lostmotion_trials.coverage.run import run_calibration
@@ -74,7 +74,7 @@ def run(name: str, out: Path, machines: int, jobs: int, seed: int = 0) -> dict[s
     case = out / f"{name}.toml"
     model = {"name": "lin_backlash", "known": KNOWN, "estimate": PRIORS}
     dump_case({"title": f"Oscillator with backlash: {name}", "model": model}, case)
-    plan = Plan(ess=campaign.ess)
+    plan = SamplingPlan(ess=campaign.ess)
     design = Design(case.absolute(), campaign.bench, campaign.hide, campaign.terms, campaign.route, plan, seed)
     with tqdm(desc=name, unit=" machines", leave=False, file=sys.stderr) as bar:
 

@@ -25,7 +25,7 @@ from lostmotion.stages import _keep
 from lostmotion.study import store
 from lostmotion.workflow import source
 from lostmotion.workflow.prepare import prepare
-from lostmotion.workflow.source import Wanted, source_of
+from lostmotion.workflow.source import WantedChannel, source_of
 
 STORED = ("diagnosis", "analysis", "chain", "map", "campaign")
 KINDS = (*TABLES, "case", "values", "plugin", *STORED)
@@ -101,7 +101,7 @@ def table(kind, seeds, rng, folder, write_only):
         return
     attempts = (
         lambda: load_recording(RecordingSpec(name, *_rest()), folder),
-        lambda: source_of(path, Wanted(("x",)), default()),
+        lambda: source_of(path, WantedChannel(("x",)), default()),
     )
     refused = None
     for attempt in attempts:
@@ -181,7 +181,7 @@ def case(seeds, rng, folder, write_only):
     load_case(folder / "case.toml")
     ready = prepare(folder / "case.toml", default())
     known_of(System(ready.model, ready.terms), ready.case)
-    source_of(folder / "case.toml", Wanted(), default())
+    source_of(folder / "case.toml", WantedChannel(), default())
 
 
 def _dumped(tree, path):

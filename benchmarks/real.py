@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 
 from first_light import show
-from lostmotion.stages.identify import Plan
+from lostmotion.stages.identify import SamplingPlan
 from lostmotion.workflow.trajectory import doubts
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -121,7 +121,7 @@ def main():
     parser.add_argument("--shared", type=Path, default=ROOT.parent / "shared", help="folder of the real recordings")
     parser.add_argument("--ess", type=float, default=1000.0, help="effective draws of each parameter")
     args = parser.parse_args()
-    args.plan = Plan(ess=args.ess)
+    args.plan = SamplingPlan(ess=args.ess)
     for name in PARTS if "all" in args.part else args.part:
         data, part = PARTS[name]
         if not (args.shared / "data" / data).is_dir():

@@ -17,7 +17,7 @@ import numpy as np
 from scipy.stats import beta
 
 from lostmotion.registry import default
-from lostmotion.workflow.analyse import Analysis, Request, analyse
+from lostmotion.workflow.analyse import AnalysedChannel, AnalysisRequest, analyse
 from lostmotion.workflow.source import Source
 from zoo import Animal, zoo
 from zoo_fresh import fresh_zoo
@@ -31,11 +31,11 @@ RIGHT = {"unsteady": "undecided"}
 Table = dict[str, Counter[str]]
 
 
-def verdict(animal: Animal, seed: int, told: bool, draws: int) -> Analysis:
+def verdict(animal: Animal, seed: int, told: bool, draws: int) -> AnalysedChannel:
     """Return what the chain makes of one series; `told` gives it the period of the drive."""
     x = animal.draw(np.random.default_rng(seed))
     source = Source(animal.name, x, animal.dt, "", "x", None, {})
-    return analyse(source, default(), Request(seed=seed, period=animal.period if told else None, draws=draws))
+    return analyse(source, default(), AnalysisRequest(seed=seed, period=animal.period if told else None, draws=draws))
 
 
 def animals(which: str, samples: int) -> list[Animal]:
@@ -104,7 +104,7 @@ def main() -> None:
     shown(table)
 
 
-def figures(found: Analysis) -> str:
+def figures(found: AnalysedChannel) -> str:
     """Return what growth and plateau were judged by."""
     grown, level = found.exponent.details, found.dimension.details
     return (

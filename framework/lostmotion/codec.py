@@ -11,16 +11,25 @@ import dataclasses
 import math
 from collections.abc import Iterator, Mapping
 from functools import cache
-from typing import Any, NamedTuple, TypeVar, get_args, get_type_hints
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeVar, get_args, get_origin, get_type_hints
 
 import numpy as np
-from cattrs import BaseValidationError, Converter, transform_error
-from cattrs.gen import make_dict_structure_fn, make_dict_unstructure_fn, override
 
 from lostmotion.errors import DataError
 
+if TYPE_CHECKING:
+    from cattrs import Converter
+
 T = TypeVar("T")
-WORDS: Mapping[Any, str] = {float: "number", int: "whole number", str: "text", bool: "true or false"}
+Cells = float | tuple[float, ...]
+"""A number, or a row of them."""
+WORDS: Mapping[Any, str] = {
+    float: "number",
+    Cells: "number or list of numbers",
+    int: "whole number",
+    str: "text",
+    bool: "true or false",
+}
 
 
 def told(doc: str, *, unit: str = "", key: str = "", default: Any = dataclasses.MISSING) -> Any:
@@ -41,6 +50,8 @@ def to_plain(result: Any) -> Any:
 
 def from_plain(kind: type[T], plain: Any, what: str = "the file") -> T:
     """Return a result of a `kind` from plain JSON values; `DataError` says which key of `what` is wrong."""
+    from cattrs import BaseValidationError, transform_error  # results are declared without it
+
     try:
         return _converter().structure(plain, kind)
     except (BaseValidationError, TypeError, ValueError, KeyError) as err:
@@ -74,6 +85,8 @@ def _entries(kind: Any, before: str) -> Iterator[Entry]:
 
 def _read(hint: Any) -> tuple[Any, str, str]:
     """Return the innermost type of a hint, the ending of a path into it, and the type in words."""
+    if _is_literal(hint):
+        return hint, "", _choice(hint)
     options = [one for one in get_args(hint) if one is not type(None)]
     if type(None) in get_args(hint):
         core, ending, words = _read(options[0])
@@ -90,17 +103,40 @@ def _read(hint: Any) -> tuple[Any, str, str]:
 
 @cache
 def _converter() -> Converter:
+    from cattrs import Converter
+
     made = Converter()
     made.register_unstructure_hook(float, lambda x: float(x) if math.isfinite(x) else None)
     made.register_structure_hook(float, lambda x, _: _number(x))
     made.register_structure_hook(int, lambda x, _: _whole(x))
     made.register_structure_hook(bool, lambda x, _: _wanted(x, bool, "true or false"))
+    made.register_structure_hook_func(lambda kind: kind is object, lambda x, _: x)
+    made.register_structure_hook(
+        Cells, lambda x, _: tuple(map(_number, x)) if isinstance(x, list | tuple) else _number(x)
+    )
     made.register_structure_hook(str, lambda x, _: _wanted(x, str, "a text"))
     made.register_unstructure_hook_func(lambda kind: kind is np.ndarray, lambda x: made.unstructure(x.tolist()))
+    made.register_structure_hook_func(_is_literal, _one_of)
     made.register_unstructure_hook_func(_is_scalar, lambda x: made.unstructure(x.item()))
     made.register_unstructure_hook_factory(dataclasses.is_dataclass, lambda kind: _writer(kind, made))
     made.register_structure_hook_factory(dataclasses.is_dataclass, lambda kind: _reader(kind, made))
     return made
+
+
+def _is_literal(kind: Any) -> bool:
+    return get_origin(kind) is Literal
+
+
+def _choice(kind: Any) -> str:
+    """Return the words that a field may hold, as a sentence has them."""
+    *first, last = (f'"{word}"' for word in get_args(kind))
+    return f"{', '.join(first)} or {last}" if first else last
+
+
+def _one_of(x: Any, kind: Any) -> Any:
+    if x not in get_args(kind):
+        raise TypeError(f"wanted {_choice(kind)}, found {x!r}")
+    return x
 
 
 def _is_scalar(kind: Any) -> bool:
@@ -108,11 +144,22 @@ def _is_scalar(kind: Any) -> bool:
 
 
 def _writer(kind: type, converter: Converter) -> Any:
+    from cattrs.gen import make_dict_unstructure_fn, override
+
     how = {f.name: override(rename=f.metadata.get("key") or None, omit_if_default=f.default is None) for f in _of(kind)}
-    return make_dict_unstructure_fn(kind, converter, _cattrs_use_linecache=False, **how)  # type: ignore[arg-type]
+    write: Any = make_dict_unstructure_fn(kind, converter, _cattrs_use_linecache=False, **how)  # type: ignore[arg-type]
+    keys = [f.metadata.get("key") or f.name for f in _of(kind)]
+
+    def in_order(result: Any) -> dict[str, Any]:  # what may be left out would stand last otherwise
+        plain = write(result)
+        return {key: plain[key] for key in keys if key in plain}
+
+    return in_order
 
 
 def _reader(kind: type, converter: Converter) -> Any:
+    from cattrs.gen import make_dict_structure_fn, override
+
     how = {f.name: override(rename=f.metadata.get("key") or None) for f in _of(kind)}
     return make_dict_structure_fn(kind, converter, _cattrs_use_linecache=False, **how)  # type: ignore[arg-type]
 

@@ -13,11 +13,12 @@ from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from lostmotion.codec import from_plain
 from lostmotion.errors import DataError, LostMotionError, PlaceError
 
 try:
@@ -28,6 +29,7 @@ except ImportError:  # a system that is not of the family of Unix
 if TYPE_CHECKING:
     import xarray as xr
 
+T = TypeVar("T")
 ENDINGS = (".csv", ".nc")
 """The endings of a table, which tell its format."""
 FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
@@ -274,6 +276,15 @@ def load_json(path: Path, wanted: str) -> dict[str, Any]:
     if not isinstance(found, dict):
         raise DataError(f"{path} holds a {type(found).__name__}, not an object: {wanted}")
     return found
+
+
+def load_result(kind: type[T], path: Path, wanted: str) -> T:
+    """Return the result of a `kind` that a JSON file holds; `wanted` ends the sentence that refuses anything else."""
+    plain = load_json(path, wanted)
+    try:
+        return from_plain(kind, plain, str(path))
+    except DataError as err:
+        raise DataError(f"{err}: {wanted}") from err
 
 
 def load_arrays(path: Path, wanted: str, group: str | None = None) -> xr.Dataset:

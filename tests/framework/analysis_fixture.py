@@ -19,6 +19,7 @@ from lostmotion.storage import Column, save_arrays, save_json
 HOSTILE = "<script>alert('x')</script> & $\\frac{$ \"quoted\" " + "very long " * 30
 plain = SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name("analysis_curves.py"))))
 under, DRIVE_PERIOD = plain.under, plain.DRIVE_PERIOD
+FEW = ("verdict", "strength", "state", "sided", "source")
 SHARE = "share of the signal's standard deviation"
 NULLS = (
     "a Gaussian linear process seen through a static nonlinearity, with the same spectrum and values",
@@ -69,21 +70,38 @@ def number(ends, unit, method, says="", **details):
     return facts | {"status": "uncertain" if says else "ok", "details": details}
 
 
+def origin():
+    versions = dict.fromkeys(("python", "lostmotion", "numpy", "numba"), "1.0")
+    return {"component": "analyse", "versions": versions, "settings": {"unit": "1/s"}, "seed": 0, "inputs": {}}
+
+
 def facts(title, dt, lag):
     says = "The sampling is locked to the drive: the dimension of the section plus one is given."
     fit, plateau = {"fit_begin": 0.04, "fit_end": 0.2}, {"r_low": 3e-4, "r_high": 1.5e-3}
-    follows = {"sided": "two", "says": "Rejected: the recording is easier to predict than all of them."}
+    follows = {
+        "sided": "two",
+        "original": 0.12,
+        "says": "Rejected: the recording is easier to predict than all of them.",
+    }
     tests = zip(NULLS, ("iaaft", "pseudo_periodic"), (0.02, 0.0004), strict=True)
     return {
         "schema": "lostmotion.analysis/1",
         "title": title,
         "verdict": "chaotic",
+        "strength": "firm",
+        "signs": [],
         "says": "Neighbouring states part at 7.3 1/s [6.6, 8.1], and the correlation dimension levels off at 2.4. "
         "Noise with the same spectrum and values does not look like it (p = 0.02).",
         "because": ["iaaft: the prediction error is lower than that of 99 surrogates (p = 0.02)"],
         "delay": {"samples": lag, "seconds": lag * dt, "method": "ami"},
         "dimension": {"value": 4, "method": "cao", "theiler": 48},
-        "noise": {"before": 0.031, "after": 0.005, "unit": SHARE, "method": "local_projective"},
+        "noise": {
+            "before": 0.031,
+            "after": 0.005,
+            "unit": SHARE,
+            "before_interval": [0.02, 0.04],
+            "method": "local_projective",
+        },
         "lyapunov": number((7.3, 6.6, 8.1), "1/s", "lyapunov_rosenstein", **fit),
         "d2": number((2.41, 2.2, 2.6), "1", "grassberger_procaccia", says, **plateau),
         "k2": number((6.9, 5.2, 9.0), "1/s", "grassberger_procaccia"),
@@ -96,7 +114,7 @@ def facts(title, dt, lag):
         ],
         "drive": {"period": DRIVE_PERIOD, "samples_per_period": DRIVE_PERIOD / dt, "source": "excitation"},
         "notes": ["The recording holds 150 periods: some hundreds would narrow the interval of the dimension."],
-        "provenance": {"seed": 0, "version": "0"},
+        "provenance": origin(),
     }
 
 
@@ -163,9 +181,9 @@ def refused():
     none = {"value": None, "low": None, "high": None, "details": {}, "says": ""}
     for key, status in (("lyapunov", "not_saturating"), ("d2", "rising"), ("k2", "rising")):
         said[key] |= none | {"status": status}
-    said |= {"delay": {"samples": None, "seconds": None, "method": "ami"}, "dimension": {"value": None}}
-    said |= {"noise": {"before": None, "after": None, "unit": SHARE}}
-    said |= {"verdict": "stochastic", "drive": {"period": None}, "others": []}
+    said["noise"] |= {"before": None, "after": None}
+    said |= {"verdict": "stochastic", "others": []}
+    said |= {"drive": {"period": None, "samples_per_period": None, "source": "none"}}
     said["says"] = "Noise with the same spectrum and values looks just like it: nothing speaks for chaos."
     said["surrogates"] = [said["surrogates"][0] | {"p": None, "says": ""}]
     return said, arrays
@@ -178,12 +196,14 @@ def hostile():
     return _poisoned(said), arrays
 
 
-def _poisoned(value):
+def _poisoned(value, key=""):
+    """Return facts whose texts and names are meant to do harm, but for those that are one of a few words."""
     if isinstance(value, dict):
-        return {key: _poisoned(v) for key, v in value.items()} | {HOSTILE[:30]: HOSTILE}
+        bad = {key: _poisoned(v, key) for key, v in value.items()}
+        return bad | {HOSTILE[:30]: 1.0 if key == "details" else HOSTILE}
     if isinstance(value, list):
-        return [_poisoned(v) for v in value]
-    return HOSTILE if isinstance(value, str) else value
+        return [_poisoned(v, key) for v in value]
+    return HOSTILE if isinstance(value, str) and key not in FEW else value
 
 
 KINDS = {f.__name__: f for f in (chaotic, undriven, periodic, refused, hostile)}

@@ -13,7 +13,7 @@ from lostmotion.case import CaseFile, Measured, Prior, Sensor, dump_case, load_c
 from lostmotion.errors import CaseError
 from lostmotion.registry import Registry
 from lostmotion.workflow.prepare import prepare
-from lostmotion.workflow.source import Wanted, source_of
+from lostmotion.workflow.source import WantedChannel, source_of
 
 GOOD = """
 title = "Link 2, 1.54 Hz"
@@ -160,7 +160,7 @@ def test_recordings_must_be_there(tmp_path: Path, empty: str) -> None:
 def test_a_case_may_be_without_recordings_until_they_are_needed(tmp_path: Path) -> None:
     got = case(tmp_path, '[model]\nname = "lin_backlash"')
     assert (got.recordings, got.levels, got.sensor) == ((), (), Sensor("each", None))
-    for needs in (lambda path: prepare(path, Registry()), lambda path: source_of(path, Wanted(), Registry())):
+    for needs in (lambda path: prepare(path, Registry()), lambda path: source_of(path, WantedChannel(), Registry())):
         with pytest.raises(CaseError, match=r"has no \[\[recordings\]\]: add one"):
             needs(tmp_path / "case.toml")
 

@@ -6,6 +6,7 @@ import json
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 import pytest
@@ -21,6 +22,7 @@ class Part:
     size: float = told("how large it is", unit="m")
     numbers: Mapping[str, Interval] = told("its numbers", default={})
     late: Interval | None = told("since when", default=None)
+    rest: float = told("what is left", default=0.0)
 
 
 @dataclass(frozen=True)
@@ -29,6 +31,7 @@ class Whole:
     curve: tuple[tuple[float, ...], ...] = told("a table", key="in", default=())
     many: int = told("how many", default=3)
     good: bool = told("whether it is good", default=True)
+    kind: Literal["near", "far"] = told("where it is", default="near")
 
 
 WHOLE = Whole((Part("a", np.float64(0.5), {"k": Interval(1.0, 0.5, 2.0, "N")}), Part("b", 1.0)), ((1.0, 2.0),))
@@ -37,7 +40,7 @@ WHOLE = Whole((Part("a", np.float64(0.5), {"k": Interval(1.0, 0.5, 2.0, "N")}), 
 def test_what_is_written_is_read():
     plain = json.loads(json.dumps(to_plain(WHOLE)))
     assert from_plain(Whole, plain) == WHOLE
-    assert list(plain) == ["parts", "in", "many", "good"]
+    assert list(plain) == ["parts", "in", "many", "good", "kind"]
 
 
 def test_none_is_left_out_and_what_is_not_finite_is_null():
@@ -46,6 +49,11 @@ def test_none_is_left_out_and_what_is_not_finite_is_null():
     assert plain["numbers"]["k"] == {"median": 1.0, "low": None, "high": 2.0, "unit": "N"}
     assert "late" not in plain
     assert math.isnan(from_plain(Part, plain).size)
+
+
+def test_keys_stand_in_the_order_of_the_fields():
+    late = Interval(1.0, 0.5, 2.0, "s")
+    assert list(to_plain(Part("a", 1.0, late=late))) == ["name", "size", "numbers", "late", "rest"]
 
 
 def test_arrays_are_lists():
@@ -64,6 +72,8 @@ def test_a_key_that_nobody_knows_is_ignored():
         ({"parts": [{"name": "a", "size": "x"}]}, r"wanted a number, found 'x'"),
         ({"parts": [], "many": 1.5}, "wanted a whole number, found 1.5"),
         ({"parts": [], "good": 1}, "wanted true or false, found 1"),
+        ({"parts": [], "kind": "odd"}, 'wanted "near" or "far", found \'odd\' @ .kind'),
+        ({"parts": [], "kind": [1]}, 'wanted "near" or "far"'),
         ([1], "not what this program writes"),
         (None, "not what this program writes"),
     ],
@@ -78,4 +88,5 @@ def test_the_schema_has_each_key_with_unit_and_meaning():
     assert rows["parts[].size"][1:] == ("number", "m", "how large it is")
     assert rows["parts[].numbers.NAME.low"].type == "number"
     assert rows["parts[].late"].type == "object, or absent"
+    assert rows["kind"].type == '"near" or "far"'
     assert rows["in[][]"].type == "list of list of number"

@@ -67,7 +67,8 @@ def test_identify_finds_the_damping_of_both_together(place, known):
         place / "case.toml", out=place / "posterior", registry=known, ess=50, max_steps=400, seed=1, progress=False
     )
     assert abs(done.parameters["c"].median / 0.8 - 1.0) < 0.1
-    assert abs(done.content["parameters"]["c"]["median"] / 0.8 - 1.0) < 0.1
+    assert abs(done.to_dict()["parameters"]["c"]["median"] / 0.8 - 1.0) < 0.1
+    assert lostmotion.load(place / "posterior").result == done.result
     assert (place / "posterior" / "report.html").exists()
 
 

@@ -61,7 +61,7 @@ def test_a_map_knows_the_plugin_file_it_was_made_with(study):
     assert set(study.origins) == {"far_guests.py"}
     other = replace(study, origins={"far_guests.py": "0" * 64})
     with pytest.raises(DataError, match=r"made otherwise \(plugin far_guests.py has changed\)"):
-        _require_same(Path("map.zarr"), layout_of(study).attrs, layout_of(other))
+        _require_same(Path("map.zarr"), layout_of(study).origin, layout_of(other))
 
 
 @pytest.mark.slow

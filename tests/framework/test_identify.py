@@ -11,7 +11,7 @@ from lostmotion.likelihood.problem import Free
 from lostmotion.likelihood.sensors import Sensor
 from lostmotion.stages._chains import grouped, quality_of, quiet_arviz
 from lostmotion.stages._sampling import state_of
-from lostmotion.stages.identify import Cloud, Plan, Shown, Task, identify, task_of
+from lostmotion.stages.identify import Cloud, SamplingPlan, Shown, Task, identify, task_of
 
 MEAN = np.array([1.0, -2.0, 0.3])
 COVARIANCE = np.array([[0.04, 0.015, 0.0], [0.015, 0.01, 0.0], [0.0, 0.0, 0.25]])
@@ -61,12 +61,12 @@ def fit_of(theta=(0.1, -5.0, 1.0, 2.0, -3.0), log_posterior=0.0, log_evidence=0.
 
 
 def draw(seed=0, plan=None, **settings):
-    return identify(task_at(Bell(), **settings), rng=np.random.default_rng(seed), plan=plan or Plan())
+    return identify(task_at(Bell(), **settings), rng=np.random.default_rng(seed), plan=plan or SamplingPlan())
 
 
 @pytest.fixture(scope="module")
 def bell():
-    return draw(plan=Plan(ess=3000))
+    return draw(plan=SamplingPlan(ess=3000))
 
 
 def test_normal_posterior_is_recovered(bell):
@@ -92,7 +92,7 @@ def test_posterior_that_presses_against_its_bound():
     free = (Free("a", "N", 0.0, -40.0, 40.0), Free("b", "N", 0.0, 0.0, 40.0))
     problem = Bell(free, pressed=True)
     task = task_at(problem, np.zeros(2), np.diag([1.0, 4.0]))
-    result = identify(task, rng=np.random.default_rng(4), plan=Plan(ess=2000))
+    result = identify(task, rng=np.random.default_rng(4), plan=SamplingPlan(ess=2000))
     assert result.converged
     assert result.intervals["b"].median == pytest.approx(np.log(2.0) / 3.0, rel=0.1)
     assert result.intervals["b"].high == pytest.approx(-np.log(0.025) / 3.0, rel=0.15)
@@ -102,14 +102,14 @@ def test_posterior_that_presses_against_its_bound():
 def test_logarithms_become_numbers():
     free = (Free("a", "m", 0.0, -40.0, 40.0, log=True), *Bell().free[1:])
     task = task_at(Bell(free))
-    result = identify(task, rng=np.random.default_rng(0), plan=Plan(max_steps=20))
+    result = identify(task, rng=np.random.default_rng(0), plan=SamplingPlan(max_steps=20))
     assert result.units == ("m", "N", "N")
     assert result.maximum["a"] == pytest.approx(np.exp(MEAN[0]))
     assert result.chain[..., 0].min() > 0.0
 
 
 def test_same_seed_same_draws_and_another_seed_others():
-    short = Plan(max_steps=30)
+    short = SamplingPlan(max_steps=30)
     one, again, other = (draw(seed, short) for seed in (7, 7, 8))
     np.testing.assert_array_equal(one.chain, again.chain)
     assert one.chain.tobytes() == again.chain.tobytes()
@@ -117,7 +117,7 @@ def test_same_seed_same_draws_and_another_seed_others():
 
 
 def test_no_interval_without_convergence():
-    result = draw(plan=Plan(max_steps=15))
+    result = draw(plan=SamplingPlan(max_steps=15))
     assert not result.converged
     assert result.intervals == {}
     assert result.sd == {}
@@ -130,7 +130,7 @@ def test_watch_hears_of_every_step():
     identify(
         task_at(Bell()),
         rng=np.random.default_rng(0),
-        plan=Plan(max_steps=25),
+        plan=SamplingPlan(max_steps=25),
         watch=lambda steps, says: heard.append((steps, says)),
     )
     assert sum(steps for steps, _ in heard) == 25
@@ -140,7 +140,7 @@ def test_watch_hears_of_every_step():
 
 def test_too_few_walkers_and_a_hopeless_fit_are_refused():
     with pytest.raises(CaseError, match="4 walkers are too few for 3 parameters: give 8 or more"):
-        draw(plan=Plan(walkers=4))
+        draw(plan=SamplingPlan(walkers=4))
     with pytest.raises(DataError, match="cannot follow this recording"):
         task_of([fit_of(log_posterior=-np.inf)])
 
@@ -166,7 +166,7 @@ def test_a_task_weighs_modes_by_their_evidence_and_keeps_all():
 
 def test_evaluations_are_counted():
     problem = Bell()
-    result = identify(task_at(problem), rng=np.random.default_rng(0), plan=Plan(max_steps=20))
+    result = identify(task_at(problem), rng=np.random.default_rng(0), plan=SamplingPlan(max_steps=20))
     assert result.evaluations == len(problem.asked)
 
 

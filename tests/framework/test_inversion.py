@@ -9,13 +9,15 @@ import pytest
 
 from lostmotion.case import CaseFile, Prior
 from lostmotion.case.levels import Level, Measured
+from lostmotion.codec import to_plain
 from lostmotion.errors import CaseError, DataError
 from lostmotion.likelihood.space import Free
 from lostmotion.registry import default
 from lostmotion.study.atlas import CHAOTIC, PERIODIC, Atlas
 from lostmotion.study.inversion import WEAK, Inversion, grouped, likelihood_of, predicted
 from lostmotion.study.map import RING, Map
-from lostmotion.study.numbers import Law, Power, law_of
+from lostmotion.study.numbers import NumberLaw, NumberPower, law_of
+from lostmotion.workflow.identify import level_told
 from lostmotion.workflow.levels import Survey, _free, derived, inversion_of, quantifier_task, wanted_of
 from lostmotion.workflow.mapping import How, Request, make_map, study_of
 
@@ -38,7 +40,8 @@ def inversion(levels, made, *, known=None):
     """An inversion for x0 and zeta of a machine with k0 = 1: alpha = amplitude / x0."""
     free = (Free("x0", "m", 1.0, 0.4, 2.0), Free("zeta", "1", 0.05, 0.01, 0.1))
     laws = tuple(
-        {"alpha": Law(math.log(level.amplitude), (-1.0, 0.0), True), "zeta": Law(0.0, (0.0, 1.0))} for level in levels
+        {"alpha": NumberLaw(math.log(level.amplitude), (-1.0, 0.0), True), "zeta": NumberLaw(0.0, (0.0, 1.0))}
+        for level in levels
     )
     return Inversion(tuple(levels), (made,), (0,) * len(levels), laws, free)
 
@@ -137,9 +140,12 @@ def test_predictions_are_those_of_the_map():
     found = predicted(inversion([level], atlas(window)), np.tile([1.0, 0.05], (200, 1)), np.random.default_rng(1))[0]
     assert found.chaotic_share == 1.0
     assert found.lyapunov.median == pytest.approx(2.0 * 0.15, rel=0.05)
-    told = found.as_dict()
+    assert found.lyapunov.low <= found.lyapunov.median <= found.lyapunov.high
+    told = to_plain(level_told(replace(found, level=replace(level, lyapunov=Measured(0.3, 0.1)))))
     assert told["predicted"]["chaotic_share"] == 1.0
-    assert {"low", "median", "high"} <= told["predicted"]["lyapunov"].keys()
+    assert {"low", "median", "high"} == told["predicted"]["lyapunov"].keys()
+    assert told["lyapunov"] == {"value": 0.3, "low": pytest.approx(0.104), "high": pytest.approx(0.496), "unit": "1/s"}
+    assert "d2" not in told
 
 
 @pytest.mark.parametrize("name", ["lin_backlash", "robot_joint"])
@@ -149,12 +155,12 @@ def test_powers_are_those_of_the_groups(name):
     truth = {"zeta": 0.15, "frequency_ratio": 0.4, "alpha": 0.4 if name == "lin_backlash" else 20.0}
     for group in model.groups:
         if group.name in truth:
-            law = law_of(Power.of(group, model), values, ["x0"])
+            law = law_of(NumberPower.of(group, model), values, ["x0"])
             assert law(np.log([[0.2]]))[0] == pytest.approx(truth[group.name])
 
 
 def test_ends_of_a_number_over_a_box():
-    assert Law(0.0, (1.0, -2.0)).ends((0.0, 0.0), (math.log(2.0), math.log(3.0))) == pytest.approx((1 / 9, 2.0))
+    assert NumberLaw(0.0, (1.0, -2.0)).ends((0.0, 0.0), (math.log(2.0), math.log(3.0))) == pytest.approx((1 / 9, 2.0))
 
 
 def test_levels_of_one_frequency_share_a_map():
@@ -174,7 +180,7 @@ def test_priors_are_cut_where_a_map_must_end():
 
 def test_a_parameter_that_is_neither_known_nor_free_is_named():
     model = default().make("model", "lin_backlash")
-    power = next(Power.of(group, model) for group in model.groups if group.name == "alpha")
+    power = next(NumberPower.of(group, model) for group in model.groups if group.name == "alpha")
     with pytest.raises(CaseError, match="alpha needs k0"):
         law_of(power, {"x0": 1.0, "drive.amplitude": 2.0}, [])
 

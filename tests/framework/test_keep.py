@@ -15,7 +15,7 @@ from scipy.stats import norm
 from toys import Toy, free_of, task_at
 
 from lostmotion.errors import DataError
-from lostmotion.stages.identify import Plan, identify
+from lostmotion.stages.identify import SamplingPlan, identify
 
 SCRIPT = """
 import sys, time
@@ -23,9 +23,9 @@ import numpy as np
 from pathlib import Path
 sys.path.insert(0, {here!r})
 import lostmotion.stages.identify as stage
-from test_keep import slow_task, Plan
+from test_keep import slow_task, SamplingPlan
 stage.EVERY = 0.0
-result = stage.identify(slow_task(), rng=np.random.default_rng(3), plan=Plan(ess=300), keep=Path(sys.argv[1]))
+result = stage.identify(slow_task(), rng=np.random.default_rng(3), plan=SamplingPlan(ess=300), keep=Path(sys.argv[1]))
 np.save(sys.argv[2], result.chain)
 """
 
@@ -93,7 +93,7 @@ def cut_after(calls):
 def test_cut_short_after_any_block_it_ends_the_same(tmp_path, monkeypatch):
     """The same with an exception in place of a kill, so that every place is visited: pilots, start, each block."""
     monkeypatch.setattr("lostmotion.stages.identify.EVERY", 0.0)
-    plan = Plan(ess=500)
+    plan = SamplingPlan(ess=500)
     rng = np.random.default_rng(1)
     undisturbed = identify(quick_task(), rng=rng, plan=plan)
     after = rng.integers(2**60)
@@ -113,15 +113,15 @@ def test_cut_short_after_any_block_it_ends_the_same(tmp_path, monkeypatch):
 
 def test_a_finished_chain_goes_on_when_more_is_wanted(tmp_path):
     path = tmp_path / "chain.h5"
-    short = identify(quick_task(), rng=np.random.default_rng(1), plan=Plan(max_steps=33), keep=path)
+    short = identify(quick_task(), rng=np.random.default_rng(1), plan=SamplingPlan(max_steps=33), keep=path)
     assert not short.converged
-    longer = identify(quick_task(), rng=np.random.default_rng(1), plan=Plan(ess=900), keep=path)
-    once = identify(quick_task(), rng=np.random.default_rng(1), plan=Plan(ess=900))
+    longer = identify(quick_task(), rng=np.random.default_rng(1), plan=SamplingPlan(ess=900), keep=path)
+    once = identify(quick_task(), rng=np.random.default_rng(1), plan=SamplingPlan(ess=900))
     assert longer.resumed
     assert longer.converged
     assert longer.chain.tobytes() == once.chain.tobytes()
     assert longer.evaluations == once.evaluations
-    again = identify(quick_task(), rng=np.random.default_rng(1), plan=Plan(ess=900), keep=path)
+    again = identify(quick_task(), rng=np.random.default_rng(1), plan=SamplingPlan(ess=900), keep=path)
     assert again.chain.tobytes() == once.chain.tobytes()
 
 
@@ -129,7 +129,7 @@ def test_a_finished_chain_goes_on_when_more_is_wanted(tmp_path):
     ("task", "seed"), [(quick_task("other"), 1), (quick_task(), 2), (quick_task(size=3), 1), (quick_task(at=0.1), 1)]
 )
 def test_a_chain_of_another_case_is_not_continued(tmp_path, task, seed):
-    path, plan = tmp_path / "chain.h5", Plan(max_steps=20)
+    path, plan = tmp_path / "chain.h5", SamplingPlan(max_steps=20)
     identify(quick_task(), rng=np.random.default_rng(1), plan=plan, keep=path)
     result = identify(task, rng=np.random.default_rng(seed), plan=plan, keep=path)
     assert (result.resumed, result.replaced) == (False, True)
@@ -149,7 +149,7 @@ def test_emcee_reads_the_kept_chain(tmp_path):
     from emcee.backends import HDFBackend
 
     path = tmp_path / "chain.h5"
-    result = identify(quick_task(), rng=np.random.default_rng(1), plan=Plan(max_steps=40), keep=path)
+    result = identify(quick_task(), rng=np.random.default_rng(1), plan=SamplingPlan(max_steps=40), keep=path)
     backend = HDFBackend(str(path), read_only=True)
     chain = np.swapaxes(backend.get_chain(discard=result.burn_in), 0, 1)
     np.testing.assert_array_equal(chain, result.chain)

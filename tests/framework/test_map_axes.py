@@ -8,8 +8,8 @@ import pytest
 from lostmotion.contracts import Assembly
 from lostmotion.errors import CaseError, LostMotionError
 from lostmotion.registry import default
-from lostmotion.study.axes import Axis, axis_of
-from lostmotion.study.rig import Rig, reach
+from lostmotion.study.axes import MapAxis, axis_of
+from lostmotion.study.rig import SweptMachine, reach
 from lostmotion.workflow.mapping import Request, study_of
 
 X, Y = "alpha=0.2:0.5:4:inverse", "zeta=0.01:0.04:3"
@@ -18,12 +18,12 @@ X, Y = "alpha=0.2:0.5:4:inverse", "zeta=0.01:0.04:3"
 def rig(swept=("alpha", "zeta"), **fixed):
     """A rig of lin_backlash; a double underscore stands for a dot."""
     told = {name.replace("__", "."): value for name, value in fixed.items()}
-    return Rig(Assembly(default().make("model", "lin_backlash")), swept, told).checked()
+    return SweptMachine(Assembly(default().make("model", "lin_backlash")), swept, told).checked()
 
 
 def test_an_inverse_axis_is_even_in_one_over_it():
     axis = axis_of("alpha=0.1:0.5:9:inverse")
-    assert axis == Axis("alpha", 0.1, 0.5, 9, "inverse")
+    assert axis == MapAxis("alpha", 0.1, 0.5, 9, "inverse")
     assert np.diff(1.0 / axis.values) == pytest.approx(np.full(8, -1.0))
     assert (axis.values[0], axis.values[-1]) == (0.1, 0.5)
 
@@ -40,7 +40,7 @@ def test_the_points_of_an_axis_are_among_those_of_a_finer_one(text):
 
 
 def test_an_axis_as_text_is_read_as_itself():
-    axis = Axis("alpha", 0.1, 1.0 / 3.0, 9, "inverse")
+    axis = MapAxis("alpha", 0.1, 1.0 / 3.0, 9, "inverse")
     assert axis_of(axis.as_text()) == axis
 
 
@@ -85,7 +85,7 @@ def test_groups_set_a_machine_in_si_units_too():
 def test_parameters_of_terms_and_aliases_are_knobs():
     registry = default()
     friction = registry.make("term", "coulomb_friction")
-    made = Rig(
+    made = SweptMachine(
         Assembly(registry.make("model", "lin_backlash")) + friction,
         ("coulomb_friction.force",), {"alpha": 0.5, "zeta": 0.02},
     ).checked()  # fmt: skip

@@ -233,7 +233,7 @@ def test_bits_are_what_they_are():
     nats, bits = computed(study(), cells), computed(study(unit="bit"), cells)
     for name in ("lyapunov_max", "lyapunov_stderr"):
         assert bits[name] == pytest.approx(nats[name] / np.log(2.0))
-    assert layout_of(study(unit="bit")).variables["lyapunov_max"].attrs["units"] == "bit/t_bar"
+    assert layout_of(study(unit="bit")).variables["lyapunov_max"].attrs.units == "bit/t_bar"
 
 
 def test_further_quantities_stand_beside_the_exponent():

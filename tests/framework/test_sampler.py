@@ -11,7 +11,7 @@ from lostmotion.likelihood.problem import Free
 from lostmotion.stages._cloud import Cloud
 from lostmotion.stages._population import effective, tempered
 from lostmotion.stages._scores import Scores
-from lostmotion.stages.identify import Plan, Shown, Task, identify
+from lostmotion.stages.identify import SamplingPlan, Shown, Task, identify
 
 
 def two_modes(size, share):
@@ -34,7 +34,7 @@ def test_two_modes_get_their_weights(size):
     """False alarm: 1 in 15 000 for each size; the guesses of the weights are wrong by a factor of sixteen."""
     modes = np.array([np.full(size, -5.0), np.full(size, 5.0)])
     task = task_at(two_modes(size, 0.8), modes, [0.25 * np.eye(size), np.eye(size)], [0.2, 0.8])
-    result = identify(task, rng=np.random.default_rng(11), plan=Plan(ess=2000))
+    result = identify(task, rng=np.random.default_rng(11), plan=SamplingPlan(ess=2000))
     assert result.converged
     left = result.draws[:, 0] < 0.0
     assert abs(left.mean() - 0.8) < 4.0 * math.sqrt(0.16 / 2000)
@@ -59,7 +59,7 @@ def test_banana():
         return norm.logpdf(points[:, 0], 0.0, 1.0) + norm.logpdf(points[:, 1], points[:, 0] ** 2, 0.2)
 
     task = task_at(Toy(height, free_of(2)), [[1.0, 1.0]], [np.array([[0.5, 1.0], [1.0, 2.04]])])
-    result = identify(task, rng=np.random.default_rng(5), plan=Plan(ess=1000))
+    result = identify(task, rng=np.random.default_rng(5), plan=SamplingPlan(ess=1000))
     assert result.converged
     x, y = result.draws.T
     assert abs(x.mean()) < 4.0 / math.sqrt(1000)
@@ -77,7 +77,7 @@ def test_piled_up_on_a_bound_and_a_wide_prior():
         return norm.logpdf(points[:, 0], 0.0, np.exp(0.5 * up)) - 2.0 * up
 
     task = task_at(Toy(height, free), [[0.0, -14.0]], [np.diag([1.0, 0.5])])
-    result = identify(task, rng=np.random.default_rng(8), plan=Plan(ess=2000))
+    result = identify(task, rng=np.random.default_rng(8), plan=SamplingPlan(ess=2000))
     assert result.converged
     up = result.draws[:, 1] + 14.0
     for share in (0.1, 0.5, 0.9):
@@ -95,7 +95,7 @@ def test_ten_recordings_with_levels_of_their_own():
         return np.sum(norm.logpdf(points[:, :11]), axis=1) - np.sum(2.0 * points[:, 11:], axis=1)
 
     task = task_at(Toy(height, free), [np.zeros(21)], [np.diag([1.0] * 11 + [0.5] * 10)])
-    result = identify(task, rng=np.random.default_rng(2), plan=Plan(ess=400))
+    result = identify(task, rng=np.random.default_rng(2), plan=SamplingPlan(ess=400))
     assert result.converged
     assert np.abs(result.draws[:, :11].mean(axis=0)).max() < 5.0 / math.sqrt(400)
     assert np.abs(result.draws[:, 11:].mean(axis=0) - 0.5).max() < 5.0 * 0.5 / math.sqrt(400)
@@ -127,7 +127,7 @@ def test_a_swarm_finds_a_rugged_posterior(swarmed):
     toy, cloud = swarmed
     shown = tuple(Shown(f.key, f.unit, 0.0) for f in toy.free)
     task = Task(toy, cloud, shown, np.array([0.3, 0.6]))
-    result = identify(task, rng=np.random.default_rng(6), plan=Plan(ess=2000))
+    result = identify(task, rng=np.random.default_rng(6), plan=SamplingPlan(ess=2000))
     assert result.converged
     truth = exact(10)
     found, *_ = np.histogram2d(*result.draws.T, bins=10, range=((0, 1), (0, 1)))

@@ -11,7 +11,7 @@ import pytest
 from lostmotion.contracts import Series
 from lostmotion.results import Embedding, Estimate
 from lostmotion.stages.surrogates import SurrogateTest
-from lostmotion.workflow.beat import Beat, Evidence
+from lostmotion.workflow.beat import Beat, MotionEvidence
 from lostmotion.workflow.motion import _locked, judged
 from lostmotion.workflow.signs import FEWEST_SAMPLES, signs_of
 from lostmotion_plugins.quantifiers.correlation_curves import flatness
@@ -49,7 +49,7 @@ def evidence(*, exponent=NOTHING, dimension=NOTHING, entropy=NOTHING, ranks=(0.0
     level = SimpleNamespace(value=0.0, low=0.0, high=0.001)
     tests = tuple(ranked(p, m) for p, m in zip(ranks, ("iaaft", "pseudo_periodic"), strict=False))
     beat = Beat(period, "given" if period else "none")
-    return Evidence(beat, raw, SimpleNamespace(series=raw, before=level), exponent, dimension, entropy, tests)
+    return MotionEvidence(beat, raw, SimpleNamespace(series=raw, before=level), exponent, dimension, entropy, tests)
 
 
 def state(it, key):

@@ -22,9 +22,9 @@ from lostmotion.likelihood.predict import filtered, free_run, observed
 from lostmotion.likelihood.problem import NOISE, RANDOM, Problem
 from lostmotion.likelihood.system import System
 from lostmotion.registry import default
-from lostmotion.stages.identify import Identification, Plan, identify
+from lostmotion.stages.identify import SampledPosterior, SamplingPlan, identify
 from lostmotion.workflow.prepare import prepare
-from lostmotion.workflow.trajectory import Sampled, chosen_terms, sampled, task_for
+from lostmotion.workflow.trajectory import SampledCase, chosen_terms, sampled, task_for
 
 EMPS_FILES = ("DATA_EMPS", "DATA_EMPS_PULSES")
 EMPS = """
@@ -83,7 +83,7 @@ SPANS = {0.25: (4.6, 24.0), 0.5: (2.3, 12.0), 1.0: (1.15, 6.0)}
 class Found:
     """A posterior, the fit it was drawn around, and how the fit does when it runs free from the first sample."""
 
-    result: Identification
+    result: SampledPosterior
     fit: Fit
     free_error: float
 
@@ -101,7 +101,7 @@ class Found:
         return usual, robust
 
 
-def emps(folder: Path, data: Path, files: Iterable[str] = EMPS_FILES, plan: Plan | None = None) -> Found:
+def emps(folder: Path, data: Path, files: Iterable[str] = EMPS_FILES, plan: SamplingPlan | None = None) -> Found:
     """Return what is found of the EMPS carriage in one recording or in several together; `data` is where they lie."""
     case = folder / "emps.toml"
     texts = [EMPS.format(file=(data / f"{name}.mat").resolve()) for name in files]
@@ -109,10 +109,10 @@ def emps(folder: Path, data: Path, files: Iterable[str] = EMPS_FILES, plan: Plan
     registry = default()
     prepared = prepare(case, registry)
     terms = chosen_terms(prepared, ("coulomb_friction", "offset_force"), registry)
-    return found(sampled(prepared, terms, plan or Plan(), rng=np.random.default_rng(0), jobs=2))
+    return found(sampled(prepared, terms, plan or SamplingPlan(), rng=np.random.default_rng(0), jobs=2))
 
 
-def damper(folder: Path, data: Path, names: tuple[str, ...], plan: Plan | None = None) -> Found:
+def damper(folder: Path, data: Path, names: tuple[str, ...], plan: SamplingPlan | None = None) -> Found:
     """Return what is found of the damper in one recording, or in several that share gap, contact and damping."""
     texts, several = [thinned(folder, data, name) for name in names], len(names) > 1
     case = folder / "damper.toml"
@@ -123,7 +123,7 @@ def damper(folder: Path, data: Path, names: tuple[str, ...], plan: Plan | None =
     rng, system = np.random.default_rng(0), System(prepared.model, terms)
     problem = replace(problem_of(system, prepared.case, prepared.observations), active=frozenset(system.keys))
     fits = [separated(fit, prepared.case.sensor) for fit in hills(problem, rng)]
-    return found(Sampled(identify(task_for(prepared, fits, terms), rng=rng, plan=plan), tuple(fits)))
+    return found(SampledCase(identify(task_for(prepared, fits, terms), rng=rng, plan=plan), tuple(fits)))
 
 
 def hills(problem: Problem, rng: np.random.Generator) -> list[Fit]:
@@ -156,7 +156,7 @@ def thinned(folder: Path, data: Path, name: str) -> str:
     return DAMPER.format(name=name, start=start, end=end)
 
 
-def found(sample: Sampled) -> Found:
+def found(sample: SampledCase) -> Found:
     """Return a posterior with the free run of its best fit, its error (rms) a share of the scatter of the response."""
     fit = sample.fits[0]
     problem, theta = fit.problem, fit.theta

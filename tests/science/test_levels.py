@@ -10,10 +10,12 @@ import pytest
 
 from lostmotion.case import CaseFile, Prior
 from lostmotion.case.levels import Level, Measured
+from lostmotion.codec import to_plain
 from lostmotion.contracts import Orbit
 from lostmotion.flow import Harmonic, flow_of
 from lostmotion.registry import default
 from lostmotion.study.inversion import predicted
+from lostmotion.workflow.identify import level_told
 from lostmotion.workflow.levels import Survey, inversion_of
 from lostmotion.workflow.reading import read_level
 from lostmotion.workflow.rehearsal import Bench, rehearsed, rehearsed_levels
@@ -137,7 +139,7 @@ def test_gap_of_a_machine_of_known_damping(tmp_path):
                          np.random.default_rng(2))  # fmt: skip
     for level, one in zip(levels, expected, strict=True):
         assert (one.chaotic_share > 0.5) == (level.motion == "chaotic")
-        json.dumps(one.as_dict())
+        json.dumps(to_plain(level_told(one)))
 
 
 @pytest.mark.slow

@@ -10,13 +10,13 @@ import numpy as np
 import pytest
 from machines import EMPS_FILES, LEVEL, PUBLISHED, damper, emps, travel
 
-from lostmotion.stages.identify import Plan
+from lostmotion.stages.identify import SamplingPlan
 from lostmotion.workflow.trajectory import doubts
 
 pytestmark = [pytest.mark.real, pytest.mark.slow]
 TOLERANCE = {"m": 0.01, "c": 0.08, "coulomb_friction.force": 0.02, "offset_force.force": 0.03}
 """Of the published values, relative; measured: 0.6 %, 6.8 %, 1.3 %, 1.0 % at the most."""
-SHORT = Plan(ess=400.0)
+SHORT = SamplingPlan(ess=400.0)
 
 
 def folder_of(shared, name):

@@ -15,7 +15,7 @@ from lostmotion.inference.setup import problem_of, stepped
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import RANDOM
 from lostmotion.likelihood.system import System
-from lostmotion.stages.identify import Plan, identify, task_of
+from lostmotion.stages.identify import SamplingPlan, identify, task_of
 
 PERIODIC = {"2.6": 200.0 / 2.6, "4.1": 200.0 / 4.1}
 PARTS = FINE // EVERY
@@ -121,7 +121,7 @@ def test_chaotic_motion_is_read_as_sharply_as_pieces_of_ten_periods_allow():
 def test_draws_are_as_sharp_as_the_information(level):
     """The posterior as sampled: 300 effective draws know a deviation to 4 %, so that 1.3 is seven of these away."""
     machine, seen, sigma, q, fit = posed(PERIODIC[level], 1e-3)
-    found = identify(task_of([fit]), rng=np.random.default_rng(0), plan=Plan(ess=300.0))
+    found = identify(task_of([fit]), rng=np.random.default_rng(0), plan=SamplingPlan(ess=300.0))
     assert found.converged
     sd = np.log(found.draws[:, [found.keys.index("c"), found.keys.index("x0")]]).std(axis=0)
     ratio = sd / bounds(machine, seen, sigma, q)

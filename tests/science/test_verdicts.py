@@ -7,7 +7,7 @@ import pytest
 from scipy.signal import lfilter
 
 from lostmotion.registry import default
-from lostmotion.workflow.analyse import Request, analyse
+from lostmotion.workflow.analyse import AnalysisRequest, analyse
 from lostmotion.workflow.source import Source
 
 BENT = {"cubed": lambda x: x**3, "clipped": np.tanh, "lopsided": lambda x: x + 0.5 * x**2, "as it is": lambda x: x}
@@ -16,7 +16,7 @@ BENT = {"cubed": lambda x: x**3, "clipped": np.tanh, "lopsided": lambda x: x + 0
 def found(x, dt, period=None):
     """Return the verdict of the whole chain, with few surrogates."""
     source = Source("series", x, dt, "", "x", None, {})
-    return analyse(source, default(), Request(draws=19, period=period, jobs=1)).verdict
+    return analyse(source, default(), AnalysisRequest(draws=19, period=period, jobs=1)).verdict
 
 
 def resonance(rng, n=3000):

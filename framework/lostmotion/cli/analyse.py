@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
@@ -10,6 +11,9 @@ from lostmotion.cli._lazy import PluginName, examples, registry_of
 from lostmotion.cli.options import on_a_trial, settable
 from lostmotion.cli.progress import progress
 from lostmotion.defaults import EMBEDDER
+
+if TYPE_CHECKING:
+    from lostmotion.results.analysis import Analysis, Measure
 
 RATES = ("1/s", "bit/s", "1/period", "bit/period")
 
@@ -53,30 +57,29 @@ def command(ctx: click.Context, /, recording: Path, out: Path, quiet: bool, **as
     Writes analysis.json, analysis.nc and report.html into DIR. Exit status 0 when the chain ran to its end, whatever
     it says; 2 for a recording that cannot be used.
     """
-    from lostmotion.workflow.analyse import Request, run_analysis
+    from lostmotion.workflow.analyse import AnalysisRequest, run_analysis
 
     with progress("analyse", quiet=quiet) as say:
-        content = run_analysis(recording, out, registry_of(ctx), Request(**asked), say)  # type: ignore[arg-type]
-    likely = "probably " if content["strength"] == "likely" else ""
-    click.echo(f"{likely}{content['verdict']}: {content['says']}")
-    for line in (*_numbers(content), *content["notes"]):
+        found = run_analysis(recording, out, registry_of(ctx), AnalysisRequest(**asked), say)  # type: ignore[arg-type]
+    likely = "probably " if found.strength == "likely" else ""
+    click.echo(f"{likely}{found.verdict}: {found.says}")
+    for line in (*_numbers(found), *found.notes):
         click.echo(line)
     click.echo(str(out / "report.html"))
 
 
-def _numbers(content: dict[str, object]) -> list[str]:
+def _numbers(found: Analysis) -> list[str]:
     """Return one line for each number that was measured."""
-    rows = []
-    for key, what in (("lyapunov", "largest exponent"), ("d2", "correlation dimension"), ("k2", "correlation entropy")):
-        entry = content[key]
-        if isinstance(entry, dict):
-            rows.append(f"{what:<22} {_said(entry)}")
-    return rows
+    named = (
+        ("largest exponent", found.lyapunov),
+        ("correlation dimension", found.d2),
+        ("correlation entropy", found.k2),
+    )
+    return [f"{what:<22} {_said(one)}" for what, one in named]
 
 
-def _said(entry: dict[str, object]) -> str:
-    value = entry["value"]
-    if value is None or value != value:
-        return f"no number: {entry['says']}"
-    unit = "" if entry["unit"] == "1" else f" {entry['unit']}"
-    return f"{value:.3g}{unit}  95 % [{entry['low']:.3g}, {entry['high']:.3g}]  {entry['says']}".rstrip()
+def _said(found: Measure) -> str:
+    if found.value != found.value:
+        return f"no number: {found.says}"
+    unit = "" if found.unit == "1" else f" {found.unit}"
+    return f"{found.value:.3g}{unit}  95 % [{found.low:.3g}, {found.high:.3g}]  {found.says}".rstrip()

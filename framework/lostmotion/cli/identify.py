@@ -13,6 +13,7 @@ from lostmotion.cli._lazy import PluginName, examples, registry_of
 from lostmotion.cli.options import on_a_case, settable
 
 if TYPE_CHECKING:
+    from lostmotion.results.identification import Parameter
     from lostmotion.settings import Settings
     from lostmotion.workflow.identify import Identified
 
@@ -68,16 +69,16 @@ def command(
     cut short goes on where it stopped. Exit status 0 when the sampling ended, converged or not; no interval is given of
     a chain that has not converged. 2 for a case that cannot be used.
     """
-    from lostmotion.stages.identify import Plan
+    from lostmotion.stages.identify import SamplingPlan
     from lostmotion.workflow.identify import Order, run_identification
 
-    plan = Plan(**{key: given.pop(key) for key in ("ess", "max_steps", "walkers")}, limits=settings.chain)  # type: ignore[arg-type]
+    plan = SamplingPlan(**{key: given.pop(key) for key in ("ess", "max_steps", "walkers")}, limits=settings.chain)  # type: ignore[arg-type]
     order = Order(seed=seed, jobs=jobs, plan=plan, settings=settings, **given)  # type: ignore[arg-type]
     with _bar(plan.max_steps, quiet=quiet) as watch:
         done = run_identification(case, out, registry_of(ctx), order, watch)
-    if done.result.replaced:
+    if done.posterior.replaced:
         click.echo("The chain that was kept there belongs to another case or to other settings: begun anew.", err=True)
-    for line in (*_table(done), *done.content["says"], *done.content["notes"], _speed(done)):
+    for line in (*_table(done), *done.result.says, *done.result.notes, _speed(done)):
         click.echo(line)
     click.echo(str(out / "report.html"))
 
@@ -99,18 +100,18 @@ def _bar(most: int, *, quiet: bool) -> Iterator[Callable[[int, str], None]]:
 
 def _table(done: Identified) -> list[str]:
     """Return one line for each parameter, noise levels included: its interval, or that there is none."""
-    rows = {**done.content["parameters"], **done.content["noise"]}
+    rows = done.result.rows
     width = max(map(len, rows))
     return [f"{name:<{width}}  {_line(row)}" for name, row in rows.items()]
 
 
-def _line(row: dict[str, float]) -> str:
-    reached = f"ESS {row['ess']:.0f}, R-hat {row['rhat']:.3f}, tau {row['tau']:.1f}"
-    if row["median"] is None:
+def _line(row: Parameter) -> str:
+    reached = f"ESS {row.ess:.0f}, R-hat {row.rhat:.3f}, tau {row.tau:.1f}"
+    if row.median != row.median:
         return f"no interval  ({reached})"
-    digits = _digits(row["high"] - row["low"], row["median"])
-    low, median, high = (f"{row[key]:.{digits}g}" for key in ("low", "median", "high"))
-    return f"{median} {row['unit']}  95 % [{low}, {high}]  ({reached})"
+    digits = _digits(row.high - row.low, row.median)
+    low, median, high = (f"{value:.{digits}g}" for value in (row.low, row.median, row.high))
+    return f"{median} {row.unit}  95 % [{low}, {high}]  ({reached})"
 
 
 def _digits(width: float, value: float) -> int:
@@ -123,7 +124,7 @@ def _digits(width: float, value: float) -> int:
 
 
 def _speed(done: Identified) -> str:
-    runs, ess = done.result.evaluations, float(done.result.quality.ess.min())
+    runs, ess = done.posterior.evaluations, float(done.posterior.quality.ess.min())
     return (
         f"{runs} runs of the likelihood in {done.seconds:.1f} s: {runs / done.seconds:.0f} a second,"
         f" {ess / done.seconds:.1f} effective draws a second."

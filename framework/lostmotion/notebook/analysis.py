@@ -3,43 +3,41 @@
 from __future__ import annotations
 
 import html
-from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from lostmotion.codec import to_plain
 from lostmotion.report import analysis as page
-from lostmotion.report.evidence import evidence_with
-from lostmotion.storage import finite, folder_for, load_arrays, load_json, save_datasets, save_json, save_text
+from lostmotion.report.analysis_facts import AGAIN, ARRAYS, RESULT, view_of
+from lostmotion.results.analysis import Analysis
+from lostmotion.storage import folder_for, load_arrays, load_result, save_datasets, save_json, save_text
 
 if TYPE_CHECKING:
     import xarray as xr
 
-AGAIN = "run `lostmotion analyse` again"
-
 
 @dataclass(frozen=True, eq=False)
 class AnalysisResult:
-    """What `lostmotion.analyse` returns: `content` is that of `analysis.json`, `arrays` the dataset behind it."""
+    """What `lostmotion.analyse` returns: `result` is what `analysis.json` holds, `arrays` the dataset behind it."""
 
-    content: Mapping[str, Any]
+    result: Analysis
     arrays: xr.Dataset = field(repr=False)
 
     @property
     def verdict(self) -> str:
         """What kind of motion it is."""
-        return str(self.content["verdict"])
+        return self.result.verdict
 
     @property
     def says(self) -> tuple[str, ...]:
         """The answer, in sentences."""
-        said = self.content["says"]
-        return (str(said),) if isinstance(said, str) else tuple(str(one) for one in said)
+        return (self.result.says,)
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the content of `analysis.json`."""
-        made: Any = finite(self.content)
-        return dict(made)
+        """Return what `analysis.json` holds."""
+        made: dict[str, Any] = to_plain(self.result)
+        return made
 
     def to_xarray(self) -> xr.Dataset:
         """Return the arrays behind the analysis, with units and coordinates."""
@@ -47,25 +45,24 @@ class AnalysisResult:
 
     def report(self, path: str | Path = "report.html") -> Path:
         """Return the path of the page that was written: self-contained HTML."""
-        return save_text(Path(path), page.render(evidence_with(self.to_dict(), self.arrays)))
+        return save_text(Path(path), page.render(view_of(self.result, self.arrays)))
 
     def save(self, folder: str | Path) -> Path:
         """Return the folder into which `analysis.json`, `analysis.nc` and `report.html` were written."""
         place = folder_for(Path(folder))
-        save_datasets(place / "analysis.nc", {None: self.arrays})
-        save_json(place / "analysis.json", self.content)
+        save_datasets(place / ARRAYS, {None: self.arrays})
+        save_json(place / RESULT, to_plain(self.result))
         self.report(place / "report.html")
         return place
 
     def __repr__(self) -> str:
-        return "\n".join([f"{self.content['title']}: {self.verdict}", *self.says])
+        return "\n".join([f"{self.result.title}: {self.verdict}", *self.says])
 
     def _repr_html_(self) -> str:
         said = "".join(f"<li>{html.escape(one)}</li>" for one in self.says)
-        return f"<h4>{html.escape(str(self.content['title']))}: {html.escape(self.verdict)}</h4><ul>{said}</ul>"
+        return f"<h4>{html.escape(self.result.title)}: {html.escape(self.verdict)}</h4><ul>{said}</ul>"
 
 
 def load_analysis(folder: Path) -> AnalysisResult:
     """Return the analysis that was saved into a folder; `DataError` where it is absent or damaged."""
-    content = load_json(folder / "analysis.json", AGAIN)
-    return AnalysisResult(content, load_arrays(folder / "analysis.nc", AGAIN))
+    return AnalysisResult(load_result(Analysis, folder / RESULT, AGAIN), load_arrays(folder / ARRAYS, AGAIN))

@@ -102,13 +102,13 @@ def identify(
     wanted. `route` is "trajectory" or "quantifiers", which needs the path of a case, and may be given `maps`.
     `settings` are as for `diagnose`.
     """
-    from lostmotion.stages.identify import Plan
+    from lostmotion.stages.identify import SamplingPlan
     from lostmotion.workflow.identify import Order, identified, inference_of, route_of
     from lostmotion.workflow.prepare import case_of
 
     known_to = registry or default()
     limits = read(settings)
-    plan = Plan(ess, max_steps, walkers, limits.chain)
+    plan = SamplingPlan(ess, max_steps, walkers, limits.chain)
     order = Order(_texts(terms), seed, jobs, plan, route, tuple(Path(m) for m in maps), fresh, limits)
     with shown("identify", progress) as say, TemporaryDirectory() as spare:
         place = Path(out) if out is not None else Path(spare)
@@ -119,7 +119,7 @@ def identify(
             prepared = case_from(case, model, known, estimate, known_to).prepared(known_to)
             done = identified(prepared.case, prepared, place, known_to, order, lambda _steps, says: say(says))
         data = inference_of(done)
-    found = IdentificationResult(done.content, {name: data[name] for name in data.groups()})
+    found = IdentificationResult(done.result, {name: data[name] for name in data.groups()})
     if out is not None:
         found.save(out)
     return found
@@ -154,10 +154,10 @@ def analyse(
     of their `draws`. `unit` is that of exponents: "1/s", "bit/s", "1/period" or "bit/period". `settings` are as
     for `diagnose`.
     """
-    from lostmotion.workflow.analyse import Request, told_of
-    from lostmotion.workflow.source import Wanted, source_in, source_of
+    from lostmotion.workflow.analyse import AnalysisRequest, told_of
+    from lostmotion.workflow.source import WantedChannel, source_in, source_of
 
-    request = Request(
+    request = AnalysisRequest(
         columns=_texts(columns),
         rate=rate,
         every=every,
@@ -176,11 +176,11 @@ def analyse(
     if isinstance(recording, Recording):
         source = source_in(recording, _sensor(recording, channel))
     else:
-        wanted = Wanted(request.columns or _texts(channel or ()), request.rate, request.every)
+        wanted = WantedChannel(request.columns or _texts(channel or ()), request.rate, request.every)
         source = source_of(Path(recording), wanted, known_to)
     with shown("analyse", progress) as say:
-        content, arrays = told_of(source, known_to, request, say)
-    found = AnalysisResult(content, arrays)
+        result, arrays = told_of(source, known_to, request, say)
+    found = AnalysisResult(result, arrays)
     if out is not None:
         found.save(out)
     return found

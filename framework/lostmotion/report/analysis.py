@@ -5,29 +5,16 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator
 from pathlib import Path
-from typing import NamedTuple
 
-from markupsafe import Markup
-
+from lostmotion.codec import to_plain
 from lostmotion.report import analysis_embedding as embedding
 from lostmotion.report import analysis_measures as measures
 from lostmotion.report import analysis_motion as motion
 from lostmotion.report import analysis_surrogates as surrogates
 from lostmotion.report import analysis_tables as tables
 from lostmotion.report import style
-from lostmotion.report.analysis_facts import read_analysis, whole
-from lostmotion.report.evidence import Evidence
-from lostmotion.report.pages import Section, template, written
-
-
-class Drawn(NamedTuple):
-    """A section as the template takes it."""
-
-    name: str
-    title: str
-    markup: Markup
-    caption: str
-
+from lostmotion.report.analysis_facts import AGAIN, AnalysisView, read_analysis, whole
+from lostmotion.report.pages import DrawnFigure, Section, template, written
 
 SECTIONS = (
     Section("course", "The motion", motion.course, motion.course_caption),
@@ -44,43 +31,43 @@ SECTIONS = (
 
 def write_analysis(folder: Path) -> Path:
     """Return the path of `report.html`, written from `analysis.json` and `analysis.nc` in the folder."""
-    evidence = read_analysis(folder)
-    return written(folder / "report.html", lambda: render(evidence), "run `lostmotion analyse` again")
+    view = read_analysis(folder)
+    return written(folder / "report.html", lambda: render(view), AGAIN)
 
 
-def render(evidence: Evidence) -> str:
+def render(view: AnalysisView) -> str:
     """Return the page as one self-contained HTML text."""
+    result = view.result
     with style.applied():
-        drawn = list(_drawn(evidence))
-    first, *rest = tables.opening(evidence)
-    kind, word = tables.verdict(evidence)
+        drawn = list(_drawn(view))
+    first, *rest = tables.opening(result)
+    kind, word = tables.verdict(result)
     return template("analysis.html.j2").render(
-        title=str(evidence.fact("title") or "Analysis"),
+        title=result.title or "Analysis",
         kind=kind,
         verdict=word,
         answer=first,
         rest=rest,
-        signs=tables.signs(evidence),
-        tally=tables.tally(evidence),
-        because=[] if tables.signs(evidence) else _strings(evidence, "because"),
-        numbers=tables.numbers(evidence),
-        tests=tables.tests(evidence),
-        notes=_strings(evidence, "notes"),
+        signs=tables.signs(result),
+        tally=tables.tally(result),
+        because=[] if result.signs else _sentences(result.because),
+        numbers=tables.numbers(view),
+        tests=tables.tests(result),
+        notes=_sentences(result.notes),
         figures=drawn,
-        provenance=json.dumps(evidence.fact("provenance") or {}, indent=2, ensure_ascii=False, default=str),
+        provenance=json.dumps(to_plain(result.provenance), indent=2, ensure_ascii=False, default=str),
     )
 
 
-def _strings(evidence: Evidence, key: str) -> list[str]:
-    found = evidence.fact(key)
-    return [whole(str(part)) for part in found if str(part).strip()] if isinstance(found, list) else []
+def _sentences(parts: tuple[str, ...]) -> list[str]:
+    return [whole(part) for part in parts if part.strip()]
 
 
-def _drawn(evidence: Evidence) -> Iterator[Drawn]:
+def _drawn(view: AnalysisView) -> Iterator[DrawnFigure]:
     """Return the sections whose arrays are there."""
     for section in SECTIONS:
-        figure = section.draw(evidence)
+        figure = section.draw(view)
         if figure is not None:
             # The markup is drawn by matplotlib, which escapes the words it is given.
             markup = style.embedded(figure, section.name)
-            yield Drawn(section.name, section.title, markup, section.caption(evidence))
+            yield DrawnFigure(section.name, section.title, markup, section.caption(view))

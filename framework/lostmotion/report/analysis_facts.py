@@ -5,21 +5,26 @@ from __future__ import annotations
 import math
 import textwrap
 from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
+import xarray as xr
 
 from lostmotion.report import style
-from lostmotion.report.evidence import Evidence, gathered
 from lostmotion.report.words import Scale, sentence, shortened, spoken, with_unit
 from lostmotion.results import Array
+from lostmotion.results.analysis import Analysis
+from lostmotion.storage import load_arrays, load_result, require_files
 
+AGAIN = "run `lostmotion analyse` again"
+RESULT, ARRAYS = "analysis.json", "analysis.nc"
 RECORDED = "as recorded"
 CLEANED = "noise reduced"
 
 
-class Shown(NamedTuple):
+class Variant(NamedTuple):
     """One version of the recording: the key of its series, its name and its colour."""
 
     key: str
@@ -27,64 +32,78 @@ class Shown(NamedTuple):
     colour: str
 
 
-def read_analysis(folder: Path) -> Evidence:
-    """Return what `lostmotion analyse` wrote into a folder."""
-    return gathered(folder, ("analysis.json", "analysis.nc"), "lostmotion analyse RECORDING")
+@dataclass(frozen=True)
+class AnalysisView:
+    """An analysis as figures and page take it: the result, and numeric arrays with their units and long names."""
+
+    result: Analysis
+    arrays: Mapping[str, Array]
+    units: Mapping[str, str]
+    long_names: Mapping[str, str]
+
+    def has(self, *names: str) -> bool:
+        """Return whether every array of `names` is there and holds at least one finite number."""
+        return all(name in self.arrays and bool(np.isfinite(self.arrays[name]).any()) for name in names)
+
+    @property
+    def period(self) -> float:
+        """The period (s) of the drive, or NaN."""
+        period = self.result.drive.period
+        return period if period > 0 else math.nan
+
+    @property
+    def lag(self) -> int:
+        """The delay in samples, 1 at least."""
+        return max(1, self.result.delay.samples)
 
 
-def entry(evidence: Evidence, *path: str) -> Mapping[str, Any]:
-    """Return the facts on one number, or nothing."""
-    found = evidence.fact(*path)
-    return found if isinstance(found, Mapping) else {}
+def read_analysis(folder: Path) -> AnalysisView:
+    """Return what `lostmotion analyse` wrote into a folder; the arrays may be absent."""
+    require_files(folder, [RESULT], "lostmotion analyse RECORDING")
+    result, arrays = load_result(Analysis, folder / RESULT, AGAIN), folder / ARRAYS
+    return view_of(result, load_arrays(arrays, AGAIN) if arrays.is_file() else xr.Dataset())
 
 
-def rows_of(evidence: Evidence, key: str) -> list[Mapping[str, Any]]:
-    """Return the entries of a list of facts."""
-    found = evidence.fact(key)
-    return [row for row in found if isinstance(row, Mapping)] if isinstance(found, list) else []
+def view_of(result: Analysis, data: xr.Dataset) -> AnalysisView:
+    """Return a result and the numeric arrays of a dataset as figures and page take them."""
+    numeric = {str(n): v for n, v in data.variables.items() if v.dtype.kind in "fiub"}
+    return AnalysisView(
+        result,
+        arrays={name: np.asarray(variable.values, dtype=float) for name, variable in numeric.items()},
+        units={name: str(variable.attrs.get("units", "")) for name, variable in numeric.items()},
+        long_names={name: str(variable.attrs.get("long_name", "")) for name, variable in numeric.items()},
+    )
 
 
-def period_of(evidence: Evidence) -> float:
-    """Return the period (s) of the drive, or NaN."""
-    period = evidence.number("drive", "period")
-    return period if period > 0 else math.nan
-
-
-def beat(evidence: Evidence) -> str:
+def beat(view: AnalysisView) -> str:
     """Return what the period is that of: the drive, or a line of the spectrum where no drive was named."""
-    return "strongest line" if evidence.fact("drive", "source") == "spectrum" else "drive"
+    return "strongest line" if view.result.drive.source == "spectrum" else "drive"
 
 
-def quantity(evidence: Evidence) -> str:
+def quantity(view: AnalysisView) -> str:
     """Return what was recorded, such as `displacement`."""
-    name = evidence.long_names.get("x", "").partition(",")[0]
+    name = view.long_names.get("x", "").partition(",")[0]
     return shortened(spoken(name) if name not in ("", "x") else "recorded signal", 24)
 
 
-def scale(evidence: Evidence, *names: str) -> Scale:
+def scale(view: AnalysisView, *names: str) -> Scale:
     """Return the scale in which the recording is easy to read."""
-    values = [evidence.arrays[name].ravel() for name in names or ("x",) if evidence.has(name)]
-    return style.scale_of(np.concatenate(values) if values else np.zeros(1), shortened(evidence.units.get("x", ""), 12))
+    values = [view.arrays[name].ravel() for name in names or ("x",) if view.has(name)]
+    return style.scale_of(np.concatenate(values) if values else np.zeros(1), shortened(view.units.get("x", ""), 12))
 
 
-def delayed(evidence: Evidence, shown: Scale) -> tuple[str, str]:
+def delayed(view: AnalysisView, shown: Scale) -> tuple[str, str]:
     """Return the names of the axes of a plane of two delay coordinates."""
-    said = quantity(evidence)
-    seconds = evidence.number("delay", "seconds")
+    said = quantity(view)
+    seconds = view.result.delay.seconds
     later = f"{said}, {seconds:.3g} s later" if math.isfinite(seconds) else f"{said}, one delay later"
     return with_unit(said, shown.unit), folded(with_unit(later, shown.unit), 40)
 
 
-def lag_of(evidence: Evidence) -> int:
-    """Return the delay in samples; 1 where none was found."""
-    lag = evidence.number("delay", "samples")
-    return max(1, int(lag)) if math.isfinite(lag) else 1
-
-
-def versions(evidence: Evidence, before: str, after: str) -> list[Shown]:
+def versions(view: AnalysisView, before: str, after: str) -> list[Variant]:
     """Return the versions of an array that are there: before and after noise reduction."""
-    both = (Shown(before, RECORDED, style.BEFORE), Shown(after, CLEANED, style.AFTER))
-    found = [shown for shown in both if evidence.has(shown.key)]
+    both = (Variant(before, RECORDED, style.BEFORE), Variant(after, CLEANED, style.AFTER))
+    found = [shown for shown in both if view.has(shown.key)]
     return found if len(found) > 1 else [shown._replace(colour=style.RECORDED) for shown in found]
 
 

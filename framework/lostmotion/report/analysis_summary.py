@@ -9,12 +9,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from lostmotion.report import style
-from lostmotion.report.analysis_facts import read_analysis, scale
+from lostmotion.report.analysis_facts import AnalysisView, read_analysis, scale
 from lostmotion.report.analysis_measures import draw_dimensions, draw_divergence
 from lostmotion.report.analysis_motion import draw_portrait, draw_section
-from lostmotion.report.evidence import Evidence
 
-Panel = Callable[[Axes, Evidence], None]
+Panel = Callable[[Axes, AnalysisView], None]
 
 
 def figure_summary(folder: Path) -> Path:
@@ -23,13 +22,13 @@ def figure_summary(folder: Path) -> Path:
         return style.save(draw(read_analysis(folder)), folder / "summary.png")
 
 
-def draw(evidence: Evidence) -> Figure:
+def draw(view: AnalysisView) -> Figure:
     """Return the panels side by side; one whose arrays are absent stays out."""
-    panels = _panels(evidence)
+    panels = _panels(view)
     figure = style.blank(3.5, width=3.5 * max(1, len(panels)))
     row = figure.subplots(1, max(1, len(panels)), squeeze=False)[0]
     for axes, (title, panel) in zip(row, panels, strict=False):
-        panel(axes, evidence)
+        panel(axes, view)
         axes.set_title(title)
     if not panels:
         row[0].set_axis_off()
@@ -37,28 +36,28 @@ def draw(evidence: Evidence) -> Figure:
     return figure
 
 
-def _panels(evidence: Evidence) -> list[tuple[str, Panel]]:
+def _panels(view: AnalysisView) -> list[tuple[str, Panel]]:
     able: tuple[tuple[str, Panel, bool], ...] = (
-        ("Phase portrait", _portrait, evidence.has("x")),
-        ("Poincaré section", _section, evidence.has("section")),
-        ("Neighbouring states part", _divergence, evidence.has("lyapunov_time", "lyapunov_divergence")),
-        ("Correlation dimension", draw_dimensions, evidence.has("d2_dim", "d2_dimension_by_dim")),
+        ("Phase portrait", _portrait, view.has("x")),
+        ("Poincaré section", _section, view.has("section")),
+        ("Neighbouring states part", _divergence, view.has("lyapunov_time", "lyapunov_divergence")),
+        ("Correlation dimension", draw_dimensions, view.has("d2_dim", "d2_dimension_by_dim")),
     )
     return [(title, panel) for title, panel, can in able if can]
 
 
-def _cleanest(evidence: Evidence, name: str, cleaned: str) -> str:
-    return cleaned if evidence.has(cleaned) else name
+def _cleanest(view: AnalysisView, name: str, cleaned: str) -> str:
+    return cleaned if view.has(cleaned) else name
 
 
-def _portrait(axes: Axes, evidence: Evidence) -> None:
-    draw_portrait(axes, evidence, (_cleanest(evidence, "x", "cleaned"), style.AFTER), scale(evidence))
+def _portrait(axes: Axes, view: AnalysisView) -> None:
+    draw_portrait(axes, view, (_cleanest(view, "x", "cleaned"), style.AFTER), scale(view))
 
 
-def _section(axes: Axes, evidence: Evidence) -> None:
-    draw_section(axes, evidence, (_cleanest(evidence, "section", "section_cleaned"), style.AFTER), scale(evidence))
+def _section(axes: Axes, view: AnalysisView) -> None:
+    draw_section(axes, view, (_cleanest(view, "section", "section_cleaned"), style.AFTER), scale(view))
 
 
-def _divergence(axes: Axes, evidence: Evidence) -> None:
-    draw_divergence(axes, evidence)
+def _divergence(axes: Axes, view: AnalysisView) -> None:
+    draw_divergence(axes, view)
     axes.legend(loc="lower right", fontsize=8)

@@ -10,8 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from lostmotion.report import style
-from lostmotion.report.analysis_facts import rows_of
-from lostmotion.report.evidence import Evidence
+from lostmotion.report.analysis_facts import AnalysisView
 from lostmotion.report.words import probability, shortened, spoken
 from lostmotion.results import Array
 
@@ -19,9 +18,9 @@ ABREAST = 3
 CELLS = 24
 
 
-def tests(evidence: Evidence) -> Figure | None:
+def tests(view: AnalysisView) -> Figure | None:
     """Return one panel for each test: the statistic of the surrogates, and that of the recording."""
-    values = _values(evidence)
+    values = _values(view)
     if values is None:
         return None
     columns = min(ABREAST, len(values))
@@ -30,16 +29,16 @@ def tests(evidence: Evidence) -> Figure | None:
     panels = figure.subplots(rows, columns, squeeze=False).ravel()
     for k, axes in enumerate(panels):
         if k < len(values):
-            _draw_test(axes, evidence, k, values[k])
+            _draw_test(axes, view, k, values[k])
         else:
             axes.remove()
     style.legend_above(figure, panels[0])
     return figure
 
 
-def tests_caption(evidence: Evidence) -> str:
+def tests_caption(view: AnalysisView) -> str:
     """Return what the figure of the tests shows."""
-    refused = int(np.sum(~np.isfinite(evidence.arrays["surrogate_values"])))
+    refused = int(np.sum(~np.isfinite(view.arrays["surrogate_values"])))
     lost = f" {refused} values could not be had and are not drawn." if refused else ""
     return (
         "The statistic of each surrogate (bars) and of the recording (line). A recording within the crowd is no"
@@ -47,17 +46,17 @@ def tests_caption(evidence: Evidence) -> str:
     )
 
 
-def _values(evidence: Evidence) -> Array | None:
-    values = evidence.arrays.get("surrogate_values")
+def _values(view: AnalysisView) -> Array | None:
+    values = view.arrays.get("surrogate_values")
     if values is None or not values.size or not np.isfinite(values).any():
         return None
     return np.atleast_2d(values)
 
 
-def _draw_test(axes: Axes, evidence: Evidence, place: int, values: Array) -> None:
-    rows = rows_of(evidence, "surrogates")
-    facts = rows[place] if place < len(rows) else {}
-    original, finite = _original(evidence, place), values[np.isfinite(values)]
+def _draw_test(axes: Axes, view: AnalysisView, place: int, values: Array) -> None:
+    tests = view.result.surrogates
+    test = tests[place] if place < len(tests) else None
+    original, finite = _original(view, place), values[np.isfinite(values)]
     if finite.size:
         cells = min(CELLS, max(6, round(1.6 * math.sqrt(finite.size))))
         counts, edges = np.histogram(finite, bins=cells)
@@ -68,12 +67,12 @@ def _draw_test(axes: Axes, evidence: Evidence, place: int, values: Array) -> Non
     axes.set_xlim(*style.span_of(np.append(finite, original), 0.1))
     style.few_ticks(axes, 4, 4)
     axes.yaxis.set_major_locator(MaxNLocator(4, integer=True))
-    axes.set_xlabel(shortened(spoken(str(facts.get("statistic") or "statistic")), 36))
+    axes.set_xlabel(shortened(spoken(test.statistic if test else "statistic"), 36))
     axes.set_ylabel("surrogates" if place % ABREAST == 0 else "")
-    name = shortened(spoken(str(facts.get("name") or facts.get("method") or f"test {place + 1}")), 26)
-    axes.set_title(f"{name}: p = {probability(facts.get('p'))}".replace("= <", "<").replace("= >", ">"))
+    name = shortened(spoken(test.method if test else f"test {place + 1}"), 26)
+    axes.set_title(f"{name}: p = {probability(test.p if test else None)}".replace("= <", "<").replace("= >", ">"))
 
 
-def _original(evidence: Evidence, place: int) -> float:
-    found = np.atleast_1d(evidence.arrays.get("surrogate_original", np.array([])))
+def _original(view: AnalysisView, place: int) -> float:
+    found = np.atleast_1d(view.arrays.get("surrogate_original", np.array([])))
     return float(found[place]) if place < found.size else math.nan

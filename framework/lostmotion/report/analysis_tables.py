@@ -5,12 +5,10 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
-from lostmotion.report.analysis_facts import beat, entry, period_of, rows_of, whole
-from lostmotion.report.evidence import Evidence
+from lostmotion.report.analysis_facts import AnalysisView, beat, whole
 from lostmotion.report.words import (
-    DASH,
     figures,
     measured,
     percent,
@@ -21,19 +19,33 @@ from lostmotion.report.words import (
     spoken,
 )
 from lostmotion.results import STATUSES
+from lostmotion.results.analysis import (
+    Analysis,
+    DriveSource,
+    Measure,
+    MotionKind,
+    Sided,
+    State,
+    SurrogateOutcome,
+)
 
-VERDICTS = {
+VERDICTS: Mapping[MotionKind, tuple[str, str]] = {
     "periodic": ("calm", "Periodic"),
     "quasiperiodic": ("calm", "Quasiperiodic"),
     "chaotic": ("chaotic", "Chaotic"),
     "stochastic": ("random", "Stochastic"),
+    "undecided": ("unknown", "Undecided"),
 }
-STATES = {"for": ("for chaos", "pro"), "against": ("against chaos", "con"), "silent": ("silent", "mute")}
+STATES: Mapping[State, tuple[str, str]] = {
+    "for": ("for chaos", "pro"),
+    "against": ("against chaos", "con"),
+    "silent": ("silent", "mute"),
+}
 SIGNIFICANT = 0.05
 EXPONENT = "lyapunov_"
 NO_RANK = "No p-value: the statistic could not be had."
-SIDES = {"two": "two-sided", "low": "one-sided, low", "high": "one-sided, high"}
-DRIVES = {
+SIDES: Mapping[Sided, str] = {"two": "two-sided", "low": "one-sided, low", "high": "one-sided, high"}
+DRIVES: Mapping[DriveSource, str] = {
     "excitation": "from the measured excitation",
     "given": "as given",
     "spectrum": "from the spectrum",
@@ -70,163 +82,125 @@ class Test(NamedTuple):
     says: str
 
 
-def verdict(evidence: Evidence) -> tuple[str, str]:
+def verdict(result: Analysis) -> tuple[str, str]:
     """Return kind (a style of the page) and word of the verdict, which says where some signs are silent."""
-    kind, word = VERDICTS.get(str(evidence.fact("verdict")), ("unknown", "Undecided"))
-    likely = evidence.fact("strength") == "likely" and kind != "unknown"
+    kind, word = VERDICTS[result.verdict]
+    likely = result.strength == "likely" and kind != "unknown"
     return kind, f"Probably {word[0].lower()}{word[1:]}" if likely else word
 
 
-def signs(evidence: Evidence) -> list[SignRow]:
+def signs(result: Analysis) -> list[SignRow]:
     """Return the rows of the table of signs: those for chaos first, then those against it, then the silent ones."""
-    rows = rows_of(evidence, "signs")
     order = list(STATES)
-    known = [row for row in rows if row.get("state") in STATES]
     return [
-        SignRow(sentence(_brief(str(row.get("name") or row.get("sign") or DASH))), *STATES[str(row["state"])],
-                whole(str(row.get("says") or "")), str(row.get("excludes") or ""))
-        for row in sorted(known, key=lambda row: order.index(str(row["state"])))
-    ]  # fmt: skip
+        SignRow(sentence(_brief(sign.name)), *STATES[sign.state], whole(sign.says), sign.excludes)
+        for sign in sorted(result.signs, key=lambda sign: order.index(sign.state))
+    ]
 
 
-def tally(evidence: Evidence) -> str:
+def tally(result: Analysis) -> str:
     """Return how many signs are in which state, in words, or nothing without signs."""
-    states = [str(row.get("state")) for row in rows_of(evidence, "signs")]
+    states = [sign.state for sign in result.signs]
     if not states:
         return ""
     return f"{states.count('for')} for chaos, {states.count('against')} against it, {states.count('silent')} silent"
 
 
-def opening(evidence: Evidence) -> list[str]:
+def opening(result: Analysis) -> list[str]:
     """Return what the analysis says: its first sentence, and the rest of it."""
-    says = evidence.fact("says")
-    parts = [str(part) for part in says] if isinstance(says, list) else [str(says or "")]
-    first, *rest = [part.strip() for part in parts if part.strip()] or ["Nothing was said about this recording."]
-    head, _, tail = re.sub(r"(?<=[.!?])\s+(?=[A-Z])", "\0", first, count=1).partition("\0")
-    return [whole(part) for part in (head, tail, *rest) if part]
+    says = result.says.strip() or "Nothing was said about this recording."
+    head, _, tail = re.sub(r"(?<=[.!?])\s+(?=[A-Z])", "\0", says, count=1).partition("\0")
+    return [whole(part) for part in (head, tail) if part]
 
 
-def numbers(evidence: Evidence) -> list[Row]:
+def numbers(view: AnalysisView) -> list[Row]:
     """Return the rows of the table of numbers."""
+    result = view.result
     named = [
-        ("Largest Lyapunov exponent", entry(evidence, "lyapunov")),
-        ("Correlation dimension D₂", entry(evidence, "d2")),
-        ("Correlation entropy K₂", entry(evidence, "k2")),
-        *((_titled(row), row) for row in rows_of(evidence, "others")),
+        ("Largest Lyapunov exponent", result.lyapunov),
+        ("Correlation dimension D₂", result.d2),
+        ("Correlation entropy K₂", result.k2),
+        *((_titled(one), one) for one in result.others),
     ]
-    return [*_drive(evidence), _delay(evidence), _dimension(evidence), *_noise(evidence),
-            *(estimate(name, facts) for name, facts in named if facts)]  # fmt: skip
+    return [*_drive(view), _delay(result), _dimension(result), *_noise(result), *(estimate(*one) for one in named)]
 
 
-def _titled(facts: Mapping[str, Any]) -> str:
-    name = str(facts.get("name") or facts.get("method") or "further estimate")
+def _titled(found: Measure) -> str:
+    name = found.name or found.method
     return "Lyapunov exponent" if name.startswith(EXPONENT) else sentence(_brief(name))
 
 
-def _method(facts: Mapping[str, Any]) -> str:
-    return sentence(_brief(str(facts.get("method") or "").removeprefix(EXPONENT)))
+def _method(name: str) -> str:
+    return sentence(_brief(name.removeprefix(EXPONENT)))
 
 
 def _brief(name: str) -> str:
     return shortened(spoken(name), 40)
 
 
-def estimate(name: str, facts: Mapping[str, Any]) -> Row:
+def estimate(name: str, found: Measure) -> Row:
     """Return the row of one estimate: a number with its interval, or the sentence that stands in its place."""
-    status, how = str(facts.get("status") or "ok"), _method(facts)
-    said = whole(str(facts.get("says") or ("" if status == "ok" else STATUSES.get(status, status))))
-    if not _is_number(facts.get("value")):
+    status, how = found.status, _method(found.method)
+    said = whole(found.says or ("" if status == "ok" else STATUSES.get(status, status)))
+    if not math.isfinite(found.value):
         return Row(name, "no number", how, said or "No reason was stated.", "refused")
-    return Row(name, _value(facts), how, said, "ok" if status == "ok" else "uncertain")
+    return Row(name, _value(found), how, said, "ok" if status == "ok" else "uncertain")
 
 
-def _value(facts: Mapping[str, Any]) -> str:
-    unit = shortened(str(facts.get("unit") or "1"), 16)
-    if not (_is_number(facts.get("low")) and _is_number(facts.get("high"))):
-        return measured(facts["value"], unit) + ", no interval"
-    value, low, high = (float(facts[key]) for key in ("value", "low", "high"))
+def _value(found: Measure) -> str:
+    unit, (value, low, high) = shortened(found.unit, 16), (found.value, found.low, found.high)
+    if not (math.isfinite(low) and math.isfinite(high)):
+        return measured(value, unit) + ", no interval"
     # Two figures of the width of the interval, as many as the opening sentence has.
     decimals = max(0, min(9, 1 - math.floor(math.log10(high - low)))) if high > low else 3
     text = f"{value:.{decimals}f} [{low:.{decimals}f}, {high:.{decimals}f}]".replace("-", "−")
     return f"{text} {pretty(unit)}".rstrip()
 
 
-def _is_number(value: Any) -> bool:
-    return isinstance(value, int | float) and math.isfinite(value)
-
-
-def _drive(evidence: Evidence) -> list[Row]:
-    period = period_of(evidence)
-    if not math.isfinite(period):
+def _drive(view: AnalysisView) -> list[Row]:
+    if not math.isfinite(view.period):
         return []
-    source = str(evidence.fact("drive", "source") or "")
-    count = evidence.number("drive", "samples_per_period")
+    drive = view.result.drive
+    count = drive.samples_per_period
     said = f" ({figures(count, 5)} samples)" if math.isfinite(count) else ""
-    return [
-        Row(
-            f"Period of the {beat(evidence)}",
-            f"{figures(period, 6)} s{said}",
-            sentence(DRIVES.get(source, _brief(source))),
-            "",
-        )
-    ]
+    how = sentence(DRIVES.get(drive.source, ""))
+    return [Row(f"Period of the {beat(view)}", f"{figures(view.period, 6)} s{said}", how, "")]
 
 
-def _delay(evidence: Evidence) -> Row:
-    facts = entry(evidence, "delay")
-    how = _method(facts)
-    if not _is_number(facts.get("seconds")):
-        return Row("Delay", "no number", how, str(facts.get("says") or "No delay was found."), "refused")
-    count = facts.get("samples")
-    said = f" ({count:g} sample{'s' if count != 1 else ''})" if _is_number(count) else ""
-    return Row("Delay", f"{figures(facts['seconds'])} s{said}", how, str(facts.get("says") or ""))
+def _delay(result: Analysis) -> Row:
+    delay = result.delay
+    said = f" ({delay.samples} sample{'s' if delay.samples != 1 else ''})"
+    return Row("Delay", f"{figures(delay.seconds)} s{said}", _method(delay.method), "")
 
 
-def _dimension(evidence: Evidence) -> Row:
-    facts = entry(evidence, "dimension")
-    how, said = _method(facts), str(facts.get("says") or "")
-    if not _is_number(facts.get("value")):
-        return Row("Embedding dimension", "no number", how, said or "No dimension was found.", "refused")
-    return Row("Embedding dimension", figures(facts["value"]), how, said)
+def _dimension(result: Analysis) -> Row:
+    dimension = result.dimension
+    return Row("Embedding dimension", figures(dimension.value), _method(dimension.method), "")
 
 
-def _noise(evidence: Evidence) -> list[Row]:
-    facts = entry(evidence, "noise")
-    how, said = _method(facts), str(facts.get("says") or "")
-    unit = str(facts.get("unit") or "")
-    rows = []
-    for name, key in (("Noise as recorded", "before"), ("Noise after reduction", "after")):
-        value = (
-            percent(facts.get(key)) if "share" in unit or not unit else measured(facts.get(key), shortened(unit, 16))
-        )
-        lacking = value == DASH
-        value = "none found" if facts.get(key) == 0 else value
-        remark = (said or "The noise could not be told from the motion.") if lacking else unit
-        rows.append(Row(name, "no number" if lacking else value, how if key == "after" else "", _of(remark),
-                        "refused" if lacking else "ok"))  # fmt: skip
-    return rows
+def _noise(result: Analysis) -> list[Row]:
+    noise = result.noise
+    return [_level("Noise as recorded", noise.before, "", noise.unit),
+            _level("Noise after reduction", noise.after, _method(noise.method), noise.unit)]  # fmt: skip
 
 
-def _of(unit: str) -> str:
-    return unit.replace("share of the", "of the", 1) if unit.startswith("share of the") else unit
+def _level(name: str, level: float, how: str, unit: str) -> Row:
+    if not math.isfinite(level):
+        return Row(name, "no number", how, "The noise could not be told from the motion.", "refused")
+    return Row(name, percent(level) if level else "none found", how, unit.replace("share of the", "of the", 1))
 
 
-def tests(evidence: Evidence) -> list[Test]:
+def tests(result: Analysis) -> list[Test]:
     """Return the rows of the table of surrogate tests."""
-    return [_test(row) for row in rows_of(evidence, "surrogates")]
+    return [_test(row) for row in result.surrogates]
 
 
-def _test(facts: Mapping[str, Any]) -> Test:
-    p = facts.get("p")
-    rejected = _is_number(p) and float(p) <= SIGNIFICANT  # type: ignore[arg-type]
-    side = SIDES.get(str(facts.get("sided")), "")
-    draws = f"{facts['draws']:g}" if _is_number(facts.get("draws")) else "?"
-    statistic = ", ".join(part for part in (_brief(str(facts.get("statistic") or DASH)), side) if part)
-    default = "Rejected." if rejected else "Not rejected."
+def _test(found: SurrogateOutcome) -> Test:
+    default = "Rejected." if found.p <= SIGNIFICANT else "Not rejected."
     return Test(
-        null=sentence(str(facts.get("null") or DASH)),
-        method=f"{draws} {_brief(str(facts.get('name') or facts.get('method') or 'surrogates'))}",
-        statistic=statistic,
-        p=probability(p),
-        says=whole(str(facts.get("says") or (default if _is_number(p) else NO_RANK))),
+        null=sentence(found.null),
+        method=f"{found.draws} {_brief(found.method)}",
+        statistic=f"{_brief(found.statistic)}, {SIDES[found.sided]}",
+        p=probability(found.p),
+        says=whole(found.says or (default if math.isfinite(found.p) else NO_RANK)),
     )

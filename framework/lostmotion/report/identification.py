@@ -3,104 +3,98 @@
 from __future__ import annotations
 
 import json
+import math
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
-from markupsafe import Markup
 
+from lostmotion.codec import to_plain
 from lostmotion.report import identification_figures as drawing
 from lostmotion.report import identification_levels as leveled
 from lostmotion.report import style
-from lostmotion.report.identification_facts import AGAIN, Sampled, read_sampled
-from lostmotion.report.pages import template, written
+from lostmotion.report.identification_facts import AGAIN, IdentificationView, read_identification
+from lostmotion.report.pages import DrawnFigure, template, written
 from lostmotion.report.words import DASH, Scale, figures, interval, pretty, readable
+from lostmotion.results.identification import Identification
 
 LEADING = 3
 """Parameters that are told in the headline."""
 
 
-class Drawn(NamedTuple):
-    """A figure as the template takes it."""
-
-    name: str
-    title: str
-    markup: Markup
-    caption: str
-
-
 def write_identification(folder: Path) -> Path:
     """Return the path of `report.html`, written from `identification.json` and `posterior.nc` in the folder."""
-    sampled = read_sampled(folder)
-    return written(folder / "report.html", lambda: render(sampled), AGAIN)
+    view = read_identification(folder)
+    return written(folder / "report.html", lambda: render(view), AGAIN)
 
 
-def render(sampled: Sampled) -> str:
+def render(view: IdentificationView) -> str:
     """Return the page as one self-contained HTML text."""
-    facts = sampled.facts
+    result = view.result
     with style.applied():
-        drawn = _figures(sampled)
+        drawn = _figures(view)
     return template("identification.html.j2").render(
-        title=str(facts.get("title") or "Identification"),
-        model=str(facts.get("model") or ""),
-        converged=sampled.converged,
-        answer=_answer(sampled),
-        head=_head(sampled),
-        rows=[*(_row(sampled, name) for name in sampled.rows), *_derived(sampled)],
+        title=result.title or "Identification",
+        model=result.model,
+        converged=result.converged,
+        answer=_answer(view),
+        head=_head(result),
+        rows=[*(_row(view, name) for name in result.rows), *_derived(result)],
         figures=drawn,
-        notes=[str(note) for note in facts.get("notes") or []],
-        provenance=json.dumps(facts.get("provenance") or {}, indent=2, ensure_ascii=False),
+        notes=result.notes,
+        provenance=json.dumps(to_plain(result.provenance), indent=2, ensure_ascii=False),
     )
 
 
-def _answer(sampled: Sampled) -> list[str]:
+def _answer(view: IdentificationView) -> list[str]:
     """Return the sentences that the page opens with: the parameters first, if the chain may be believed."""
-    says = [str(part) for part in sampled.facts.get("says") or []]
-    rows = dict(list(sampled.facts["parameters"].items())[:LEADING])
-    if not (sampled.converged and rows):
-        return says
-    return [", ".join(f"{sampled.word(name)} = {interval(row)}" for name, row in rows.items()), " ".join(says)]
+    result = view.result
+    rows = dict(list(result.parameters.items())[:LEADING])
+    if not (result.converged and rows):
+        return list(result.says)
+    told = (f"{view.word(name)} = {interval(row.interval)}" for name, row in rows.items())
+    return [", ".join(told), " ".join(result.says)]
 
 
-def _derived(sampled: Sampled) -> list[list[str]]:
+def _derived(result: Identification) -> list[list[str]]:
     """Return the rows of what follows from the parameters."""
-    known = [DASH, DASH] if sampled.facts.get("truth") else []
-    rows = sampled.facts.get("derived") or {}
+    known = [DASH, DASH] if result.truth else []
+    rows = result.derived or {}
     return [[f"{name} (follows)", interval(row), *known, DASH, DASH] for name, row in rows.items()]
 
 
-def _figures(sampled: Sampled) -> list[Drawn]:
-    known = any(np.isfinite(sampled.truth(name)) for name in sampled.names)
-    parts = [("trace", "Did the walkers mix?", drawing.trace(sampled), drawing.TRACE)]
-    if levels := sampled.facts.get("levels"):
+def _figures(view: IdentificationView) -> list[DrawnFigure]:
+    result = view.result
+    known = any(np.isfinite(view.truth(name)) for name in view.names)
+    parts = [("trace", "Did the walkers mix?", drawing.trace(view), drawing.TRACE)]
+    if levels := result.levels:
         parts.insert(0, ("levels", "What was measured, and what is expected", leveled.draw(levels), leveled.CAPTION))
-    if sampled.converged and len(sampled.joint) > 1:
+    if result.converged and len(view.joint) > 1:
         said = drawing.CORNER + (" Dashed: the known value." if known else "")
-        parts.insert(0, ("corner", "How the parameters hang together", drawing.corner(sampled), said))
-    return [Drawn(name, title, style.embedded(figure, name), said) for name, title, figure, said in parts]
+        parts.insert(0, ("corner", "How the parameters hang together", drawing.corner(view), said))
+    return [DrawnFigure(name, title, style.embedded(figure, name), said) for name, title, figure, said in parts]
 
 
-def _head(sampled: Sampled) -> list[str]:
-    known = ["Known value", "In the interval"] if sampled.facts.get("truth") else []
+def _head(result: Identification) -> list[str]:
+    known = ["Known value", "In the interval"] if result.truth else []
     return ["Parameter", "Median [95 %]", *known, "ESS", "R-hat"]
 
 
-def _row(sampled: Sampled, name: str) -> list[str]:
-    entry = sampled.rows[name]
-    scale = readable(float(entry["median"] if entry["median"] is not None else entry["at_maximum"]), entry["unit"])
-    said = interval(entry, scale) if sampled.converged else "no interval: not converged"
-    reached = [figures(entry["ess"], 4), f"{entry['rhat']:.3f}" if entry["rhat"] is not None else DASH]
-    return [sampled.word(name), said, *_known(sampled, name, scale), *reached]
+def _row(view: IdentificationView, name: str) -> list[str]:
+    row = view.result.rows[name]
+    scale = readable(row.median if math.isfinite(row.median) else row.at_maximum, row.unit)
+    said = interval(row.interval, scale) if view.result.converged else "no interval: not converged"
+    reached = [figures(row.ess, 4), f"{row.rhat:.3f}" if math.isfinite(row.rhat) else DASH]
+    return [view.word(name), said, *_known(view, name, scale), *reached]
 
 
-def _known(sampled: Sampled, name: str, scale: Scale) -> list[str]:
+def _known(view: IdentificationView, name: str, scale: Scale) -> list[str]:
     """Return the cells on the known value; none where the case knows no value at all."""
-    if not sampled.facts.get("truth"):
+    if not view.result.truth:
         return []
-    truth, entry = sampled.truth(name), sampled.rows[name]
+    truth = view.truth(name)
     if not np.isfinite(truth):
         return [DASH, DASH]
     text = f"{figures(scale.factor * truth, 4)} {pretty(scale.unit)}".rstrip()
-    if not sampled.converged:
+    if not view.result.converged:
         return [text, DASH]
-    return [text, "inside" if entry["low"] <= truth <= entry["high"] else "outside"]
+    return [text, "inside" if truth in view.result.rows[name].interval else "outside"]

@@ -12,7 +12,7 @@ from matplotlib.ticker import MaxNLocator
 from scipy.ndimage import gaussian_filter
 
 from lostmotion.report import style
-from lostmotion.report.identification_facts import Sampled
+from lostmotion.report.identification_facts import IdentificationView
 from lostmotion.report.words import with_unit
 from lostmotion.results import Array
 
@@ -30,16 +30,16 @@ TRACE = (
 CORNER = "Posterior of each parameter and of each pair; the lines hold half and 95 % of the draws."
 
 
-def trace(sampled: Sampled) -> Figure:
+def trace(view: IdentificationView) -> Figure:
     """Return one row for each parameter: its walkers over the steps, and the ranks of four groups of them."""
-    names = sampled.names
+    names = view.names
     figure = style.blank(1.35 * len(names) + 0.5)
     panels = figure.subplots(len(names), 2, squeeze=False, width_ratios=(2.4, 1.0))
     for (left, right), name in zip(panels, names, strict=True):
-        scale = sampled.scale(name)
-        _draw_walkers(left, scale.factor * sampled.draws[name])
-        left.set_ylabel(_broken(sampled.word(name), scale.unit), rotation=0, ha="right", va="center")
-        _draw_ranks(right, sampled.draws[name])
+        scale = view.scale(name)
+        _draw_walkers(left, scale.factor * view.draws[name])
+        left.set_ylabel(_broken(view.word(name), scale.unit), rotation=0, ha="right", va="center")
+        _draw_ranks(right, view.draws[name])
     panels[-1, 0].set_xlabel("step")
     panels[-1, 1].set_xlabel("rank among all draws")
     return figure
@@ -66,9 +66,9 @@ def _draw_ranks(axes: Axes, walks: Array) -> None:
     axes.spines["left"].set_visible(False)
 
 
-def corner(sampled: Sampled) -> Figure:
+def corner(view: IdentificationView) -> Figure:
     """Return the densities of all parameters on the diagonal and of all pairs below it, known values dashed."""
-    names = sampled.joint
+    names = view.joint
     figure = style.blank(min(1.55 * len(names) + 0.6, 11.0))
     panels = figure.subplots(len(names), len(names), squeeze=False, sharex="col")
     for row, across in enumerate(names):
@@ -77,26 +77,26 @@ def corner(sampled: Sampled) -> Figure:
             if column > row:
                 axes.remove()
             elif column == row:
-                _draw_density(axes, sampled, along)
+                _draw_density(axes, view, along)
             else:
-                _draw_pair(axes, sampled, along, across)
-    _label(panels, sampled)
+                _draw_pair(axes, view, along, across)
+    _label(panels, view)
     return figure
 
 
-def _draw_density(axes: Axes, sampled: Sampled, name: str) -> None:
-    values = sampled.scale(name).factor * sampled.draws[name].ravel()
+def _draw_density(axes: Axes, view: IdentificationView, name: str) -> None:
+    values = view.scale(name).factor * view.draws[name].ravel()
     counts, edges = np.histogram(values, bins=CELLS, range=_span(values))
     axes.stairs(counts, edges, fill=True, color=style.AFTER, alpha=0.3)
     axes.stairs(counts, edges, color=style.AFTER, linewidth=1.1)
-    _mark(axes.axvline, sampled, name)
+    _mark(axes.axvline, view, name)
     axes.set_xlim(*_span(values))
     axes.set_yticks([])
     axes.spines["left"].set_visible(False)
 
 
-def _draw_pair(axes: Axes, sampled: Sampled, along: str, across: str) -> None:
-    x, y = (sampled.scale(n).factor * sampled.draws[n].ravel() for n in (along, across))
+def _draw_pair(axes: Axes, view: IdentificationView, along: str, across: str) -> None:
+    x, y = (view.scale(n).factor * view.draws[n].ravel() for n in (along, across))
     every = max(1, len(x) // DOTS)
     axes.plot(x[::every], y[::every], ".", color=style.AFTER, markersize=1.6, alpha=0.25, rasterized=True)
     counts, right, up = np.histogram2d(x, y, bins=CELLS, range=(_span(x), _span(y)))
@@ -104,8 +104,8 @@ def _draw_pair(axes: Axes, sampled: Sampled, along: str, across: str) -> None:
     middles = [0.5 * (edges[1:] + edges[:-1]) for edges in (right, up)]
     levels = sorted({_level(smooth, share) for share in SHARES})
     axes.contour(*middles, smooth.T, levels=levels, colors=style.AFTER, linewidths=1.1)
-    _mark(axes.axvline, sampled, along)
-    _mark(axes.axhline, sampled, across)
+    _mark(axes.axvline, view, along)
+    _mark(axes.axhline, view, across)
     axes.set_xlim(*_span(x))
     axes.set_ylim(*_span(y))
 
@@ -121,16 +121,16 @@ def _level(density: Array, share: float) -> float:
     return float(falling[np.searchsorted(np.cumsum(falling), share * falling.sum())])
 
 
-def _mark(draw: Callable[..., object], sampled: Sampled, name: str) -> None:
-    truth = sampled.truth(name)
+def _mark(draw: Callable[..., object], view: IdentificationView, name: str) -> None:
+    truth = view.truth(name)
     if np.isfinite(truth):
-        draw(sampled.scale(name).factor * truth, color=style.RECORDED, linestyle=(0, (4, 2)), linewidth=1.1)
+        draw(view.scale(name).factor * truth, color=style.RECORDED, linestyle=(0, (4, 2)), linewidth=1.1)
 
 
-def _label(panels: Any, sampled: Sampled) -> None:
-    last = len(sampled.joint) - 1
-    for k, name in enumerate(sampled.joint):
-        words = _broken(sampled.word(name), sampled.scale(name).unit)
+def _label(panels: Any, view: IdentificationView) -> None:
+    last = len(view.joint) - 1
+    for k, name in enumerate(view.joint):
+        words = _broken(view.word(name), view.scale(name).unit)
         panels[last, k].set_xlabel(words)
         if k:
             panels[k, 0].set_ylabel(words)

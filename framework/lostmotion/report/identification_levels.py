@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Sequence
+from typing import Literal
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -11,19 +11,20 @@ from matplotlib.figure import Figure
 
 from lostmotion.report import style
 from lostmotion.report.words import readable, with_unit
+from lostmotion.results.identification import DriveLevel, ExpectedRange, MeasuredRange
 
 CAPTION = (
     "Dots with bars: what was measured, with its 95 % interval; squares: no chaos was seen. Blue bars: where the"
     " posterior expects a chaotic motion to lie (95 %). Below: how likely the posterior holds chaos to be at each"
     " level; the square or dot stands where the recording put it."
 )
-QUANTITIES = {"lyapunov": "exponent", "d2": "correlation dimension"}
-Level = Mapping[str, Any]
+Quantity = Literal["lyapunov", "d2"]
+QUANTITIES: dict[Quantity, str] = {"lyapunov": "exponent", "d2": "correlation dimension"}
 
 
-def draw(levels: Sequence[Level]) -> Figure:
+def draw(levels: Sequence[DriveLevel]) -> Figure:
     """Return a panel for each measured quantity over the levels of the drive, and one for the share of chaos."""
-    shown = [key for key in QUANTITIES if any(level.get(key) for level in levels)]
+    shown = [key for key in QUANTITIES if any(_measured(level, key) for level in levels)]
     figure = style.blank(2.1 * len(shown) + 1.9)
     panels = figure.subplots(
         len(shown) + 1, 1, sharex=True, squeeze=False, height_ratios=[1.4] * len(shown) + [1.0]
@@ -39,23 +40,24 @@ def draw(levels: Sequence[Level]) -> Figure:
     return figure
 
 
-def _amplitudes(levels: Sequence[Level]) -> tuple[list[str], str]:
+def _amplitudes(levels: Sequence[DriveLevel]) -> tuple[list[str], str]:
     """Return the amplitudes as numbers in one unit, and that unit."""
-    sizes = [float(level["amplitude"]) for level in levels]
-    scale = readable(max(sizes), str(levels[0]["unit"]))
+    sizes = [level.amplitude for level in levels]
+    scale = readable(max(sizes), levels[0].unit)
     return [f"{scale.factor * size:.4g}" for size in sizes], scale.unit
 
 
-def _draw_quantity(axes: Axes, levels: Sequence[Level], key: str) -> None:
+def _draw_quantity(axes: Axes, levels: Sequence[DriveLevel], key: Quantity) -> None:
     unit = ""
     for place, level in enumerate(levels):
-        expected, seen = level["predicted"].get(key), level.get(key)
-        if expected and level["predicted"]["chaotic_share"] > 0.0:
-            _draw_expected(axes, place, expected, float(level["predicted"]["chaotic_share"]))
+        share, seen = level.predicted.chaotic_share, _measured(level, key)
+        expected = level.predicted.lyapunov if key == "lyapunov" else level.predicted.d2
+        if expected and share > 0.0:
+            _draw_expected(axes, place, expected, share)
         if seen:
-            unit = str(seen.get("unit", ""))
+            unit = seen.unit
             _draw_seen(axes, place, seen)
-        elif level.get("motion") == "periodic" and key == "lyapunov":
+        elif level.motion == "periodic" and key == "lyapunov":
             axes.plot([place], [0.0], "s", color=style.RECORDED, markersize=6, fillstyle="none")
     axes.plot([], [], "o", color=style.RECORDED, label="measured")
     axes.plot([], [], color=style.AFTER, linewidth=7, alpha=0.5, label="expected by the posterior")
@@ -63,27 +65,32 @@ def _draw_quantity(axes: Axes, levels: Sequence[Level], key: str) -> None:
     axes.set_ylim(bottom=min(0.0, axes.get_ylim()[0]) if key == "lyapunov" else None)
 
 
-def _draw_expected(axes: Axes, place: int, expected: Level, share: float) -> None:
+def _measured(level: DriveLevel, key: Quantity) -> MeasuredRange | None:
+    return level.lyapunov if key == "lyapunov" else level.d2
+
+
+def _draw_expected(axes: Axes, place: int, expected: ExpectedRange, share: float) -> None:
     """Draw a bar, the fainter the less likely chaos is at this level."""
-    low, median, high = (float(expected[end]) for end in ("low", "median", "high"))
+    low, median, high = expected.low, expected.median, expected.high
     alpha = 0.12 + 0.4 * share
     axes.bar(place, high - low, bottom=low, width=0.42, color=style.AFTER, alpha=alpha, linewidth=0)
     axes.plot([place - 0.21, place + 0.21], [median, median], color=style.AFTER, linewidth=1.6, alpha=0.3 + 0.7 * share)
 
 
-def _draw_seen(axes: Axes, place: int, seen: Level) -> None:
-    value, low, high = (float(seen[end]) for end in ("value", "low", "high"))
-    room = np.maximum([[value - low], [high - value]], 0.0)
-    axes.errorbar([place], [value], yerr=room, fmt="o", color=style.RECORDED, markersize=5, capsize=3, linewidth=1.2)
+def _draw_seen(axes: Axes, place: int, seen: MeasuredRange) -> None:
+    room = np.maximum([[seen.value - seen.low], [seen.high - seen.value]], 0.0)
+    axes.errorbar(
+        [place], [seen.value], yerr=room, fmt="o", color=style.RECORDED, markersize=5, capsize=3, linewidth=1.2
+    )
 
 
-def _draw_share(axes: Axes, levels: Sequence[Level]) -> None:
-    shares = [float(level["predicted"]["chaotic_share"]) for level in levels]
+def _draw_share(axes: Axes, levels: Sequence[DriveLevel]) -> None:
+    shares = [level.predicted.chaotic_share for level in levels]
     axes.bar(range(len(levels)), shares, width=0.42, color=style.AFTER, alpha=0.5)
     for place, level in enumerate(levels):
-        if level.get("motion") == "chaotic":
+        if level.motion == "chaotic":
             axes.plot([place], [1.0], "o", color=style.RECORDED, markersize=6, clip_on=False)
-        elif level.get("motion") == "periodic":
+        elif level.motion == "periodic":
             axes.plot([place], [0.0], "s", color=style.RECORDED, markersize=6, fillstyle="none", clip_on=False)
     axes.set_ylim(0.0, 1.05)
     axes.set_ylabel("share of chaos")

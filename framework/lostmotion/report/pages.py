@@ -4,23 +4,37 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import NamedTuple
+from typing import Generic, NamedTuple, TypeVar
 
 from jinja2 import ChoiceLoader, Environment, PackageLoader, StrictUndefined, Template
+from markupsafe import Markup
 from matplotlib.figure import Figure
 
 from lostmotion.errors import DataError, LostMotionError
-from lostmotion.report.evidence import Evidence
 from lostmotion.storage import save_text
 
+V = TypeVar("V")
 
-class Section(NamedTuple):
-    """One figure of a page: its name there, heading, drawing (None where its arrays are absent) and caption."""
+
+class Section(NamedTuple, Generic[V]):
+    """One figure of a page: its name there, heading, drawing (None where its arrays are absent) and caption.
+
+    `V` is what the page is drawn from.
+    """
 
     name: str
     title: str
-    draw: Callable[[Evidence], Figure | None]
-    caption: Callable[[Evidence], str]
+    draw: Callable[[V], Figure | None]
+    caption: Callable[[V], str]
+
+
+class DrawnFigure(NamedTuple):
+    """A figure as a template takes it."""
+
+    name: str
+    title: str
+    markup: Markup
+    caption: str
 
 
 def written(page: Path, render: Callable[[], str], source: str) -> Path:

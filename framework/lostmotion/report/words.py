@@ -7,6 +7,8 @@ import re
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
+from lostmotion.results import Interval
+
 RAISED = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
 PREFIXED = {"m", "rad", "N", "N m", "m/s", "rad/s", "m/s^2", "V", "A"}
 PROPER = {
@@ -148,11 +150,13 @@ def chance(p: Any) -> str:
     return f"p < {figures(SMALLEST)}" if known and p < SMALLEST else f"p = {figures(p, 2)}"
 
 
-def interval(entry: Mapping[str, Any] | None, shown: Scale | None = None) -> str:
+def interval(entry: Interval | Mapping[str, Any] | None, shown: Scale | None = None) -> str:
     """Return `median [low, high] unit`, with as many decimals as the width of the interval deserves.
 
     Where the interval is withheld the median stands alone, and says so.
     """
+    if isinstance(entry, Interval):
+        entry = entry.as_dict()
     if not entry or not isinstance(entry.get("median"), int | float):
         return DASH
     factor, unit = shown or readable(entry["median"], str(entry.get("unit", "")))

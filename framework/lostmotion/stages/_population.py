@@ -37,7 +37,7 @@ GUARD, WIDER = 0.05, 4.0
 proposed."""
 
 
-class Source(Protocol):
+class ProposalSource(Protocol):
     """A density that can be drawn from."""
 
     def draw(self, count: int, random: Any) -> Array:
@@ -58,14 +58,14 @@ class Population:
     points: Array
     heights: Array
     drawn: Array
-    sources: list[tuple[int, Source]] = field(default_factory=list)
+    sources: list[tuple[int, ProposalSource]] = field(default_factory=list)
 
     @classmethod
     def empty(cls, density: Callable[[Array], Array], size: int) -> Population:
         """Return a population without draws."""
         return cls(density, np.empty((0, size)), np.empty(0), np.empty(0))
 
-    def grow(self, source: Source, count: int, rng: np.random.Generator) -> float:
+    def grow(self, source: ProposalSource, count: int, rng: np.random.Generator) -> float:
         """Take draws from a source; return the share of them that is effective."""
         points = source.draw(count, rng)
         heights, here = self.density(points), source.log_density(points)

@@ -23,7 +23,17 @@ from lostmotion.stages._population import Population, adapted, refitted
 from lostmotion.stages._sampling import FEWER, JUMPS, Density, moves, sampler_of, state_of
 from lostmotion.stages._task import NOISES, Shown, Task, task_of
 
-__all__ = ["NOISES", "Cloud", "Identification", "Plan", "Shown", "Task", "Watch", "identify", "task_of"]
+__all__ = [
+    "NOISES",
+    "Cloud",
+    "SampledPosterior",
+    "SamplingPlan",
+    "Shown",
+    "Task",
+    "Watch",
+    "identify",
+    "task_of",
+]
 
 WALKERS = 16
 TRIAL = 60
@@ -44,7 +54,7 @@ Watch = Callable[[int, str], None]
 
 
 @dataclass(frozen=True)
-class Plan:
+class SamplingPlan:
     """How long to sample: until the effective sample size `ess` is reached, at most `max_steps` of each walker.
 
     With `walkers` None there are 16, or twice as many as parameters and two.
@@ -57,7 +67,7 @@ class Plan:
 
 
 @dataclass(frozen=True)
-class Identification:
+class SampledPosterior:
     """The posterior of the parameters `keys`, in SI `units`: draws, intervals, and whether they may be believed.
 
     `chain` is (walkers, steps, parameters) without the burn-in, `log_density` (walkers, steps); `maximum` holds the
@@ -112,23 +122,23 @@ def identify(
     task: Task,
     *,
     rng: np.random.Generator,
-    plan: Plan | None = None,
+    plan: SamplingPlan | None = None,
     watch: Watch = lambda _steps, _says: None,
     keep: Path | None = None,
-) -> Identification:
+) -> SampledPosterior:
     """Return the posterior of a task, sampled with emcee as `plan` says.
 
     Weighted pilot draws fit the cloud from which most proposals come; it stays as it is while the draws that count are
     made. With `keep` the chain is kept in that HDF5 file, which emcee reads, and a run that was cut short goes on from
     there to the same end. Nothing depends on the number of cores, nor on how often the run was cut short.
     """
-    return _Course(task, plan or Plan(), int(rng.integers(2**63)), watch).run(keep)
+    return _Course(task, plan or SamplingPlan(), int(rng.integers(2**63)), watch).run(keep)
 
 
 class _Course:
     """One sampling from its pilot draws to its end."""
 
-    def __init__(self, task: Task, plan: Plan, seed: int, watch: Watch) -> None:
+    def __init__(self, task: Task, plan: SamplingPlan, seed: int, watch: Watch) -> None:
         self.task, self.plan, self.seed, self.watch = task, plan, seed, watch
         self.walkers = _walkers(plan, len(task.posterior.free))
         self.density = Density(task.posterior)
@@ -136,7 +146,7 @@ class _Course:
         if not math.isfinite(self.height):
             raise DataError("the posterior has no density at the maximum it came with: look for that again")
 
-    def run(self, keep: Path | None) -> Identification:
+    def run(self, keep: Path | None) -> SampledPosterior:
         """Return the posterior, converged or not."""
         there = keep is not None and keep.exists()
         found = load(keep, self.digest) if keep and there else None
@@ -221,11 +231,11 @@ class _Course:
         says = f"tau {quality.slowest:.1f} · ESS {quality.ess.min():.0f} of {self.plan.ess:g}"
         return quality.lacks(self.plan.ess, before, self.plan.limits), says
 
-    def _result(self, sampler: Any, lacks: tuple[str, ...], **flags: bool) -> Identification:
+    def _result(self, sampler: Any, lacks: tuple[str, ...], **flags: bool) -> SampledPosterior:
         coordinates, burn = _kept(sampler, sampler.iteration)
         task = self.task
         names = tuple(one.name for one in task.shown)
-        return Identification(
+        return SampledPosterior(
             keys=names,
             units=tuple(one.unit for one in task.shown),
             chain=task.values(coordinates),
@@ -265,7 +275,7 @@ class _Shelf:
         self.last = time.monotonic()
 
 
-def _walkers(plan: Plan, parameters: int) -> int:
+def _walkers(plan: SamplingPlan, parameters: int) -> int:
     least = max(8, 2 * parameters)
     if plan.walkers is not None and plan.walkers < least:
         raise CaseError(f"{plan.walkers} walkers are too few for {parameters} parameters: give {least} or more")

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,10 +11,10 @@ from numpy.typing import NDArray
 from lostmotion.contracts import Quantifier, Series, Surrogate
 from lostmotion.errors import ContractError, DataError
 from lostmotion.kernels.threads import spread
+from lostmotion.results.analysis import Sided
 
 Array = NDArray[np.float64]
 Statistic = Quantifier[Series] | Callable[[Array], float]
-Sided = Literal["two", "low", "high"]
 
 
 @dataclass(frozen=True, eq=False)

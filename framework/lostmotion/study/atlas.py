@@ -8,13 +8,12 @@ a little from the ring of cells around those: a window may lie between cells.
 from __future__ import annotations
 
 import itertools
-import json
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
+import xarray as xr
 from numpy.typing import NDArray
 
 from lostmotion.contracts import Array
@@ -22,6 +21,7 @@ from lostmotion.defaults import FLOW_EXPONENT, SECTION_DIMENSION
 from lostmotion.errors import DataError
 from lostmotion.study.axes import warped
 from lostmotion.study.cells import CODES
+from lostmotion.study.layout import origin_in, settings_in
 from lostmotion.study.map import RING, ROUGH, Map
 
 PERIODIC, CHAOTIC, UNSURE, MISSING = 0, 1, 2, -1
@@ -66,8 +66,7 @@ class Atlas:
     def of(cls, source: Map) -> Atlas:
         """Return the atlas of a map over `alpha`, `zeta` and perhaps the frequency ratio."""
         data, names = source.dataset, source.axes
-        made = json.loads(str(data.attrs.get("provenance", "{}")))
-        ratio = _ratio(data, names, made)
+        ratio = _ratio(data, names)
         starts = data.sizes["start"]
         lyapunov, error, d2, d2_error, period, status = (
             np.asarray(_found(data, name), dtype=float).reshape(-1, starts)
@@ -87,7 +86,17 @@ class Atlas:
         spacings = tuple(str(data[n].attrs.get("spacing", "linear")) for n in names)
         points = tuple(_rising(data[n].to_numpy(), s) for n, s in zip(names, spacings, strict=True))
         per = np.broadcast_to(ratio, source.share.shape).reshape(-1, 1)
-        return cls(names, spacings, points, kind, lyapunov / per, error / per, d2, d2_error, json.dumps(made))
+        return cls(
+            names,
+            spacings,
+            points,
+            kind,
+            lyapunov / per,
+            error / per,
+            d2,
+            d2_error,
+            str(data.attrs.get("provenance", "")),
+        )
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -173,13 +182,13 @@ class Atlas:
         return cell, rng.integers(self.kind.shape[1], size=len(cell))
 
 
-def _found(data: Any, name: str) -> Any:
+def _found(data: xr.Dataset, name: str) -> Array:
     if name not in data:
         raise DataError(f"the map has no {name}: make one with --quantity {SECTION_DIMENSION} beside lyapunov_max")
-    return data[name].to_numpy()
+    return np.asarray(data[name].to_numpy())
 
 
-def _ratio(data: Any, names: tuple[str, ...], made: Mapping[str, Any]) -> Array:
+def _ratio(data: xr.Dataset, names: tuple[str, ...]) -> Array:
     """Return the frequency ratio of each cell, or of all of them."""
     if not {"alpha", "zeta"} <= {*names} <= {"alpha", "zeta", RATIO}:
         raise DataError(f"the map is over {', '.join(names)}: one over alpha and zeta (and {RATIO}) is wanted")
@@ -189,7 +198,7 @@ def _ratio(data: Any, names: tuple[str, ...], made: Mapping[str, Any]) -> Array:
     if RATIO in names:
         shape = [-1 if name == RATIO else 1 for name in names]
         return np.asarray(data[RATIO].to_numpy(), dtype=float).reshape(shape)
-    return np.array(float(made.get("settings", {}).get("fixed", {}).get(RATIO, np.nan)))
+    return np.array(settings_in(origin_in(data.attrs)).fixed.get(RATIO, np.nan))
 
 
 def _turned(values: Array, spacing: str) -> Array:

@@ -17,7 +17,7 @@ MOST = 100_000
 
 
 @dataclass(frozen=True)
-class Axis:
+class MapAxis:
     """`count` points of the knob `name` from `low` to `high`."""
 
     name: str
@@ -35,7 +35,7 @@ class Axis:
         points[0], points[-1] = self.low, self.high
         return points
 
-    def finer(self, levels: int) -> Axis:
+    def finer(self, levels: int) -> MapAxis:
         """Return the axis with each interval halved `levels` times; its old points are among the new ones."""
         return replace(self, count=(self.count - 1) * 2**levels + 1)
 
@@ -51,7 +51,7 @@ def warped(values: Array, spacing: str) -> Array:
     return 1.0 / values if spacing == "inverse" else values
 
 
-def axis_of(text: str) -> Axis:
+def axis_of(text: str) -> MapAxis:
     """Return the axis that `NAME=LOW:HIGH:N[:log|inverse]` stands for; the ends are values of the knob itself."""
     name, equals, rest = (part.strip() for part in text.partition("="))
     parts = [part.strip() for part in rest.split(":")]
@@ -60,10 +60,10 @@ def axis_of(text: str) -> Axis:
     spacing = parts[3] if len(parts) == 4 else "linear"
     if spacing not in SPACINGS:
         raise CaseError(f"axis {name} has the spacing {spacing!r}{nearest(spacing, SPACINGS)}: it is log or inverse")
-    return checked(Axis(name, _number(parts[0], name), _number(parts[1], name), _count(parts[2], name), spacing))
+    return checked(MapAxis(name, _number(parts[0], name), _number(parts[1], name), _count(parts[2], name), spacing))
 
 
-def checked(axis: Axis) -> Axis:
+def checked(axis: MapAxis) -> MapAxis:
     """Return the axis, or raise `CaseError` when its ends or its count make no axis."""
     alone = axis.count == 1 and axis.low == axis.high
     if not (alone or (axis.low < axis.high and 2 <= axis.count <= MOST)):

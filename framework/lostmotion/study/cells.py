@@ -23,8 +23,8 @@ from lostmotion.rates import exponent_in
 from lostmotion.results import STATUSES, Estimate
 from lostmotion.stages.embed import embed
 from lostmotion.stages.quantify import quantify
-from lostmotion.study.axes import Axis
-from lostmotion.study.rig import Rig, reach
+from lostmotion.study.axes import MapAxis
+from lostmotion.study.rig import SweptMachine, reach
 
 Columns = dict[str, NDArray[Any]]
 
@@ -50,8 +50,8 @@ class Study:
     are the digests or versions of the plugins of other people that take part.
     """
 
-    rig: Rig
-    axes: tuple[Axis, ...]
+    rig: SweptMachine
+    axes: tuple[MapAxis, ...]
     exponent: Quantifier[Flow]
     further: Mapping[str, Quantifier[Any]]
     embedder: Embedder | None = None
@@ -83,7 +83,7 @@ class Study:
         return {axis.name: float(values[int(i)]) for axis, values, i in told}
 
 
-class Followed:
+class FollowedFlow:
     """A flow from one start that remembers its orbit, so that several methods read the same one."""
 
     def __init__(self, flow: Flow, start: Array, tangents: int) -> None:
@@ -140,7 +140,7 @@ def _fill(study: Study, cell: Array, columns: Columns, row: int) -> None:
         start = rng.uniform(-box, box)
         for state, value in told.items():
             start[state] = value
-        chaotic += _follow(study, Followed(flow, start, _tangents(study, flow)), rng, (columns, (row, k)))
+        chaotic += _follow(study, FollowedFlow(flow, start, _tangents(study, flow)), rng, (columns, (row, k)))
     columns["chaotic_fraction"][row] = chaotic / study.starts
 
 
@@ -148,7 +148,7 @@ def _tangents(study: Study, flow: Flow) -> int:
     return len(flow.states) if any(q.reads == "flow" for q in study.further.values()) else 1
 
 
-def _follow(study: Study, flow: Followed, rng: np.random.Generator, into: tuple[Columns, tuple[int, int]]) -> bool:
+def _follow(study: Study, flow: FollowedFlow, rng: np.random.Generator, into: tuple[Columns, tuple[int, int]]) -> bool:
     """Write what is read off the motion from one start; return whether it is chaotic."""
     columns, at = into
     estimate = quantify(flow, study.exponent, rng=rng)
@@ -164,7 +164,7 @@ def _follow(study: Study, flow: Followed, rng: np.random.Generator, into: tuple[
     return period == 0 and estimate.low > 0.0
 
 
-def _further(study: Study, flow: Followed, quantifier: Quantifier[Any], rng: np.random.Generator) -> Estimate:
+def _further(study: Study, flow: FollowedFlow, quantifier: Quantifier[Any], rng: np.random.Generator) -> Estimate:
     """Return what one more quantifier says; one that breaks down takes no other number with it."""
     try:
         return _read(study, flow, quantifier, rng)
@@ -182,7 +182,7 @@ def _warn(name: str, err: Exception) -> None:
     warnings.warn(f"{says}: `lostmotion plugins check {name}` tells what to mend", PluginWarning, stacklevel=2)
 
 
-def _read(study: Study, flow: Followed, quantifier: Quantifier[Any], rng: np.random.Generator) -> Estimate:
+def _read(study: Study, flow: FollowedFlow, quantifier: Quantifier[Any], rng: np.random.Generator) -> Estimate:
     if quantifier.reads == "flow":
         return quantify(flow, quantifier, rng=rng)
     settled = flow.march(flow.start, periods=study.transient + study.periods, tangents=1).states[study.transient]

@@ -23,8 +23,9 @@ import numpy as np
 from lostmotion.case.levels import Level, Measured
 from lostmotion.contracts import Array
 from lostmotion.likelihood.space import Free
+from lostmotion.results.identification import ExpectedRange
 from lostmotion.study.atlas import CHAOTIC, MISSING, PERIODIC, Atlas, Places
-from lostmotion.study.numbers import Law
+from lostmotion.study.numbers import NumberLaw
 
 SEEN = ("periodic", "chaotic", None)
 WEAK = 0.5
@@ -56,7 +57,7 @@ class Inversion:
     levels: tuple[Level, ...]
     atlases: tuple[Atlas, ...]
     which: tuple[int, ...]
-    laws: tuple[Mapping[str, Law], ...]
+    laws: tuple[Mapping[str, NumberLaw], ...]
     free: tuple[Free, ...]
 
     def log_prior(self, theta: Array) -> float:
@@ -154,34 +155,13 @@ def _density(seen: Measured, values: Array, errors: Array) -> Array:
 
 
 @dataclass(frozen=True)
-class Band:
-    """Central 95 % of a predicted number and its median; in 1/s for an exponent."""
-
-    low: float
-    median: float
-    high: float
-
-
-@dataclass(frozen=True)
 class Predicted:
     """What the posterior expects at a level: the share of chaos, and exponent and dimension of what is chaotic."""
 
     level: Level
     chaotic_share: float
-    lyapunov: Band | None
-    d2: Band | None
-
-    def as_dict(self) -> dict[str, object]:
-        """Return the level and what is expected of it, as `identification.json` has it."""
-        level, bands = self.level, {"lyapunov": self.lyapunov, "d2": self.d2}
-        told: dict[str, object] = {"name": level.name, "amplitude": level.amplitude, "unit": level.unit,
-                                   "omega": level.omega, "motion": level.motion}  # fmt: skip
-        for key, seen, unit in (("lyapunov", level.lyapunov, "1/s"), ("d2", level.d2, "1")):
-            if seen is not None:
-                half = 1.96 * seen.sd
-                told[key] = {"value": seen.value, "low": seen.value - half, "high": seen.value + half, "unit": unit}
-        expected = {key: vars(band) for key, band in bands.items() if band is not None}
-        return {**told, "predicted": {"chaotic_share": self.chaotic_share, **expected}}
+    lyapunov: ExpectedRange | None
+    d2: ExpectedRange | None
 
 
 def predicted(inversion: Inversion, points: Array, rng: np.random.Generator) -> tuple[Predicted, ...]:
@@ -197,8 +177,8 @@ def _predicted(inversion: Inversion, k: int, points: Array, rng: np.random.Gener
     return Predicted(level, float(chaotic.mean()), _band(exponent), _band(dimension[np.isfinite(dimension)]))
 
 
-def _band(values: Array) -> Band | None:
-    return Band(*np.quantile(values, [0.025, 0.5, 0.975]).tolist()) if len(values) else None
+def _band(values: Array) -> ExpectedRange | None:
+    return ExpectedRange(*np.quantile(values, [0.025, 0.5, 0.975]).tolist()) if len(values) else None
 
 
 def grouped(levels: Sequence[Level], same: float = 1e-3) -> list[list[int]]:

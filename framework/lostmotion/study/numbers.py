@@ -15,7 +15,7 @@ _TRIAL = (1.7, 0.6)
 
 
 @dataclass(frozen=True)
-class Power:
+class NumberPower:
     """A dimensionless number: `target` over `factor` and the powers of parameters (Buckingham, 1914)."""
 
     name: str
@@ -24,7 +24,7 @@ class Power:
     powers: Mapping[str, float]
 
     @classmethod
-    def of(cls, group: Group, model: Model) -> Power:
+    def of(cls, group: Group, model: Model) -> NumberPower:
         """Return the powers that a group of a model is made of, found by doubling one parameter after the other."""
         ones = {**{param.name: 1.0 for param in model.params}, "drive.omega": 1.0}
         factor = group.law(ones, 1.0)
@@ -38,7 +38,7 @@ class Power:
 
 
 @dataclass(frozen=True)
-class Law:
+class NumberLaw:
     """A number as exp(`constant` + sum of `powers` times the logarithms of the free parameters)."""
 
     constant: float
@@ -59,14 +59,14 @@ class Law:
         return tuple(math.exp(self.constant + sum(e[side] for e in ends)) for side in (0, 1))  # type: ignore[return-value]
 
 
-def law_of(power: Power, told: Mapping[str, float], free: Sequence[str]) -> Law:
+def law_of(power: NumberPower, told: Mapping[str, float], free: Sequence[str]) -> NumberLaw:
     """Return the law of a number where some values are `told` and the parameters `free` are not.
 
     A number that is itself free is its own law.
     """
     drive = power.target.startswith("drive.")
     if power.name in free:
-        return Law(0.0, tuple(float(key == power.name) for key in free), drive)
+        return NumberLaw(0.0, tuple(float(key == power.name) for key in free), drive)
     exponents = {power.target: 1.0, **{key: -p for key, p in power.powers.items()}}
     lacking = [key for key in exponents if key not in free and not told.get(key, 0.0) > 0.0]
     if lacking:
@@ -75,4 +75,4 @@ def law_of(power: Power, told: Mapping[str, float], free: Sequence[str]) -> Law:
             "[model.known] or in [model.estimate]"
         )
     constant = sum(p * math.log(told[key]) for key, p in exponents.items() if key not in free)
-    return Law(constant - math.log(power.factor), tuple(exponents.get(key, 0.0) for key in free), drive)
+    return NumberLaw(constant - math.log(power.factor), tuple(exponents.get(key, 0.0) for key in free), drive)

@@ -13,7 +13,7 @@ from scipy.ndimage import distance_transform_edt
 
 from lostmotion.contracts import Array
 from lostmotion.study.cells import Columns, Study, blank_columns
-from lostmotion.study.layout import Layout, attrs_of, listed
+from lostmotion.study.layout import MapLayout, listed, origin_of
 from lostmotion.study.store import load
 from lostmotion.study.sweep import Cells, Crew, Say, sweep
 
@@ -23,7 +23,7 @@ MOST = 8
 """Halvings at most."""
 
 
-def refined(study: Study, levels: int, folder: Path, *, crew: Crew, say: Say) -> tuple[Layout, Columns]:
+def refined(study: Study, levels: int, folder: Path, *, crew: Crew, say: Say) -> tuple[MapLayout, Columns]:
     """Return the layout and columns of a map on the grid of `study` halved `levels` times, fine at the boundary.
 
     Each level is a store in `folder`, so that what was computed is not lost. A cell that was not computed holds the
@@ -43,7 +43,7 @@ def refined(study: Study, levels: int, folder: Path, *, crew: Crew, say: Say) ->
     return _whole(study, fine, levels, (level, columns))
 
 
-def _compute(layout: Layout, path: Path, how: tuple[Crew, Say], columns: Columns) -> None:
+def _compute(layout: MapLayout, path: Path, how: tuple[Crew, Say], columns: Columns) -> None:
     """Compute a list of cells, and put it into the columns of the whole grid."""
     sweep(path, layout, *how)
     found = load(path)
@@ -52,14 +52,16 @@ def _compute(layout: Layout, path: Path, how: tuple[Crew, Say], columns: Columns
         columns[name][rows] = found[name].to_numpy()
 
 
-def finished_layout(study: Study, levels: int) -> Layout:
+def finished_layout(study: Study, levels: int) -> MapLayout:
     """Return the layout of the map that `refined` returns."""
     fine = replace(study, axes=tuple(axis.finer(levels) for axis in study.axes))
     dims = tuple(axis.name for axis in study.axes)
-    return Layout(fine, dims, fine.shape, attrs_of(study, levels=levels), refined=True)
+    return MapLayout(fine, dims, fine.shape, origin_of(study, levels=levels), refined=True)
 
 
-def _whole(study: Study, fine: Study, levels: int, found: tuple[NDArray[np.int8], Columns]) -> tuple[Layout, Columns]:
+def _whole(
+    study: Study, fine: Study, levels: int, found: tuple[NDArray[np.int8], Columns]
+) -> tuple[MapLayout, Columns]:
     """Return the map on the whole fine grid, each cell that was not computed taking the numbers of its nearest."""
     level, columns = found
     nearest = distance_transform_edt(level < 0, return_distances=False, return_indices=True)

@@ -31,7 +31,7 @@ class Knob:
 
 
 @dataclass(frozen=True)
-class Rig:
+class SweptMachine:
     """A model with its terms, the knobs that are `fixed`, and the names of those that are `swept`.
 
     It is normalised where no parameter of the model is set: all that set a scale are then one, so that a time is in
@@ -42,9 +42,9 @@ class Rig:
     swept: tuple[str, ...]
     fixed: Mapping[str, float] = field(default_factory=dict)
 
-    def __reduce__(self) -> tuple[type[Rig], tuple[object, ...]]:
+    def __reduce__(self) -> tuple[type[SweptMachine], tuple[object, ...]]:
         """Return what a worker needs to make this rig again: nothing that was compiled or looked up."""
-        return Rig, (self.assembly, self.swept, dict(self.fixed))
+        return SweptMachine, (self.assembly, self.swept, dict(self.fixed))
 
     @cached_property
     def system(self) -> System:
@@ -97,7 +97,7 @@ class Rig:
             return "rad/s" if key == "omega" else "rad"
         return unit_of(self.assembly.model.inputs[0], self.assembly.model.motion)
 
-    def checked(self) -> Rig:
+    def checked(self) -> SweptMachine:
         """Return this rig, or raise `CaseError` when a knob is unknown, is set twice over, or is wanting."""
         found: dict[str, str] = {}
         for name in (*self.fixed, *self.swept):

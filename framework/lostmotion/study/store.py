@@ -18,13 +18,15 @@ import xarray as xr
 import zarr
 from numpy.typing import NDArray
 
+from lostmotion.codec import to_plain
 from lostmotion.errors import DataError
 from lostmotion.recording.apart import walk_apart
 from lostmotion.recording.limits import check_bytes
 from lostmotion.recording.unpacked import RESULT, check_hdf5
+from lostmotion.results.background import Origin
 from lostmotion.storage import held, save_datasets, writing
 from lostmotion.study.cells import Columns
-from lostmotion.study.layout import SCHEMA, Layout
+from lostmotion.study.layout import SCHEMA, MapLayout, origin_in
 
 ENDINGS = (".zarr", ".nc")
 """The endings of a map, which tell its format."""
@@ -32,7 +34,7 @@ _LAST = "status"
 
 
 @contextmanager
-def opened(path: Path, layout: Layout, *, fresh: bool = False) -> Iterator[Store]:
+def opened(path: Path, layout: MapLayout, *, fresh: bool = False) -> Iterator[Store]:
     """Yield the store of a map at `path`, made if it is not there, and held by this process alone.
 
     Raises `DataError` when something else is there, or a map with other settings, unless a `fresh` one is wanted.
@@ -41,7 +43,7 @@ def opened(path: Path, layout: Layout, *, fresh: bool = False) -> Iterator[Store
     if not path.exists():
         _make(path, layout)
     with held(path):
-        _require_same(path, _require_ours(path), layout)
+        _require_same(path, origin_in(_require_ours(path), str(path)), layout)
         for rest in path.rglob("*.partial"):
             rest.unlink()
         yield Store(path, layout)
@@ -50,7 +52,7 @@ def opened(path: Path, layout: Layout, *, fresh: bool = False) -> Iterator[Store
 class Store:
     """The growing map: which chunks are pending, and where a finished one goes."""
 
-    def __init__(self, path: Path, layout: Layout) -> None:
+    def __init__(self, path: Path, layout: MapLayout) -> None:
         self.path, self.layout = path, layout
         self._group = zarr.open_group(path, mode="r+", zarr_format=3)
 
@@ -76,7 +78,7 @@ class Store:
                 self._group[name][chunk] = values.reshape(*shape, *values.shape[1:])  # type: ignore[index]
 
 
-def holds(path: Path, layout: Layout, *, fresh: bool) -> bool:
+def holds(path: Path, layout: MapLayout, *, fresh: bool) -> bool:
     """Return whether the finished map is at `path` already; raise `DataError` when something else is.
 
     A `fresh` one is never there: what is in its place is removed if it is ours.
@@ -87,7 +89,7 @@ def holds(path: Path, layout: Layout, *, fresh: bool) -> bool:
     if fresh:
         shutil.rmtree(path) if path.is_dir() else path.unlink()
         return False
-    _require_same(path, attrs, layout)
+    _require_same(path, origin_in(attrs, str(path)), layout)
     return True
 
 
@@ -128,7 +130,7 @@ def save_netcdf(path: Path, dataset: xr.Dataset) -> None:
     save_datasets(path, {None: told})
 
 
-def save_zarr(path: Path, layout: Layout, columns: Mapping[str, NDArray[Any]]) -> None:
+def save_zarr(path: Path, layout: MapLayout, columns: Mapping[str, NDArray[Any]]) -> None:
     """Write a finished map to a zarr store that appears whole or not at all; what was there gives way."""
     spare, old = _spare(path), path.with_name(f".{path.name}.old")
     for rest in (spare, old):
@@ -141,13 +143,14 @@ def save_zarr(path: Path, layout: Layout, columns: Mapping[str, NDArray[Any]]) -
     shutil.rmtree(old, ignore_errors=True)
 
 
-def as_dataset(layout: Layout, columns: Mapping[str, NDArray[Any]]) -> xr.Dataset:
+def as_dataset(layout: MapLayout, columns: Mapping[str, NDArray[Any]]) -> xr.Dataset:
     """Return a finished map as a dataset."""
-    table = {name: (spec.dims, columns[name], spec.attrs) for name, spec in layout.variables.items()}
-    return xr.Dataset(table, layout.coords, layout.attrs)
+    table = {name: (spec.dims, columns[name], to_plain(spec.attrs)) for name, spec in layout.variables.items()}
+    coords = {name: (one.dims, one.values, to_plain(one.attrs)) for name, one in layout.coords.items()}
+    return xr.Dataset(table, coords, layout.attrs)
 
 
-def _make(path: Path, layout: Layout) -> None:
+def _make(path: Path, layout: MapLayout) -> None:
     """Make the store beside its place, and put it there when it is whole."""
     spare = _spare(path)
     shutil.rmtree(spare, ignore_errors=True)
@@ -156,19 +159,21 @@ def _make(path: Path, layout: Layout) -> None:
         spare.rename(path)
 
 
-def _fill_store(path: Path, layout: Layout, columns: Mapping[str, NDArray[Any]]) -> None:
+def _fill_store(path: Path, layout: MapLayout, columns: Mapping[str, NDArray[Any]]) -> None:
     group = zarr.create_group(path, zarr_format=3, attributes=layout.attrs)
     sizes = dict(zip(layout.dims, zip(layout.shape, layout.block, strict=True), strict=True))
     sizes["start"] = (layout.study.starts, layout.study.starts)
-    for name, (dims, values, attrs) in layout.coords.items():
+    for name, one in layout.coords.items():
+        values, attrs = one.values, to_plain(one.attrs)
         array = group.create_array(
-            name, shape=values.shape, dtype=values.dtype, attributes=attrs, dimension_names=dims, chunks=values.shape
-        )
+            name, shape=values.shape, dtype=values.dtype, attributes=attrs, dimension_names=one.dims,
+            chunks=values.shape,
+        )  # fmt: skip
         array[...] = values
     for name, spec in layout.variables.items():
         array = group.create_array(
             name, shape=tuple(sizes[d][0] for d in spec.dims), chunks=tuple(sizes[d][1] for d in spec.dims),
-            dtype=spec.kind, fill_value=spec.fill, attributes=spec.attrs, dimension_names=spec.dims,
+            dtype=spec.kind, fill_value=spec.fill, attributes=to_plain(spec.attrs), dimension_names=spec.dims,
             config={"write_empty_chunks": True},
         )  # fmt: skip
         if columns:
@@ -192,10 +197,10 @@ def _clear(path: Path, fresh: bool) -> None:
             shutil.rmtree(path)
 
 
-def _require_ours(path: Path) -> dict[str, Any]:
+def _require_ours(path: Path) -> Mapping[str, object]:
     """Return the attributes of the store at `path`; never touch what is none of ours."""
     try:
-        attrs: dict[str, Any] = json.loads((path / "zarr.json").read_text(encoding="utf-8"))["attributes"]
+        attrs: Mapping[str, object] = json.loads((path / "zarr.json").read_text(encoding="utf-8"))["attributes"]
     except (OSError, ValueError, KeyError):
         attrs = {}
     if attrs.get("schema") != SCHEMA:
@@ -203,15 +208,18 @@ def _require_ours(path: Path) -> dict[str, Any]:
     return attrs
 
 
-def _require_same(path: Path, attrs: Mapping[str, Any], layout: Layout) -> None:
-    old, new = (json.loads(a["provenance"]) for a in (attrs, layout.attrs))
+def _require_same(path: Path, old: Origin, layout: MapLayout) -> None:
+    new = layout.origin
     if old == new:
         return
-    parts = [(key, old.get(key), new[key]) for key in ("seed", "versions", "settings") if old.get(key) != new[key]]
-    told = [f"{key} {_differences(was, now)}" for key, was, now in parts]
-    said = "; ".join([*told, *_changed(old.get("inputs", {}), new["inputs"])])
+    said = [f"seed {old.seed}, now {new.seed}"] if old.seed != new.seed else []
+    for what, was, now in (("versions", old.versions, new.versions), ("settings", old.settings, new.settings)):
+        if was != now:
+            said.append(f"{what} {_differences(was, now)}")
+    said += _changed(old.inputs, new.inputs)
     raise DataError(
-        f"{path} holds a map made otherwise ({said}): give the same settings to continue it, another --out, or --fresh"
+        f"{path} holds a map made otherwise ({'; '.join(said)}): give the same settings to continue it, another --out,"
+        " or --fresh"
     )
 
 
@@ -220,8 +228,6 @@ def _changed(was: Mapping[str, str], now: Mapping[str, str]) -> list[str]:
     return [f"plugin {name} has changed" for name in sorted({*was, *now}) if was.get(name) != now.get(name)]
 
 
-def _differences(was: Any, now: Any) -> str:
-    if not (isinstance(was, dict) and isinstance(now, dict)):
-        return f"{was}, now {now}"
+def _differences(was: Mapping[str, object], now: Mapping[str, object]) -> str:
     keys = [key for key in sorted({*was, *now}) if was.get(key) != now.get(key)]
     return ", ".join(f"{key} {was.get(key)}, now {now.get(key)}" for key in keys)

@@ -17,7 +17,7 @@ from lostmotion.errors import DataError
 from lostmotion.kernels.threads import cores
 from lostmotion.registry import import_texts, sources
 from lostmotion.study.cells import Columns, Study, computed
-from lostmotion.study.layout import Layout
+from lostmotion.study.layout import MapLayout
 from lostmotion.study.store import opened
 
 Cells = NDArray[np.int64]
@@ -39,7 +39,7 @@ class Crew:
         return _threads(study, pieces, self.jobs or cores())
 
 
-def sweep(path: Path, layout: Layout, crew: Crew, say: Say, *, fresh: bool = False) -> None:
+def sweep(path: Path, layout: MapLayout, crew: Crew, say: Say, *, fresh: bool = False) -> None:
     """Compute what the store at `path` lacks of the map `layout`, writing each chunk as it is finished."""
     with opened(path, layout, fresh=fresh) as store:
         pending = store.pending

@@ -6,10 +6,11 @@ from collections.abc import Callable
 from dataclasses import asdict, dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from lostmotion.codec import from_plain, to_plain
 from lostmotion.contracts import Array, Quantifier, Series
 from lostmotion.defaults import (
     DENOISER,
@@ -29,6 +30,8 @@ from lostmotion.rates import exponent_in
 from lostmotion.registry import Registry
 from lostmotion.report.analysis import write_analysis
 from lostmotion.results import Estimate
+from lostmotion.results.analysis import Analysis
+from lostmotion.results.background import Origin
 from lostmotion.settings import DEFAULT, Settings
 from lostmotion.signals import checked
 from lostmotion.stages.denoise import Denoised, denoise
@@ -38,9 +41,9 @@ from lostmotion.stages.surrogates import SurrogateTest, surrogate_test
 from lostmotion.storage import dataset_of, folder_for, save_datasets, save_json
 from lostmotion.workflow.analysis_arrays import arrays_of
 from lostmotion.workflow.analysis_words import statement
-from lostmotion.workflow.beat import Beat, Evidence, beat_of, returns
+from lostmotion.workflow.beat import Beat, MotionEvidence, beat_of, returns
 from lostmotion.workflow.motion import Verdict, judged
-from lostmotion.workflow.source import Source, Wanted, source_of
+from lostmotion.workflow.source import Source, WantedChannel, source_of
 from lostmotion.workflow.vetting import Guests
 
 if TYPE_CHECKING:
@@ -57,7 +60,7 @@ FEW, APART = 8, 0.7
 
 
 @dataclass(frozen=True)
-class Request:
+class AnalysisRequest:
     """What is asked for: which channel, which methods, how many surrogates, the unit of exponents, seed and cores."""
 
     columns: tuple[str, ...] = ()
@@ -80,7 +83,7 @@ class Request:
 
 
 @dataclass(frozen=True, eq=False)
-class Analysis:
+class AnalysedChannel:
     """Everything that was found out about one recorded channel."""
 
     source: Source
@@ -105,37 +108,36 @@ class Analysis:
 
 
 def run_analysis(
-    path: Path, out: Path, registry: Registry, request: Request, say: Say = lambda _step: None
-) -> dict[str, Any]:
-    """Return the content of `analysis.json` after writing it, the arrays and the report into the folder `out`."""
+    path: Path, out: Path, registry: Registry, request: AnalysisRequest, say: Say = lambda _step: None
+) -> Analysis:
+    """Return what was found after writing `analysis.json`, the arrays and the report into the folder `out`."""
     say("reading")
-    source = source_of(path, Wanted(request.columns, request.rate, request.every), registry)
+    source = source_of(path, WantedChannel(request.columns, request.rate, request.every), registry)
     _require_known(registry, request)
     folder = folder_for(out)
-    content, arrays = told_of(source, registry, request, say)
+    result, arrays = told_of(source, registry, request, say)
     say("report")
     save_datasets(folder / "analysis.nc", {None: arrays})
-    save_json(folder / "analysis.json", content)
+    save_json(folder / "analysis.json", to_plain(result))
     write_analysis(folder)
-    return content
+    return result
 
 
 def told_of(
-    source: Source, registry: Registry, request: Request, say: Say = lambda _step: None
-) -> tuple[dict[str, Any], xr.Dataset]:
-    """Return the content of `analysis.json` and the arrays behind it; nothing is written."""
-    analysis = analyse(source, registry, request, say)
+    source: Source, registry: Registry, request: AnalysisRequest, say: Say = lambda _step: None
+) -> tuple[Analysis, xr.Dataset]:
+    """Return what was found and the arrays behind it; nothing is written."""
+    found = analyse(source, registry, request, say)
     settings = {k: v for k, v in asdict(request).items() if k not in ("jobs", "seed", "settings")}
     settings["thresholds"] = asdict(request.settings.motion)
-    content = {
-        **statement(analysis),
-        "provenance": provenance("analyse", settings, request.seed, {**registry.origins(), **source.inputs}),
-    }
-    variables, coords = arrays_of(analysis)
-    return content, dataset_of(variables, coords, {"title": source.title})
+    made = provenance("analyse", settings, request.seed, {**registry.origins(), **source.inputs})
+    variables, coords = arrays_of(found)
+    return statement(found, from_plain(Origin, made)), dataset_of(variables, coords, {"title": source.title})
 
 
-def analyse(source: Source, registry: Registry, request: Request, say: Say = lambda _step: None) -> Analysis:
+def analyse(
+    source: Source, registry: Registry, request: AnalysisRequest, say: Say = lambda _step: None
+) -> AnalysedChannel:
     """Return what the chain finds: delay, dimension, noise, exponent, correlation dimension, surrogate tests."""
     beat = beat_of(checked(source.x), source, request.period)
     guests = Guests(registry)
@@ -153,7 +155,8 @@ def analyse(source: Source, registry: Registry, request: Request, say: Say = lam
     entropy = measured(ENTROPY, "entropy")
     others = {name: grown(name, "others") for name in dict.fromkeys((*EXPONENT_CHECKS, *request.quantifiers))}
     tests = _tests(raw, guests, request, say)
-    return Analysis(
+    weighed = MotionEvidence(beat, raw, denoised, exponent, dimension, entropy, tests, request.settings.motion)
+    return AnalysedChannel(
         source=source,
         beat=beat,
         raw=raw,
@@ -164,7 +167,7 @@ def analyse(source: Source, registry: Registry, request: Request, say: Say = lam
         others=others,
         tests=tests,
         surrogate_dims=_surrogate_dims(raw, registry, request, say),
-        verdict=judged(Evidence(beat, raw, denoised, exponent, dimension, entropy, tests, request.settings.motion)),
+        verdict=judged(weighed),
         exponent_method=EXPONENT.removeprefix("lyapunov_"),
         denoiser=denoiser,
         aside=tuple(dict.fromkeys(guests.said)),
@@ -186,7 +189,7 @@ class _Measured:
 
     series: Series
     guests: Guests
-    request: Request
+    request: AnalysisRequest
     beat: Beat
     say: Say
 
@@ -200,7 +203,7 @@ class _Measured:
         return _converted(found, self.request, self.beat)
 
 
-def _require_known(registry: Registry, request: Request) -> None:
+def _require_known(registry: Registry, request: AnalysisRequest) -> None:
     """Refuse a name that is unknown before the work begins."""
     registry.load("embedder", request.embedder)
     for name in request.surrogates:
@@ -219,7 +222,7 @@ def _reader(registry: Registry, name: str) -> Quantifier[Series]:
     return quantifier
 
 
-def _cleaned(raw: Series, guests: Guests, request: Request) -> tuple[Denoised, str]:
+def _cleaned(raw: Series, guests: Guests, request: AnalysisRequest) -> tuple[Denoised, str]:
     """Return the series with less noise, and how that was done; a denoiser that breaks down leaves it as it is."""
     registry = guests.registry
     meter, rng = _reader(registry, METER), request.rng("denoise")
@@ -232,7 +235,7 @@ def _cleaned(raw: Series, guests: Guests, request: Request) -> tuple[Denoised, s
     return (cleaned, name) if cleaned else (Denoised(raw, level, level), "none")
 
 
-def _converted(estimate: Estimate, request: Request, beat: Beat) -> Estimate:
+def _converted(estimate: Estimate, request: AnalysisRequest, beat: Beat) -> Estimate:
     """Return an exponent in the unit that was asked for; any other estimate as it is."""
     if estimate.unit != "1/s":
         return estimate
@@ -241,7 +244,7 @@ def _converted(estimate: Estimate, request: Request, beat: Beat) -> Estimate:
     return exponent_in(estimate, request.unit, period=beat.period)
 
 
-def _tests(raw: Series, guests: Guests, request: Request, say: Say) -> tuple[SurrogateTest, ...]:
+def _tests(raw: Series, guests: Guests, request: AnalysisRequest, say: Say) -> tuple[SurrogateTest, ...]:
     """Return the surrogate tests: on the recording as it is, since noise reduction makes any series look ruled."""
     names = request.surrogates or ((SURROGATE, SURROGATE_OF_CYCLES) if raw.period else (SURROGATE,))
     statistic, tests = _reader(guests.registry, STATISTIC), []
@@ -263,7 +266,7 @@ def _options(name: str, raw: Series) -> dict[str, int]:
     return {"together": best + 1} if spread[best] < APART * spread[0] else {}
 
 
-def _surrogate_dims(raw: Series, registry: Registry, request: Request, say: Say) -> Array | None:
+def _surrogate_dims(raw: Series, registry: Registry, request: AnalysisRequest, say: Say) -> Array | None:
     """Return the dimension of a few surrogates over the embedding dimension (draws, dims), as in Fig. 21."""
     say("dimension of surrogates")
     rng = request.rng("dimensions")

@@ -13,32 +13,32 @@ from lostmotion.signals import poincare, spectrum, stroboscopic, without_harmoni
 from lostmotion.storage import Column
 
 if TYPE_CHECKING:
-    from lostmotion.workflow.analyse import Analysis
+    from lostmotion.workflow.analyse import AnalysedChannel
 
 Table = dict[str, Column]
 UNITS = {"lag": "s", "time": "s", "ami": "nat", "ami_floor": "nat", "slope": "1"}
 """The units of curves that have one."""
 
 
-def arrays_of(analysis: Analysis) -> tuple[Table, Table]:
+def arrays_of(found: AnalysedChannel) -> tuple[Table, Table]:
     """Return the variables and the coordinates of `analysis.nc`."""
     variables = {
-        **_series(analysis),
-        **_spectra(analysis),
-        **_sections(analysis),
-        **_embedding("embedding_", analysis.clean.embedding),
-        **_exponent(analysis.exponent),
-        **_dimension(analysis.dimension),
-        **_tests(analysis),
+        **_series(found),
+        **_spectra(found),
+        **_sections(found),
+        **_embedding("embedding_", found.clean.embedding),
+        **_exponent(found.exponent),
+        **_dimension(found.dimension),
+        **_tests(found),
     }
-    if analysis.clean is not analysis.raw:
-        variables |= _embedding("embedding_raw_", analysis.raw.embedding)
-    time = np.arange(analysis.raw.n) * analysis.raw.dt
+    if found.clean is not found.raw:
+        variables |= _embedding("embedding_raw_", found.raw.embedding)
+    time = np.arange(found.raw.n) * found.raw.dt
     return variables, {"time": Column(("time",), time, "s", "time from the start")}
 
 
-def _series(analysis: Analysis) -> Table:
-    source, raw, clean = analysis.source, analysis.raw, analysis.clean
+def _series(found: AnalysedChannel) -> Table:
+    source, raw, clean = found.source, found.raw, found.clean
     table = {"x": Column(("time",), raw.x, source.unit, f"{source.label}, mean taken off")}
     if clean is not raw:
         table["cleaned"] = Column(("time",), clean.x, source.unit, f"{source.label}, noise reduced")
@@ -47,27 +47,27 @@ def _series(analysis: Analysis) -> Table:
     return table
 
 
-def _spectra(analysis: Analysis) -> Table:
-    raw, unit = analysis.raw, analysis.source.unit
+def _spectra(found: AnalysedChannel) -> Table:
+    raw, unit = found.raw, found.source.unit
     density = f"({unit})^2/Hz" if unit else "1/Hz"
     frequency, power = spectrum(raw.x, raw.dt)
     table = {
         "frequency": Column(("frequency",), frequency, "Hz", "frequency"),
         "density": Column(("frequency",), power, density, "power spectral density"),
     }
-    if analysis.beat.period is not None:
-        rest, _ = without_harmonics(raw.x, raw.dt, analysis.beat.period)
+    if found.beat.period is not None:
+        rest, _ = without_harmonics(raw.x, raw.dt, found.beat.period)
         table["density_rest"] = Column(
             ("frequency",), spectrum(rest, raw.dt)[1], density, "power spectral density, harmonics taken out"
         )
     return table
 
 
-def _sections(analysis: Analysis) -> Table:
-    unit = analysis.source.unit
-    table = {"section": Column(("hit", "axis"), _section(analysis.raw), unit, "section as recorded")}
-    if analysis.clean is not analysis.raw:
-        table["section_cleaned"] = Column(("hit_cleaned", "axis"), _section(analysis.clean), unit, "section, cleaned")
+def _sections(found: AnalysedChannel) -> Table:
+    unit = found.source.unit
+    table = {"section": Column(("hit", "axis"), _section(found.raw), unit, "section as recorded")}
+    if found.clean is not found.raw:
+        table["section_cleaned"] = Column(("hit_cleaned", "axis"), _section(found.clean), unit, "section, cleaned")
     return table
 
 
@@ -115,19 +115,19 @@ def _dimension(found: Estimate) -> Table:
     return {f"d2_{name}": Column(d, found.curve[name], "1", name) for name, d in dims.items() if name in found.curve}
 
 
-def _tests(analysis: Analysis) -> Table:
-    if not analysis.tests:
+def _tests(found: AnalysedChannel) -> Table:
+    if not found.tests:
         return {}
-    width = max(len(t.values) for t in analysis.tests)
-    values = np.full((len(analysis.tests), width), np.nan)
-    for row, test in zip(values, analysis.tests, strict=True):
+    width = max(len(t.values) for t in found.tests)
+    values = np.full((len(found.tests), width), np.nan)
+    for row, test in zip(values, found.tests, strict=True):
         row[: len(test.values)] = test.values
-    originals = np.array([t.original for t in analysis.tests])
+    originals = np.array([t.original for t in found.tests])
     table = {
         "surrogate_values": Column(("test", "draw"), values, "1", "statistic of the surrogates"),
         "surrogate_original": Column(("test",), originals, "1", "statistic of the recording"),
     }
-    if analysis.surrogate_dims is not None:
+    if found.surrogate_dims is not None:
         said = "dimension of surrogates"
-        table["surrogate_d2_by_dim"] = Column(("d2_draw", "d2_dim"), analysis.surrogate_dims, "1", said)
+        table["surrogate_d2_by_dim"] = Column(("d2_draw", "d2_dim"), found.surrogate_dims, "1", said)
     return table

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 
 from lostmotion.contracts import Array, Series
 from lostmotion.results import Estimate
+from lostmotion.results.analysis import DriveSource
 from lostmotion.settings import DEFAULT, Motion
 from lostmotion.signals import base_line, refined_period, return_spread
 from lostmotion.stages.denoise import Denoised
@@ -26,12 +26,12 @@ class Beat:
     """The period (s) of a motion and where it comes from; a line that keeps its phase is taken for that of a drive."""
 
     period: float | None
-    source: Literal["excitation", "given", "spectrum", "none"]
+    source: DriveSource
     notes: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
-class Evidence:
+class MotionEvidence:
     """What the verdict is made of."""
 
     beat: Beat

@@ -1,65 +1,82 @@
-"""What an identification says, ready for JSON: rows of parameters, how the sampling went, and sentences."""
+"""What an identification says: rows of parameters, how the sampling went, and sentences."""
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Mapping
 
+from lostmotion.case import CaseFile
 from lostmotion.likelihood.space import parted
-from lostmotion.stages.identify import NOISES, Identification
+from lostmotion.results import Interval
+from lostmotion.results.background import Origin
+from lostmotion.results.identification import Identification, Parameter, RouteName, Sampling
+from lostmotion.stages.identify import NOISES, SampledPosterior
 
 SENSOR = (*NOISES.values(), "offset")
 """What is told apart from the parameters of the machine: noise levels, and the zero of a sensor."""
 
 
-def statement(result: Identification, route: str) -> dict[str, Any]:
-    """Return the content of `identification.json`, title and provenance left out; without convergence no interval."""
-    rows = _parameters(result)
+def statement(found: SampledPosterior, route: RouteName, case: CaseFile, origin: Origin) -> Identification:
+    """Return what the draws say of a case, without notes and without what belongs to one route alone."""
+    rows = _parameters(found)
     noise = {name for name in rows if parted(name)[0] in SENSOR}
-    return {
-        "schema": "lostmotion.identification/1",
-        "route": route,
-        "converged": result.converged,
-        "says": list(says(result)),
-        "ess_min": float(result.quality.ess.min()),
-        "ess_tail_min": float(result.quality.ess_tail.min()),
-        "rhat_max": float(result.quality.rhat.max()),
-        "parameters": {k: row for k, row in rows.items() if k not in noise},
-        "noise": {k: row for k, row in rows.items() if k in noise},
-        "sampling": _sampling(result),
-        "log_likelihood_evaluations": result.evaluations,
-    }
+    return Identification(
+        route=route,
+        converged=found.converged,
+        says=says(found),
+        ess_min=float(found.quality.ess.min()),
+        ess_tail_min=float(found.quality.ess_tail.min()),
+        rhat_max=float(found.quality.rhat.max()),
+        parameters={k: row for k, row in rows.items() if k not in noise},
+        noise={k: row for k, row in rows.items() if k in noise},
+        sampling=_sampling(found),
+        log_likelihood_evaluations=found.evaluations,
+        title=case.title,
+        model=case.model,
+        truth=dict(case.truth),
+        notes=(),
+        provenance=origin,
+    )
 
 
-def _parameters(result: Identification) -> dict[str, dict[str, Any]]:
-    intervals, sd, quality = result.intervals, result.sd, result.quality
-    nothing = {"median": None, "low": None, "high": None}
+def _parameters(found: SampledPosterior) -> Mapping[str, Parameter]:
+    """Return a row for each parameter; without convergence none has an interval."""
+    intervals, sd, quality, nothing = found.intervals, found.sd, found.quality, float("nan")
     rows = {}
-    for i, (key, unit) in enumerate(zip(result.keys, result.units, strict=True)):
-        given = intervals[key].as_dict() if key in intervals else nothing
-        reached = {"ess": float(quality.ess[i]), "rhat": float(quality.rhat[i]), "tau": float(quality.tau[i])}
-        rows[key] = {**given, "sd": sd.get(key), "unit": unit, "at_maximum": result.maximum[key], **reached}
+    for i, (key, unit) in enumerate(zip(found.keys, found.units, strict=True)):
+        span = intervals.get(key, Interval(nothing, nothing, nothing, unit))
+        rows[key] = Parameter(
+            median=span.median,
+            low=span.low,
+            high=span.high,
+            unit=unit,
+            sd=sd.get(key, nothing),
+            at_maximum=found.maximum[key],
+            ess=float(quality.ess[i]),
+            rhat=float(quality.rhat[i]),
+            tau=float(quality.tau[i]),
+        )
     return rows
 
 
-def _sampling(result: Identification) -> dict[str, Any]:
-    walkers, steps, _ = result.chain.shape
-    return {
-        "walkers": walkers,
-        "steps": steps,
-        "burn_in": result.burn_in,
-        "acceptance": result.acceptance,
-        "autocorrelation_time": result.quality.slowest,
-        "lacks": list(result.lacks),
-    }
+def _sampling(found: SampledPosterior) -> Sampling:
+    walkers, steps, _ = found.chain.shape
+    return Sampling(
+        walkers=walkers,
+        steps=steps,
+        burn_in=found.burn_in,
+        acceptance=found.acceptance,
+        autocorrelation_time=found.quality.slowest,
+        lacks=found.lacks,
+    )
 
 
-def says(result: Identification) -> tuple[str, ...]:
+def says(found: SampledPosterior) -> tuple[str, ...]:
     """Return what the report opens with."""
-    quality = result.quality
-    if not result.converged:
+    quality = found.quality
+    if not found.converged:
         return (
             "The chain has not converged, so no interval is given.",
-            f"What is missing: {'; '.join(result.lacks)}. Give more steps with --max-steps, or look at the trace.",
+            f"What is missing: {'; '.join(found.lacks)}. Give more steps with --max-steps, or look at the trace.",
         )
     return (
         f"The chain has converged: {quality.ess.min():.0f} effective draws or more of each parameter.",

@@ -8,13 +8,15 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Mapping
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from lostmotion.case import CaseFile
+from lostmotion.case.levels import Measured
+from lostmotion.codec import from_plain, to_plain
 from lostmotion.contracts import Array
 from lostmotion.errors import CaseError
 from lostmotion.likelihood.space import Free
@@ -22,10 +24,17 @@ from lostmotion.provenance import provenance
 from lostmotion.registry import Registry
 from lostmotion.report.identification import write_identification
 from lostmotion.results import Interval
+from lostmotion.results.background import Origin
+from lostmotion.results.identification import (
+    DriveLevel,
+    ExpectedMotion,
+    Identification,
+    MeasuredRange,
+)
 from lostmotion.settings import DEFAULT, Settings
-from lostmotion.stages.identify import Identification, Plan, Task, Watch, identify
+from lostmotion.stages.identify import SampledPosterior, SamplingPlan, Task, Watch, identify
 from lostmotion.storage import folder_for, save_datasets, save_json
-from lostmotion.study.inversion import Inversion, predicted
+from lostmotion.study.inversion import Inversion, Predicted, predicted
 from lostmotion.workflow.identification_words import modes_said, statement
 from lostmotion.workflow.levels import Survey, derived, quantifier_task
 from lostmotion.workflow.notes import fleeting
@@ -53,7 +62,7 @@ class Order:
     terms: tuple[str, ...] = ()
     seed: int = 0
     jobs: int = 2
-    plan: Plan = field(default_factory=Plan)
+    plan: SamplingPlan = field(default_factory=SamplingPlan)
     route: str | None = None
     maps: tuple[Path, ...] = ()
     fresh: bool = False
@@ -62,21 +71,20 @@ class Order:
 
 @dataclass(frozen=True)
 class Identified:
-    """An identification, the content of its JSON file, the time (s) that the sampling took, and `groups` for ArviZ."""
+    """The draws, the result that `identification.json` holds, the time (s) of the sampling, and `groups` for ArviZ."""
 
+    posterior: SampledPosterior
     result: Identification
-    content: Mapping[str, Any]
     seconds: float
     groups: Mapping[str, xr.Dataset] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
 class Way:
-    """A task, and what is to be told of it beside the posterior: `facts` at once, `more` once there are draws."""
+    """A task, and what makes the result of its draws."""
 
     task: Task
-    facts: Mapping[str, Any]
-    more: Callable[[Identification], Mapping[str, Any]] = lambda _result: {}
+    tell: Callable[[SampledPosterior], Identification]
 
 
 @within_numbers()
@@ -104,20 +112,19 @@ def identified(
 ) -> Identified:
     """Return what was identified of a case, `prepared` where its recordings are at hand; the chain is kept in `out`."""
     rng = np.random.default_rng(order.seed)
-    route = "trajectory" if prepared else route_of(case, order)
     asked = (order, rng, watch)
-    if route == "trajectory":
+    if prepared or route_of(case, order) == "trajectory":
         way = _by_trajectory(prepared or prepared_of(case, registry), out, registry, asked)
     else:
         way = _by_quantifiers(case, out, registry, asked)
     if order.fresh:
         (out / CHAIN).unlink(missing_ok=True)
     begin = time.perf_counter()
-    result = identify(way.task, rng=rng, plan=order.plan, watch=watch, keep=out / CHAIN)
+    found = identify(way.task, rng=rng, plan=order.plan, watch=watch, keep=out / CHAIN)
     seconds = time.perf_counter() - begin
     watch(0, "what the posterior says of the readings")
-    groups = groups_of(way.task, result, case, np.random.default_rng([order.seed, 1]))
-    return Identified(result, _content(result, route, way), seconds, groups)
+    groups = groups_of(way.task, found, case, np.random.default_rng([order.seed, 1]))
+    return Identified(found, way.tell(found), seconds, groups)
 
 
 def route_of(case: CaseFile, order: Order) -> str:
@@ -141,13 +148,15 @@ def _by_trajectory(prepared: Prepared, out: Path, registry: Registry, asked: Ask
     fits = best_fits(prepared, terms, rng, order.jobs, order.settings)
     problem = fits[0].problem
     settings = {"terms": sorted(problem.active), "steps_between_samples": problem.nsub, "sensor": asdict(case.sensor)}
-    facts = {
-        **_facts(case, order, settings, prepared.inputs),
-        "model": " + ".join([case.model, *sorted(problem.active)]),
-        "modes": len(fits),
-        "notes": [*prepared.notes, *modes_said(len(fits)), *fleeting(fits[0]), *doubts(fits[0])],
-    }
-    return Way(task_for(prepared, fits, terms), facts)
+    origin = _origin(case, order, settings, prepared.inputs)
+    notes = (*prepared.notes, *modes_said(len(fits)), *fleeting(fits[0]), *doubts(fits[0]))
+    model = " + ".join([case.model, *sorted(problem.active)])
+
+    def tell(found: SampledPosterior) -> Identification:
+        told = statement(found, "trajectory", case, origin)
+        return replace(told, model=model, modes=len(fits), notes=notes)
+
+    return Way(task_for(prepared, fits, terms), tell)
 
 
 def _by_quantifiers(case: CaseFile, out: Path, registry: Registry, asked: Asked) -> Way:
@@ -163,15 +172,16 @@ def _by_quantifiers(case: CaseFile, out: Path, registry: Registry, asked: Asked)
     posterior = task.posterior
     assert isinstance(posterior, Inversion)  # noqa: S101 - it is what a quantifier task holds
     inputs = {**registry.origins(("model", case.model)), "case": case.digest}
-    facts = _facts(case, order, {"maps": [asdict(survey)["maps"]]}, inputs)
+    origin = _origin(case, order, {"maps": [asdict(survey)["maps"]]}, inputs)
 
-    def more(result: Identification) -> Mapping[str, Any]:
-        points = coordinates(posterior.free, result.draws)
+    def tell(found: SampledPosterior) -> Identification:
+        points = coordinates(posterior.free, found.draws)
         some = points[:: max(1, len(points) // EXPECTED)]
         expected = predicted(posterior, some, np.random.default_rng(order.seed))
-        return {"levels": [level.as_dict() for level in expected], "derived": _derived(posterior, points, result)}
+        told = statement(found, "quantifiers", case, origin)
+        return replace(told, levels=tuple(map(level_told, expected)), derived=_derived(posterior, points, found))
 
-    return Way(task, facts, more)
+    return Way(task, tell)
 
 
 def coordinates(free: tuple[Free, ...], values: Array) -> Array:
@@ -179,49 +189,61 @@ def coordinates(free: tuple[Free, ...], values: Array) -> Array:
     return np.stack([np.log(values[:, i]) if f.log else values[:, i] for i, f in enumerate(free)], axis=1)
 
 
-def _derived(posterior: Inversion, points: Array, result: Identification) -> dict[str, Any]:
+def level_told(one: Predicted) -> DriveLevel:
+    """Return a level with what was measured there and what the posterior expects."""
+    level = one.level
+    return DriveLevel(
+        name=level.name,
+        amplitude=level.amplitude,
+        unit=level.unit,
+        omega=level.omega,
+        motion=level.motion,
+        lyapunov=_measured(level.lyapunov, "1/s"),
+        d2=_measured(level.d2, "1"),
+        predicted=ExpectedMotion(chaotic_share=one.chaotic_share, lyapunov=one.lyapunov, d2=one.d2),
+    )
+
+
+def _measured(seen: Measured | None, unit: str) -> MeasuredRange | None:
+    if seen is None:
+        return None
+    half = 1.96 * seen.sd
+    return MeasuredRange(value=seen.value, low=seen.value - half, high=seen.value + half, unit=unit)
+
+
+def _derived(posterior: Inversion, points: Array, found: SampledPosterior) -> Mapping[str, Interval]:
     """Return the intervals of what follows from the parameters; none from a chain that has not converged."""
-    if not result.converged:
+    if not found.converged:
         return {}
     rows = {}
     for name, values in derived(posterior, points).items():
         low, median, high = np.quantile(values, [0.025, 0.5, 0.975]).tolist()
-        rows[name] = Interval(median, low, high, "1").as_dict()
+        rows[name] = Interval(median, low, high, "1")
     return rows
 
 
-def _facts(case: CaseFile, order: Order, settings: Mapping[str, Any], inputs: Mapping[str, str]) -> dict[str, Any]:
+def _origin(case: CaseFile, order: Order, settings: Mapping[str, object], inputs: Mapping[str, str]) -> Origin:
     told = {"model": case.model, "known": dict(case.known), **settings, **asdict(order.plan)}
     told["thresholds"] = order.settings.as_dict()
     del told["limits"]
-    return {
-        "title": case.title,
-        "model": case.model,
-        "truth": dict(case.truth),
-        "notes": [],
-        "provenance": provenance("identify", told, order.seed, inputs),
-    }
-
-
-def _content(result: Identification, route: str, way: Way) -> dict[str, Any]:
-    return {**statement(result, route), **way.facts, **way.more(result)}
+    return from_plain(Origin, provenance("identify", told, order.seed, inputs))
 
 
 def inference_of(done: Identified) -> Any:
     """Return the draws of an identification as ArviZ's `InferenceData`."""
     attrs = {
-        "title": done.content["title"],
-        "model": done.content["model"],
-        "converged": int(done.result.converged),
+        "title": done.result.title,
+        "model": done.result.model,
+        "converged": int(done.posterior.converged),
     }
-    data = done.result.inference_data(attrs)
+    data = done.posterior.inference_data(attrs)
     if done.groups:
         data.add_groups(dict(done.groups))
     return data
 
 
 def _write(folder: Path, done: Identified) -> None:
-    told, content = inference_of(done), done.content
+    told = inference_of(done)
     save_datasets(folder / "posterior.nc", {name: told[name] for name in told.groups()}, told.attrs)
-    save_json(folder / "identification.json", content)
+    save_json(folder / "identification.json", to_plain(done.result))
     write_identification(folder)

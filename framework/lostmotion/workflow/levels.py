@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-import json
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -23,8 +22,9 @@ from lostmotion.registry import Registry
 from lostmotion.stages.identify import Cloud, Shown, Task
 from lostmotion.study.atlas import RATIO, Atlas
 from lostmotion.study.inversion import Inversion, grouped
+from lostmotion.study.layout import origin_in, settings_in
 from lostmotion.study.map import Map
-from lostmotion.study.numbers import Law, Power, law_of
+from lostmotion.study.numbers import NumberLaw, NumberPower, law_of
 from lostmotion.study.sweep import Crew
 from lostmotion.workflow.mapping import How, Request, make_map, study_of
 from lostmotion.workflow.reading import read_levels
@@ -70,13 +70,13 @@ class Survey:
 
 
 @dataclass(frozen=True, eq=False)
-class Wanted:
+class LevelNumbers:
     """The laws of the dimensionless numbers at each of the `levels`, in `groups` of one drive frequency."""
 
     model: Model
     levels: tuple[Level, ...]
     free: tuple[Free, ...]
-    laws: tuple[Mapping[str, Law], ...]
+    laws: tuple[Mapping[str, NumberLaw], ...]
     fixed: Mapping[str, float]
     groups: list[list[int]] = field(default_factory=list)
 
@@ -130,10 +130,10 @@ def inversion_of(
     return Inversion(levels, tuple(atlases), tuple(which[k] for k in range(len(levels))), wanted.laws, wanted.free)
 
 
-def wanted_of(case: CaseFile, levels: tuple[Level, ...], registry: Registry) -> Wanted:
+def wanted_of(case: CaseFile, levels: tuple[Level, ...], registry: Registry) -> LevelNumbers:
     """Return which numbers the levels of a case ask for; raises `CaseError` where they cannot be worked out."""
     model: Model = sound(registry, "model", case.model)
-    powers = {group.name: Power.of(group, model) for group in model.groups}
+    powers = {group.name: NumberPower.of(group, model) for group in model.groups}
     if lacking := [name for name in SWEPT if name not in powers]:
         raise CaseError(f"{model.name} has no dimensionless number {lacking[0]}: the quantifier route cannot use it")
     known, free = _known(case, model), tuple(_free(key, prior, model) for key, prior in case.estimate.items())
@@ -143,11 +143,11 @@ def wanted_of(case: CaseFile, levels: tuple[Level, ...], registry: Registry) -> 
     for level in levels:
         told = {**known, "drive.amplitude": level.amplitude, "drive.omega": level.omega}
         laws.append({name: law_of(powers[name], told, names) for name in SWEPT})
-    wanted = Wanted(model, levels, free, tuple(laws), _fixed(powers, known, free), grouped(levels))
+    wanted = LevelNumbers(model, levels, free, tuple(laws), _fixed(powers, known, free), grouped(levels))
     return _bare(wanted)
 
 
-def _bare(wanted: Wanted) -> Wanted:
+def _bare(wanted: LevelNumbers) -> LevelNumbers:
     """Return the same without a frequency ratio where nothing free moves it: it is fixed in each map then."""
     if any(any(law[RATIO].powers) for law in wanted.laws):
         return wanted
@@ -178,11 +178,11 @@ def _known(case: CaseFile, model: Model) -> dict[str, float]:
 
 
 def _moves(model: Model, name: str) -> set[str]:
-    power = Power.of(next(group for group in model.groups if group.name == name), model)
+    power = NumberPower.of(next(group for group in model.groups if group.name == name), model)
     return {key for key in (*power.powers, power.target) if not key.startswith("drive.")}
 
 
-def _fixed(powers: Mapping[str, Power], known: Mapping[str, float], free: tuple[Free, ...]) -> dict[str, float]:
+def _fixed(powers: Mapping[str, NumberPower], known: Mapping[str, float], free: tuple[Free, ...]) -> dict[str, float]:
     """Return the further dimensionless numbers that are not zero, at the middle of what is free."""
     middle = {**known, **{f.key: f.value(f.start) for f in free}}
     fixed = {}
@@ -223,7 +223,7 @@ def _log(free: Free, end: str) -> float:
 
 
 def _made(
-    wanted: Wanted, group: Sequence[int], registry: Registry, out: Path, survey: Survey, say: Say
+    wanted: LevelNumbers, group: Sequence[int], registry: Registry, out: Path, survey: Survey, say: Say
 ) -> Map:  # fmt: skip
     """Return the map for the levels of one frequency, made in the folder `out` under a name that tells its settings."""
     request = request_for(wanted, group, survey)
@@ -232,7 +232,7 @@ def _made(
     return make_map(study, out / f"map-{name}.nc", How(Crew(survey.jobs)), say)
 
 
-def request_for(wanted: Wanted, group: Sequence[int], survey: Survey) -> Request:
+def request_for(wanted: LevelNumbers, group: Sequence[int], survey: Survey) -> Request:
     """Return the map that the levels of one frequency ask for."""
     names = tuple(wanted.laws[group[0]])
     axes = []
@@ -258,7 +258,7 @@ def _outward(end: float, rounded: Callable[[float], int]) -> float:
     return float(f"{math.exp(STEP * rounded(math.log(end) / STEP)):.6g}")
 
 
-def _given(wanted: Wanted, group: Sequence[int], survey: Survey) -> Map:
+def _given(wanted: LevelNumbers, group: Sequence[int], survey: Survey) -> Map:
     """Return the map among those given that holds all that the levels of one frequency may need."""
     reasons = []
     for path in survey.maps:
@@ -270,12 +270,11 @@ def _given(wanted: Wanted, group: Sequence[int], survey: Survey) -> Map:
     raise DataError(f"no map fits level {wanted.levels[group[0]].name}: {'; '.join(reasons)}")
 
 
-def _unfit(found: Map, wanted: Wanted, group: Sequence[int]) -> str:
+def _unfit(found: Map, wanted: LevelNumbers, group: Sequence[int]) -> str:
     """Return why a map does not serve, or nothing."""
-    settings = json.loads(str(found.dataset.attrs["provenance"]))["settings"]
-    names, fixed = wanted.laws[group[0]], settings["fixed"]
-    if settings["model"] != wanted.model.name:
-        return f"is of {settings['model']}"
+    settings, names = settings_in(origin_in(found.dataset.attrs)), wanted.laws[group[0]]
+    if settings.model != wanted.model.name:
+        return f"is of {settings.model}"
     if {*found.axes} != {*names}:
         return f"is over {', '.join(found.axes)}, and {', '.join(names)} are wanted"
     for name in names:
@@ -285,8 +284,8 @@ def _unfit(found: Map, wanted: Wanted, group: Sequence[int]) -> str:
             return f"goes from {name} = {ends[0]:.4g} to {ends[-1]:.4g}, and the priors ask for {low:.4g} to {high:.4g}"
     if RATIO not in names:
         ratio = wanted.fixed[f"{RATIO} {group[0]}"]
-        if not math.isclose(fixed.get(RATIO, math.nan), ratio, rel_tol=ALIKE):
-            return f"has a frequency ratio of {fixed.get(RATIO)}, and {ratio:.6g} is wanted"
+        if not math.isclose(settings.fixed.get(RATIO, math.nan), ratio, rel_tol=ALIKE):
+            return f"has a frequency ratio of {settings.fixed.get(RATIO)}, and {ratio:.6g} is wanted"
     return ""
 
 

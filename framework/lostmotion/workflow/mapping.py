@@ -14,7 +14,7 @@ from lostmotion.study.cells import Study
 from lostmotion.study.layout import layout_of
 from lostmotion.study.map import Map
 from lostmotion.study.refine import MOST, cleared, finished_layout, refined
-from lostmotion.study.rig import DRIVE, Rig
+from lostmotion.study.rig import DRIVE, SweptMachine
 from lostmotion.study.store import ENDINGS, as_dataset, holds, load, save_netcdf, save_zarr
 from lostmotion.study.sweep import Crew, Say, sweep
 from lostmotion.workflow.drives import Options, number, pairs
@@ -53,7 +53,7 @@ def study_of(request: Request, registry: Registry) -> Study:
     assembly, fixed = assembly_of(registry, request.model, request.terms, request.motion)
     for key, text in pairs(",".join(request.sets), "--set").items():
         fixed[key] = number(text, f"{key} of --set")
-    rig = Rig(assembly, tuple(names), {**fixed, **_drive(request.drive)}).checked()
+    rig = SweptMachine(assembly, tuple(names), {**fixed, **_drive(request.drive)}).checked()
     settings = {"periods": request.periods, "transient": request.transient}
     further = {}
     for name in request.quantities:

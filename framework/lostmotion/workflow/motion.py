@@ -4,19 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 
 from lostmotion.contracts import Series
 from lostmotion.defaults import SURROGATE_OF_CYCLES
 from lostmotion.results import Estimate, percent
-from lostmotion.workflow.beat import MOST_PERIODS, Evidence, returned, returns
-from lostmotion.workflow.signs import FEWEST_SAMPLES, Sign, State, grows, signs_of, turn_of
+from lostmotion.results.analysis import MotionKind, Sign, State, Strength
+from lostmotion.workflow.beat import MOST_PERIODS, MotionEvidence, returned, returns
+from lostmotion.workflow.signs import FEWEST_SAMPLES, grows, signs_of, turn_of
 
-Motion = Literal["periodic", "quasiperiodic", "chaotic", "stochastic", "undecided"]
-Strength = Literal["firm", "likely", "open"]
-"""How far the signs bear a verdict: all that can, some while others are silent, or not at all."""
 ENOUGH_PERIODS = 100
 FEWEST_VALUES = 16
 TOLD_APART = 0.25
@@ -31,7 +28,7 @@ TESTED_CYCLES = LINEAR + SURROGATE_OF_CYCLES
 class Verdict:
     """The kind of motion, how firmly, one or two sentences, what it rests on, and the state of every sign of chaos."""
 
-    motion: Motion
+    motion: MotionKind
     says: str
     because: tuple[str, ...]
     strength: Strength = "open"
@@ -42,7 +39,7 @@ class Verdict:
 class Weighed:
     """The evidence with its signs."""
 
-    evidence: Evidence
+    evidence: MotionEvidence
     signs: tuple[Sign, ...]
 
     def state(self, key: str) -> State:
@@ -63,13 +60,13 @@ class Weighed:
         """The surrogate tests of linear noise."""
         return tuple(s for s in self.tests if s.key != TESTED_CYCLES)
 
-    def verdict(self, motion: Motion, says: str, strength: Strength, first: tuple[str, ...] = ()) -> Verdict:
+    def verdict(self, motion: MotionKind, says: str, strength: Strength, first: tuple[str, ...] = ()) -> Verdict:
         """Return a verdict with all signs, and what it rests on: `first`, and what the signs that spoke said."""
         spoken = (f"{s.name}: {s.says}" for s in self.signs if s.state != "silent")
         return Verdict(motion, says, (*first, *spoken), strength, self.signs)
 
 
-def judged(evidence: Evidence) -> Verdict:
+def judged(evidence: MotionEvidence) -> Verdict:
     """Return the verdict on a motion: that of the first rule that holds, else undecided."""
     it = Weighed(evidence, signs_of(evidence))
     for rule in (_unsteady, _periodic, _quasiperiodic, _coarse, _regular, _jittering, _chaotic, _short, _stochastic):
@@ -235,7 +232,7 @@ def _short(it: Weighed) -> Verdict | None:
     return it.verdict("undecided", says, "open")
 
 
-def _long_enough(evidence: Evidence) -> bool:
+def _long_enough(evidence: MotionEvidence) -> bool:
     """Return whether there were enough points and turns for an exponent and a dimension."""
     statuses = {evidence.exponent.status, evidence.dimension.status}
     short = statuses & {"too_short", "too_few_neighbours", "failed"}

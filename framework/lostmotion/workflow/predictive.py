@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from lostmotion.case import CaseFile
 from lostmotion.contracts import Array
 from lostmotion.likelihood.problem import Problem
-from lostmotion.stages.identify import Identification, Task
+from lostmotion.stages.identify import SampledPosterior, Task
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -25,7 +25,7 @@ PRIOR = 1000
 POINTS = 256
 
 
-def groups_of(task: Task, result: Identification, case: CaseFile, rng: np.random.Generator) -> dict[str, xr.Dataset]:
+def groups_of(task: Task, result: SampledPosterior, case: CaseFile, rng: np.random.Generator) -> dict[str, xr.Dataset]:
     """Return the groups `log_likelihood`, `observed_data`, `posterior_predictive` and `prior` of a sampled posterior.
 
     A replicate is what the model predicts for a reading from those before it, with its error: the motion is chaotic,
@@ -74,7 +74,7 @@ def _told(
 
 
 def _prior(
-    case: CaseFile, result: Identification, rng: np.random.Generator
+    case: CaseFile, result: SampledPosterior, rng: np.random.Generator
 ) -> Mapping[str, tuple[tuple[str, str], Array]]:
     """Return draws (1, PRIOR) of the parameters that the case gives a prior."""
     named = [name for name in result.keys if name in case.estimate]

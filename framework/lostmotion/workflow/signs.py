@@ -6,19 +6,16 @@ Each sign rules out one other explanation. A sign that could not be read is sile
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass, field
-from typing import Literal
 
 import numpy as np
 
 from lostmotion.defaults import SURROGATE_OF_CYCLES
 from lostmotion.results import Estimate, percent
+from lostmotion.results.analysis import Sign, State
 from lostmotion.signals.tones import TwoTones, two_tones
 from lostmotion.stages.surrogates import SurrogateTest
-from lostmotion.workflow.beat import MOST_PERIODS, SLACK, Evidence, returned
+from lostmotion.workflow.beat import MOST_PERIODS, SLACK, MotionEvidence, returned
 
-State = Literal["for", "against", "silent"]
 FEWEST_SAMPLES = 1000
 """With fewer samples the rank among surrogates and the slopes depend on single stretches of the orbit."""
 FEWEST_PERIODS = 20
@@ -27,25 +24,13 @@ surrogates are like any motion that is a line or two of the spectrum, so that a 
 TONES_FLOOR = 0.02
 
 
-@dataclass(frozen=True)
-class Sign:
-    """One sign: its name, what it says of chaos, the sentence why, what else it would rule out, and its numbers."""
-
-    key: str
-    name: str
-    state: State
-    says: str
-    excludes: str
-    figures: Mapping[str, float] = field(default_factory=dict)
-
-
-def signs_of(evidence: Evidence) -> tuple[Sign, ...]:
+def signs_of(evidence: MotionEvidence) -> tuple[Sign, ...]:
     """Return all signs that the evidence holds, each with its state."""
     tests = (_test(test, evidence) for test in evidence.tests)
     return (_return(evidence), *tests, _growth(evidence), _dimension(evidence), _entropy(evidence))
 
 
-def turn_of(evidence: Evidence) -> float:
+def turn_of(evidence: MotionEvidence) -> float:
     """Return how long one turn of the motion lasts (s): a period, or else that of a sine as fast as this motion."""
     if evidence.beat.period is not None:
         return evidence.beat.period
@@ -56,7 +41,7 @@ def turn_of(evidence: Evidence) -> float:
     return 2.0 * math.pi * float(np.std(x)) / pace if pace > 0.0 else math.inf
 
 
-def tones_of(evidence: Evidence) -> TwoTones | None:
+def tones_of(evidence: MotionEvidence) -> TwoTones | None:
     """Return the two frequencies that explain the motion to within its noise, or None."""
     period, raw = evidence.beat.period, evidence.raw
     if period is None:
@@ -71,7 +56,7 @@ def grows(exponent: Estimate) -> bool:
     return exponent.status in ("ok", "uncertain") and exponent.low > 0.0
 
 
-def _return(evidence: Evidence) -> Sign:
+def _return(evidence: MotionEvidence) -> Sign:
     """Return whether the motion comes back to itself, or is made up of two frequencies."""
 
     def sign(state: State, says: str, **figures: float) -> Sign:
@@ -98,7 +83,7 @@ def _return(evidence: Evidence) -> Sign:
     return sign("for", says, **figures)
 
 
-def _test(test: SurrogateTest, evidence: Evidence) -> Sign:
+def _test(test: SurrogateTest, evidence: MotionEvidence) -> Sign:
     cycles = test.method == SURROGATE_OF_CYCLES
     name = "Order of the cycles" if cycles else f"Not linear noise ({test.method.replace('_', ' ')})"
     excludes = "a periodic motion with noise" if cycles else test.null
@@ -119,7 +104,7 @@ def _test(test: SurrogateTest, evidence: Evidence) -> Sign:
     return sign("against", f"The surrogates are as easy to predict as the recording (p = {test.p:.2g}).")
 
 
-def _growth(evidence: Evidence) -> Sign:
+def _growth(evidence: MotionEvidence) -> Sign:
     """Return what the exponent says: growth counts only over enough e-foldings, and over a turn at least."""
     found, turn = evidence.exponent, turn_of(evidence)
     folds = found.details.get("e_folds", math.nan)
@@ -147,7 +132,7 @@ def _growth(evidence: Evidence) -> Sign:
     return sign("for", f"{over}, at {_spanned(found)}.")
 
 
-def _dimension(evidence: Evidence) -> Sign:
+def _dimension(evidence: MotionEvidence) -> Sign:
     found = evidence.dimension
 
     def sign(state: State, says: str) -> Sign:
@@ -171,7 +156,7 @@ def _dimension(evidence: Evidence) -> Sign:
     return sign("for", f"The dimension levels off at {_spanned(found)}{flat}.")
 
 
-def _entropy(evidence: Evidence) -> Sign:
+def _entropy(evidence: MotionEvidence) -> Sign:
     found, turn = evidence.entropy, turn_of(evidence)
 
     def sign(state: State, says: str) -> Sign:

@@ -24,7 +24,7 @@ TIMES = ("time", "t", "Time", "time_s")
 
 
 @dataclass(frozen=True)
-class Wanted:
+class WantedChannel:
     """Which channel is meant: columns or the name of a recording; the rate (Hz) where there is no time; one in `every`.
 
     Several columns are pieces of one motion, and joined in their order; one sample in `every` is kept.
@@ -56,7 +56,7 @@ class Source:
     notes: tuple[str, ...] = ()
 
 
-def source_of(path: Path, wanted: Wanted, registry: Registry) -> Source:
+def source_of(path: Path, wanted: WantedChannel, registry: Registry) -> Source:
     """Return the channel to look at: the response of a case file (.toml), or the column of a bare recording."""
     source = _of_case(case_of(path, registry), wanted) if path.suffix.lower() == ".toml" else _of_file(path, wanted)
     if wanted.every == 1:
@@ -72,7 +72,7 @@ def source_of(path: Path, wanted: Wanted, registry: Registry) -> Source:
     )
 
 
-def _of_case(case: CaseFile, wanted: Wanted) -> Source:
+def _of_case(case: CaseFile, wanted: WantedChannel) -> Source:
     if not case.recordings:
         raise CaseError(f"{case.title!r} has no [[recordings]]: add one, or analyse a recording by itself")
     names, asked = [spec.label for spec in case.recordings], wanted.column
@@ -134,7 +134,7 @@ def _whole_stretch(x: Array, notes: list[str]) -> slice:
     return keep
 
 
-def _of_file(path: Path, wanted: Wanted) -> Source:
+def _of_file(path: Path, wanted: WantedChannel) -> Source:
     table = read_table(path)
     column = next((name for name in TIMES if name in table.columns), None)
     names = _named(table, wanted.columns, column, path.name)
@@ -188,7 +188,7 @@ def _listed(names: list[str], most: int = 12) -> str:
     return (", ".join(names[:most]) or "none") + more
 
 
-def _clocked(table: Table, column: str | None, wanted: Wanted, n: int, source: str) -> tuple[Clock, Array]:
+def _clocked(table: Table, column: str | None, wanted: WantedChannel, n: int, source: str) -> tuple[Clock, Array]:
     """Return the even grid of the recording and its time column (s), which is empty where a rate was given."""
     if wanted.rate is not None:
         if not 0.0 < wanted.rate < np.inf:

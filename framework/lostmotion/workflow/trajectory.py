@@ -18,30 +18,30 @@ from lostmotion.inference.setup import SHARED, frees_for, modes, polished, probl
 from lostmotion.likelihood.system import System, key_of
 from lostmotion.registry import Registry
 from lostmotion.settings import DEFAULT, Settings
-from lostmotion.stages.identify import Identification, Plan, Task, identify, task_of
+from lostmotion.stages.identify import SampledPosterior, SamplingPlan, Task, identify, task_of
 from lostmotion.workflow.prepare import Prepared
 from lostmotion.workflow.vetting import sound
 
 
 @dataclass(frozen=True)
-class Sampled:
+class SampledCase:
     """A posterior that was sampled, and the fits of its modes, best first."""
 
-    result: Identification
+    result: SampledPosterior
     fits: tuple[Fit, ...]
 
 
 def sampled(
     prepared: Prepared,
     terms: tuple[Term, ...],
-    plan: Plan,
+    plan: SamplingPlan,
     *,
     rng: np.random.Generator,
     jobs: int = 1,
-) -> Sampled:
+) -> SampledCase:
     """Return the posterior of a case, its model with the terms, from all of its recordings; nothing is written."""
     fits = best_fits(prepared, terms, rng, jobs)
-    return Sampled(identify(task_for(prepared, fits, terms), rng=rng, plan=plan), tuple(fits))
+    return SampledCase(identify(task_for(prepared, fits, terms), rng=rng, plan=plan), tuple(fits))
 
 
 def task_for(prepared: Prepared, fits: Sequence[Fit], terms: tuple[Term, ...]) -> Task:

@@ -87,13 +87,13 @@ def command(ctx: click.Context, /, case: Path, out: Path, drives: tuple[str, ...
     interrupted, at any moment, or enlarges it by more --machines; the bytes depend neither on that nor on --jobs. Exit
     status 0 when the campaign ended, passed or not; 2 for what cannot be used.
     """
-    from lostmotion.stages.identify import Plan
+    from lostmotion.stages.identify import SamplingPlan
     from lostmotion_trials.coverage.design import Design
     from lostmotion_trials.coverage.machines import Bench
     from lostmotion_trials.coverage.run import run_calibration
 
     bench = Bench(drives, given["duration"], given["rate"], given["noise"], given["excitation_noise"])
-    plan = Plan(ess=given["ess"], max_steps=given["max_steps"])
+    plan = SamplingPlan(ess=given["ess"], max_steps=given["max_steps"])
     plugins = tuple(str(Path(file).absolute()) for file in ctx.find_root().params.get("plugin") or ())
     maps = tuple(path.absolute() for path in given["maps"])
     chosen = {key: given[key] for key in ("hide", "terms", "route", "seed")}

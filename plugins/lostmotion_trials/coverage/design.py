@@ -17,7 +17,7 @@ from lostmotion.inference.setup import known_of
 from lostmotion.likelihood.system import Slot, System, key_of
 from lostmotion.provenance import digest
 from lostmotion.registry import Registry
-from lostmotion.stages.identify import Plan
+from lostmotion.stages.identify import SamplingPlan
 from lostmotion.workflow.simulate import assembly_of
 from lostmotion_trials.coverage.machines import Bench, Seen, moved_by, recorded
 
@@ -40,7 +40,7 @@ class Design:
     hide: tuple[str, ...] = ()
     terms: tuple[str, ...] = ()
     route: str = "trajectory"
-    plan: Plan = field(default_factory=lambda: Plan(ess=300.0))
+    plan: SamplingPlan = field(default_factory=lambda: SamplingPlan(ess=300.0))
     seed: int = 0
     plugins: tuple[str, ...] = ()
     maps: tuple[Path, ...] = ()

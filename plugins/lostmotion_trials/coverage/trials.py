@@ -18,7 +18,7 @@ from lostmotion.case.levels import Level
 from lostmotion.contracts import Array
 from lostmotion.errors import CaseError, LostMotionError, PlaceError
 from lostmotion.quantities import ANGULAR, SI, unit_of
-from lostmotion.stages.identify import Identification, identify
+from lostmotion.stages.identify import SampledPosterior, identify
 from lostmotion.storage import save_table
 from lostmotion.workflow.drives import Options, pairs
 from lostmotion.workflow.levels import Survey, inversion_of, quantifier_task
@@ -52,7 +52,7 @@ def trial(design: Design, number: int) -> dict[str, Any]:
     return {"machine": number, "status": "ok", "says": "", "parameters": rows, **reached}
 
 
-def _judged(result: Identification, truth: Mapping[str, float], drawn: frozenset[str]) -> dict[str, dict[str, Any]]:
+def _judged(result: SampledPosterior, truth: Mapping[str, float], drawn: frozenset[str]) -> dict[str, dict[str, Any]]:
     """Return for each parameter whose truth is known where that lies among the draws."""
     if lost := drawn - set(result.keys):
         raise ValueError(f"the posterior has no parameter {sorted(lost)[0]}, which was drawn")
@@ -79,13 +79,13 @@ def _place(truth: float, chain: Array) -> dict[str, float | int]:
     }
 
 
-Route = Callable[[Workshop, Machine, np.random.Generator, int], tuple[Identification, dict[str, float]]]
+Route = Callable[[Workshop, Machine, np.random.Generator, int], tuple[SampledPosterior, dict[str, float]]]
 """Makes the posterior of a machine from a generator for its motion and a seed for the fit; and further truths."""
 
 
 def by_trajectory(
     shop: Workshop, machine: Machine, rng: np.random.Generator, seed: int
-) -> tuple[Identification, dict[str, float]]:
+) -> tuple[SampledPosterior, dict[str, float]]:
     """Return the posterior from the recordings themselves, and the true measurement noise of each."""
     seen = shop.record(machine, rng)
     with tempfile.TemporaryDirectory() as folder:
@@ -99,7 +99,7 @@ def by_trajectory(
 
 def by_quantifiers(
     shop: Workshop, machine: Machine, rng: np.random.Generator, seed: int
-) -> tuple[Identification, dict[str, float]]:
+) -> tuple[SampledPosterior, dict[str, float]]:
     """Return the posterior from what the recordings are read as, one level of the drive each."""
     seen, design = shop.record(machine, rng), shop.design
     fit = np.random.default_rng(seed)

@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from lostmotion.codec import told
+
 Array = NDArray[np.float64]
 
 
@@ -26,10 +28,11 @@ def percent(share: float) -> str:
 class Interval:
     """Median and central 95 % interval of a number, with its unit."""
 
-    median: float
-    low: float
-    high: float
-    unit: str
+    median: float = told("median")
+    low: float = told("lower end of the central 95 % interval; null where it is withheld")
+    high: float = told("upper end of it; null where it is withheld")
+    unit: str = told("unit of the three")
+    withheld: str | None = told("why the interval is withheld, in a sentence", default=None)
 
     def __contains__(self, value: float) -> bool:
         return self.low <= value <= self.high
