@@ -21,6 +21,7 @@ from pathlib import Path
 import numpy as np
 
 from lostmotion.case import dump_case
+from lostmotion.codec import to_plain
 from lostmotion.errors import LostMotionError
 from lostmotion.registry import default
 from lostmotion.storage import save_table
@@ -29,6 +30,7 @@ from lostmotion_trials.blind.bound import alike, spelled, yardstick
 from lostmotion_trials.blind.hiding import hidden_in
 from lostmotion_trials.blind.mechanisms import NOISY, TABLE, Effect
 from lostmotion_trials.blind.pilot import Pilot
+from lostmotion_trials.blind.sealed import SealedMachine
 from lostmotion_trials.blind.simulator import USUAL, Meddling, Rig, Signal, drawn_log, moved, sized, wide_prior
 from lostmotion_trials.integrators.hidden import Hidden
 
@@ -122,21 +124,19 @@ def concealed(task, folder):
         "response": {"column": "shown", "quantity": channel, "unit": units[1]},
     }
     known = {n: v for n, v in rig.values.items() if n not in rig.estimated}
-    model = {"name": rig.model, "known": known, "estimate": dict(rig.priors)}
+    model = {"name": rig.model, "known": known, "estimate": to_plain(rig.priors)}
     dump_case(
         {"title": f"{name} {channel} {kind} {seed}", "recordings": [recording], "model": model}, folder / "case.toml"
     )
     return effects, rig, noise
 
 
-def reached(folder, row, noise):
+def reached(folder, effects, rig, noise):
     """Return what the true term gains in log-likelihood on the fitted data, by our own likelihood, begun there."""
-    told = {"mechanism": row["truth"][0]["name"], "at": row["truth"][0]["at"]}
-    parameters = {k: v for k, v in row["truth"][0].items() if k not in ("name", "at")}
-    machine = {**row["machine"], "measurement_noise": noise}
-    truth = {"machine": machine, "effects": [{**told, "parameters": parameters}]}
+    machine = SealedMachine(**vars(rig), measurement_noise=noise)
     try:
-        return yardstick(prepare(folder / "case.toml", default()), truth, None).gains[0]
+        gain = yardstick(prepare(folder / "case.toml", default()), machine, effects, None).gains[0]
+        return None if math.isnan(gain) else gain
     except (LostMotionError, ValueError, ArithmeticError) as err:
         return f"not reached: {err}"
 
@@ -171,7 +171,7 @@ def work(task):
         row["ranking"] = told["ranking"][:6]
         row["nrmse"] = [told["fit"][k]["heldout_nrmse"] for k in ("before", "after")]
         if effects:
-            row["reached"] = reached(folder, row, noise)
+            row["reached"] = reached(folder, effects, rig, noise)
     return row
 
 
@@ -208,7 +208,8 @@ def covered(row):
     if not row["truth"]:
         return []
     truth = {k: v for k, v in row["truth"][0].items() if k not in ("name", "at")}
-    known = spelled(truth, row["machine"]) if row.get("machine") else truth
+    machine = row.get("machine")
+    known = spelled(truth, machine["values"], Signal(machine["signal"]["tones"])) if machine else truth
     entry = next((f for f in row["found"] if f["mechanism"] == row["name"]), None)
     told = entry["parameters"] if entry else {}
     return [i["low"] <= known[k] <= i["high"] for k, i in told.items() if k in known and i["low"] is not None]

@@ -35,7 +35,6 @@ from typing import Any
 import numpy as np
 from scipy.stats import beta
 
-from lostmotion.case import dump_case
 from lostmotion.errors import DataError
 from lostmotion.inference.candidates import screen, slopes_of
 from lostmotion.inference.odds import Ratio, likely, log_odds
@@ -45,12 +44,12 @@ from lostmotion.likelihood.system import System, key_of
 from lostmotion.registry import default
 from lostmotion.settings import DEFAULT
 from lostmotion.stages.diagnose import locate, plays_of
-from lostmotion.storage import save_table
 from lostmotion.workflow.prepare import Prepared, prepare
 from lostmotion_trials.blind.commitment import RUNAWAY, TOUCHES
 from lostmotion_trials.blind.hiding import hidden_in
 from lostmotion_trials.blind.mechanisms import LARGEST, TABLE, UNKNOWN, Effect, Pilot
 from lostmotion_trials.blind.simulator import USUAL, Meddling, Rig, draw_rig, moved
+from lostmotion_trials.blind.writing import write_case
 from lostmotion_trials.integrators.hidden import Hidden
 
 GAIN = (50.0, 500.0)
@@ -133,20 +132,8 @@ def recorded(rig: Rig, truth: np.ndarray, noise: str, rng: np.random.Generator) 
 
 def prepared(rig: Rig, excitation: np.ndarray, response: np.ndarray) -> Prepared:
     """Return a machine as a diagnosis reads it: from a case file and a table."""
-    quantity, units = ("base_position", ("rad", "rad")) if rig.based else ("force", ("N", "m"))
-    recording = {
-        "file": "recording.csv",
-        "time": "time",
-        "excitation": {"column": "excitation", "quantity": quantity, "unit": units[0]},
-        "response": {"column": "response", "quantity": "position", "unit": units[1]},
-    }
-    known = {name: value for name, value in rig.values.items() if name not in rig.estimated}
-    model = {"name": rig.model, "known": known, "estimate": dict(rig.priors)}
-    with tempfile.TemporaryDirectory() as name:
-        folder = Path(name)
-        save_table(folder / "recording.csv", {"time": rig.time, "excitation": excitation, "response": response}, {}, {})
-        dump_case({"title": "study", "recordings": [recording], "model": model}, folder / "case.toml")
-        return prepare(folder / "case.toml", default())
+    with tempfile.TemporaryDirectory() as folder:
+        return prepare(write_case(rig, (excitation, response), Path(folder), title="study", stated={}), default())
 
 
 def one(kind: str, seed: int, number: int) -> Row:

@@ -23,12 +23,13 @@ T = TypeVar("T")
 WORDS: Mapping[Any, str] = {float: "number", int: "whole number", str: "text", bool: "true or false"}
 
 
-def told(doc: str, *, unit: str = "", key: str = "", default: Any = dataclasses.MISSING) -> Any:
+def told(doc: str, *, unit: str = "", key: str = "", flat: bool = False, default: Any = dataclasses.MISSING) -> Any:
     """Return a field of a result: what it means, for the schema; its unit; its `key` in a file where that differs.
 
-    A `default` that is a mapping stands for an empty one of its own in each result.
+    The keys of a `flat` field, a result itself, stand in the file among those of its owner; it may be None, where none
+    of them is there. A `default` that is a mapping stands for an empty one of its own in each result.
     """
-    metadata = {"doc": doc, "unit": unit, "key": key}
+    metadata = {"doc": doc, "unit": unit, "key": key, "flat": flat}
     if isinstance(default, dict):
         return dataclasses.field(default_factory=dict, metadata=metadata)
     return dataclasses.field(default=default, metadata=metadata)
@@ -65,8 +66,11 @@ def schema(kind: type) -> Iterator[Entry]:
 def _entries(kind: Any, before: str) -> Iterator[Entry]:
     hints = get_type_hints(kind)
     for f in dataclasses.fields(kind):
-        path = before + (f.metadata.get("key") or f.name)
+        path = before + _key(f)
         core, ending, words = _read(hints[f.name])
+        if f.metadata.get("flat"):
+            yield from _entries(core, before)
+            continue
         yield Entry(path + ending, words, f.metadata.get("unit", ""), f.metadata.get("doc", ""))
         if dataclasses.is_dataclass(core):
             yield from _entries(core, f"{path}{ending}.")
@@ -95,6 +99,7 @@ def _converter() -> Converter:
     made.register_structure_hook(float, lambda x, _: _number(x))
     made.register_structure_hook(int, lambda x, _: _whole(x))
     made.register_structure_hook(bool, lambda x, _: _wanted(x, bool, "true or false"))
+    made.register_structure_hook_func(lambda kind: kind is object, lambda x, _: x)
     made.register_structure_hook(str, lambda x, _: _wanted(x, str, "a text"))
     made.register_unstructure_hook_func(lambda kind: kind is np.ndarray, lambda x: made.unstructure(x.tolist()))
     made.register_unstructure_hook_func(_is_scalar, lambda x: made.unstructure(x.item()))
@@ -109,12 +114,41 @@ def _is_scalar(kind: Any) -> bool:
 
 def _writer(kind: type, converter: Converter) -> Any:
     how = {f.name: override(rename=f.metadata.get("key") or None, omit_if_default=f.default is None) for f in _of(kind)}
-    return make_dict_unstructure_fn(kind, converter, _cattrs_use_linecache=False, **how)  # type: ignore[arg-type]
+    write: Any = make_dict_unstructure_fn(kind, converter, _cattrs_use_linecache=False, **how)  # type: ignore[arg-type]
+    flat = {_key(f) for f in _flat(kind)}
+
+    def written(result: Any) -> dict[str, Any]:
+        plain: dict[str, Any] = {}
+        for key, value in write(result).items():
+            plain.update(value if key in flat else {key: value})
+        return plain
+
+    return written if flat else write
 
 
 def _reader(kind: type, converter: Converter) -> Any:
     how = {f.name: override(rename=f.metadata.get("key") or None) for f in _of(kind)}
-    return make_dict_structure_fn(kind, converter, _cattrs_use_linecache=False, **how)  # type: ignore[arg-type]
+    read: Any = make_dict_structure_fn(kind, converter, _cattrs_use_linecache=False, **how)  # type: ignore[arg-type]
+    hints = get_type_hints(kind)
+    flat = {_key(f): (f.default is None, _keys(_read(hints[f.name])[0])) for f in _flat(kind)}
+
+    def structured(plain: Any, wanted: Any) -> Any:
+        inner = {key: None if optional and not keys & set(plain) else plain for key, (optional, keys) in flat.items()}
+        return read({**plain, **inner}, wanted)
+
+    return structured if flat else read
+
+
+def _flat(kind: Any) -> list[dataclasses.Field[Any]]:
+    return [f for f in _of(kind) if f.metadata.get("flat")]
+
+
+def _keys(kind: Any) -> set[str]:
+    return {_key(f) for f in _of(kind)}
+
+
+def _key(f: dataclasses.Field[Any]) -> str:
+    return str(f.metadata.get("key") or f.name)
 
 
 def _of(kind: Any) -> tuple[dataclasses.Field[Any], ...]:

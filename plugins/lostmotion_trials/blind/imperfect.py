@@ -9,11 +9,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
 
+from lostmotion.codec import told
 from lostmotion.contracts import Array
 from lostmotion.settings import DEFAULT
 from lostmotion_trials.blind.mechanisms import NOISY, TABLE, UNKNOWN, Effect, Pilot
@@ -50,35 +51,31 @@ Curve = tuple[tuple[float, float], ...]
 
 @dataclass(frozen=True)
 class Blemish:
-    """A small smooth force: the rms (N) of it, what it runs `over`, and the waves of its random function."""
+    """A small smooth force."""
 
-    over: str
-    rms: float
-    waves: Curve
+    over: str = told("what it runs over: position, velocity, phase or time")
+    rms: float = told("its root mean square", unit="N")
+    waves: Curve = told("cosine and sine of each wave of its random function")
 
 
 @dataclass(frozen=True)
 class World:
-    """The flaws of one rig.
+    """The flaws of one rig; of the noise all sizes are in deviations of it."""
 
-    `friction` is the random curve of the level of friction over the speed, `stated` what the case says of each known
-    value over the truth, `bend` the share of its largest reading by which the sensor is bent there (even, odd). Of the
-    noise `slow` is the share with a `memory` per sample, `hum` the amplitude at `hum_pace` (rad/s), `step` the
-    quantisation, all in deviations of the noise.
-    """
-
-    kind: str
-    smooth: tuple[Blemish, ...]
-    friction: Curve
-    flaws: Mapping[str, float]
-    stated: Mapping[str, float]
-    bend: tuple[float, float]
-    slow: float
-    memory: float
-    hum: float
-    hum_pace: float
-    step: float
-    curves: Mapping[str, list[float]] = field(default_factory=dict)
+    kind: str = told("kind of the drive")
+    smooth: tuple[Blemish, ...] = told("small smooth forces")
+    friction: Curve = told("waves of the random curve of the level of friction over the speed")
+    flaws: Mapping[str, float] = told("scales of the motion, the foot that gives way and the far mode, in SI units")
+    stated: Mapping[str, float] = told("what the case says of each known value, over the truth")
+    bend: tuple[float, float] = told("even and odd bend of the sensor at its largest reading, as a share of that")
+    slow: float = told("share of the noise that has a memory")
+    memory: float = told("memory of that noise per sample")
+    hum: float = told("amplitude of the hum")
+    hum_pace: float = told("angular frequency of the hum", unit="rad/s")
+    step: float = told("quantisation of the readings")
+    curves: Mapping[str, tuple[float, ...]] = told(
+        "tables that the integrator reads, by what they run over", default={}
+    )
 
 
 def draw_machine(kind: str, rng: np.random.Generator, most: int) -> Rig:
@@ -184,7 +181,7 @@ def _function(waves: Curve, angle: Array) -> Array:
     return np.asarray(sum(rows), dtype=float)
 
 
-def _tables(world: World, pilot: Pilot, rng: np.random.Generator) -> dict[str, list[float]]:
+def _tables(world: World, pilot: Pilot, rng: np.random.Generator) -> dict[str, tuple[float, ...]]:
     """Return the curves (CELLS + 1,) over position, velocity and speed that the integrator reads."""
     z = np.linspace(-REACH, REACH, CELLS + 1)
     shape = _function(world.friction, 0.5 * math.pi * np.abs(z))
@@ -197,7 +194,7 @@ def _tables(world: World, pilot: Pilot, rng: np.random.Generator) -> dict[str, l
             seen = moved[blemish.over] / world.flaws[blemish.over]
             tables[blemish.over] += _scaled(raw, z, seen, blemish.rms)
     friction = np.exp(level * shape / max(float(np.std(shape)), 1e-12))
-    return {"friction": friction.tolist(), **{k: v.tolist() for k, v in tables.items()}}
+    return {name: tuple(table.tolist()) for name, table in {"friction": friction, **tables}.items()}
 
 
 def _scaled(raw: Array, z: Array, seen: Array, rms: float) -> Array:

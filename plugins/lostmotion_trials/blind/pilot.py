@@ -13,21 +13,19 @@ from functools import cached_property
 
 import numpy as np
 
+from lostmotion.codec import told
 from lostmotion.contracts import Array
 from lostmotion_trials.blind.simulator import USUAL, Rig
 
 
 @dataclass(frozen=True)
 class Effect:
-    """One hidden mechanism: its name in a diagnosis, place ("" where any will do) and parameters in SI units.
+    """One hidden mechanism; `what` tells those apart that no library has, and which a diagnosis should call unknown."""
 
-    `what` tells mechanisms apart that no library has, and which a diagnosis should call "unknown".
-    """
-
-    mechanism: str
-    at: str
-    parameters: Mapping[str, float]
-    what: str = ""
+    mechanism: str = told("its name in a diagnosis")
+    at: str = told("the place at which it acts; empty where any will do")
+    parameters: Mapping[str, float] = told("its parameters, in SI units")
+    what: str = told("what it is, where no library has it", default="")
 
 
 @dataclass(frozen=True)

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
-from typing import Any
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.interpolate import CubicSpline
 from scipy.signal import lfilter
 
+from lostmotion.codec import told
 from lostmotion.contracts import Array
 from lostmotion.errors import DataError
 from lostmotion_trials.integrators.hidden import Body, Hidden, move
@@ -36,17 +36,13 @@ LAG_STEPS = 20
 
 @dataclass(frozen=True)
 class Signal:
-    """A drive of `tones` (amplitude, angular frequency in rad/s, phase), the first the strongest.
+    """A drive: tones, the first the strongest, that may rise in frequency; steps that stay; hits of one hump each."""
 
-    With `sweep` (rad/s^2) its frequency rises from the beginning of the recording on. `steps` and `hits` have (time in
-    s, size, length in s) each: a step stays, a hit is one hump. Without tones `pace` (rad/s) says what is slow or fast.
-    """
-
-    tones: tuple[tuple[float, float, float], ...]
-    sweep: float = 0.0
-    steps: tuple[tuple[float, float, float], ...] = ()
-    hits: tuple[tuple[float, float, float], ...] = ()
-    pace: float = 0.0
+    tones: tuple[tuple[float, float, float], ...] = told("amplitude, angular frequency (rad/s) and phase of each tone")
+    sweep: float = told("rise of the frequency from the beginning of the recording on", unit="rad/s^2", default=0.0)
+    steps: tuple[tuple[float, float, float], ...] = told("time (s), size and length (s) of each step", default=())
+    hits: tuple[tuple[float, float, float], ...] = told("time (s), size and length (s) of each hit", default=())
+    pace: float = told("angular frequency that says what is slow or fast without tones", unit="rad/s", default=0.0)
 
     @property
     def omega(self) -> float:
@@ -148,21 +144,27 @@ def _behind(seen: Array, rate: float, time: float) -> Array:
 
 
 @dataclass(frozen=True)
+class WidePrior:
+    """A wide prior over the logarithm of a parameter."""
+
+    low: float = told("lower end of its range, in SI units")
+    high: float = told("upper end of its range, in SI units")
+    scale: str = told("`log`: its logarithm is uniform", default="log")
+
+
+@dataclass(frozen=True)
 class Rig:
-    """A machine, its drive and how it is recorded: `rate` in Hz, `noise` over the deviation of its own motion.
+    """A machine, its drive and how it is recorded."""
 
-    `known` and `priors` are what the case will say of the parameters; `values` are the true ones, in SI units.
-    """
-
-    model: str
-    values: Mapping[str, float]
-    estimated: tuple[str, ...]
-    signal: Signal
-    rate: float
-    samples: int
-    noise: float
-    priors: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
-    channel: str = "position"
+    model: str = told("model of the machine")
+    values: Mapping[str, float] = told("true parameters, in SI units")
+    estimated: tuple[str, ...] = told("parameters that the case estimates")
+    signal: Signal = told("what drives it")
+    rate: float = told("samples in a second", unit="Hz")
+    samples: int = told("samples of the recording")
+    noise: float = told("measurement noise over the deviation of its own motion")
+    priors: Mapping[str, WidePrior] = told("what the case says of the parameters that it estimates", default={})
+    channel: str = told("what the sensor shows: position, velocity or acceleration", default="position")
 
     @property
     def body(self) -> Body:
@@ -313,10 +315,10 @@ def _signal(amplitude: float, omega: float, rng: np.random.Generator, *, single:
     return Signal(tuple(tones))
 
 
-def wide_prior(value: float, rng: np.random.Generator) -> dict[str, Any]:
+def wide_prior(value: float, rng: np.random.Generator) -> WidePrior:
     """Return a wide prior that holds a value, anywhere but near its ends."""
     below, above = 10.0 ** rng.uniform(0.4, 1.2, 2)
-    return {"low": _figures(value / below), "high": _figures(value * above), "scale": "log"}
+    return WidePrior(_figures(value / below), _figures(value * above))
 
 
 def _figures(value: float) -> float:

@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from lostmotion.cli import PluginName, examples
 from lostmotion.cli.options import on_a_case
 from lostmotion.cli.progress import counted
+
+if TYPE_CHECKING:
+    from lostmotion_trials.coverage.results import ParameterCheck
 
 
 @click.command(
@@ -101,20 +105,19 @@ def command(ctx: click.Context, /, case: Path, out: Path, drives: tuple[str, ...
     with counted("calibrate", given["machines"], "machines", quiet=given["quiet"]) as say:
         options = {key: given[key] for key in ("machines", "jobs", "fresh")}
         content = run_calibration(design, out, say=say, **options)
-    for line in (*_table(content), *content["says"]):
+    for line in (*_table(content.summary.parameters), *content.summary.says):
         click.echo(line)
     click.echo(str(out / "report.html"))
 
 
-def _table(content: Mapping[str, Any]) -> list[str]:
+def _table(rows: Mapping[str, ParameterCheck]) -> list[str]:
     """Return one line for each parameter: the tests of its ranks, and how many truths its intervals hold."""
-    rows = content["parameters"]
     width = max(map(len, rows), default=0)
     return [f"{name:<{width}}  {_line(row)}" for name, row in rows.items()]
 
 
-def _line(row: Mapping[str, Any]) -> str:
-    covered = ", ".join(f"{share} % {one['inside']}/{one['of']}" for share, one in row["coverage"].items())
-    chi2 = "" if row["chi2_p"] is None else f"chi2 p {row['chi2_p']:.3f}, "
-    tested = f"{chi2}ecdf p {row['ecdf_p']:.3f}" if row["drawn"] else "not drawn"
-    return f"{tested}  inside {covered}  rms z {row['rms_z']:.2f}"
+def _line(row: ParameterCheck) -> str:
+    covered = ", ".join(f"{share} % {one.inside}/{one.of}" for share, one in row.coverage.items())
+    chi2 = "" if math.isnan(row.chi2_p) else f"chi2 p {row.chi2_p:.3f}, "
+    tested = f"{chi2}ecdf p {row.ecdf_p:.3f}" if row.drawn else "not drawn"
+    return f"{tested}  inside {covered}  rms z {row.rms_z:.2f}"
