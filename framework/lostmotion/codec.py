@@ -115,15 +115,17 @@ def _is_scalar(kind: Any) -> bool:
 def _writer(kind: type, converter: Converter) -> Any:
     how = {f.name: override(rename=f.metadata.get("key") or None, omit_if_default=f.default is None) for f in _of(kind)}
     write: Any = make_dict_unstructure_fn(kind, converter, _cattrs_use_linecache=False, **how)  # type: ignore[arg-type]
-    flat = {_key(f) for f in _flat(kind)}
+    fields = [(_key(f), bool(f.metadata.get("flat"))) for f in _of(kind)]
 
     def written(result: Any) -> dict[str, Any]:
+        found = write(result)  # cattrs puts what may be left out behind all else
         plain: dict[str, Any] = {}
-        for key, value in write(result).items():
-            plain.update(value if key in flat else {key: value})
+        for key, flat in fields:
+            if key in found:
+                plain.update(found[key] if flat else {key: found[key]})
         return plain
 
-    return written if flat else write
+    return written if any(f.default is None or f.metadata.get("flat") for f in _of(kind)) else write
 
 
 def _reader(kind: type, converter: Converter) -> Any:

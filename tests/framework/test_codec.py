@@ -21,6 +21,7 @@ class Part:
     size: float = told("how large it is", unit="m")
     numbers: Mapping[str, Interval] = told("its numbers", default={})
     late: Interval | None = told("since when", default=None)
+    last: str = told("what comes behind", default="")
 
 
 @dataclass(frozen=True)
@@ -45,6 +46,13 @@ def test_none_is_left_out_and_what_is_not_finite_is_null():
     assert plain["size"] is None
     assert plain["numbers"]["k"] == {"median": 1.0, "low": None, "high": 2.0, "unit": "N"}
     assert "late" not in plain
+    assert list(to_plain(Part("a", 1.0, late=Interval(1.0, 0.5, 2.0, "s")))) == [
+        "name",
+        "size",
+        "numbers",
+        "late",
+        "last",
+    ]
     assert math.isnan(from_plain(Part, plain).size)
 
 

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from lostmotion.cli import PluginName, examples
-from lostmotion.cli.options import on_a_case
+from lostmotion.cli import examples
+from lostmotion.cli.options import on_a_case, with_maps, with_terms
 from lostmotion.cli.progress import counted
 
 if TYPE_CHECKING:
@@ -52,14 +52,7 @@ if TYPE_CHECKING:
     multiple=True,
     help="Physics that acts in every machine, whether it is fitted or not.",
 )
-@click.option(
-    "--term",
-    "terms",
-    metavar="NAME[@PLACE]",
-    type=PluginName("term"),
-    multiple=True,
-    help="A term to add to the model that is fitted.",
-)
+@with_terms
 @click.option(
     "--route",
     type=click.Choice(["trajectory", "quantifiers"]),
@@ -67,14 +60,7 @@ if TYPE_CHECKING:
     show_default=True,
     help="To the posterior.",
 )
-@click.option(
-    "--map",
-    "maps",
-    metavar="FILE.nc|FILE.zarr",
-    multiple=True,
-    type=click.Path(path_type=Path),
-    help="A map for the route by quantifiers, of `lostmotion map`; made in DIR if not given.",
-)
+@with_maps
 @click.option("--machines", default=200, show_default=True, type=click.IntRange(1), help="How many machines to draw.")
 @click.option("--ess", default=300.0, show_default=True, type=click.FloatRange(100), help="Effective draws of each.")
 @click.option("--max-steps", default=2000, show_default=True, type=click.IntRange(10), help="Steps at the most.")

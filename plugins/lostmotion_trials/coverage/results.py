@@ -85,8 +85,8 @@ class BarBand:
 
     bins: int = told("number of bars")
     expected: float = told("ranks expected in each bar")
-    low: float = told("fewest ranks in a bar")
-    high: float = told("most ranks in a bar")
+    low: int = told("fewest ranks in a bar")
+    high: int = told("most ranks in a bar")
 
 
 @dataclass(frozen=True)

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from numpy.typing import NDArray
 
 from lostmotion.contracts import Array
 from lostmotion_trials.paper.cases import CASES, Case
+from lostmotion_trials.paper.drawings import Basin, BasinsDrawing, Visits, VisitsDrawing
 from lostmotion_trials.paper.lab import LONGEST, Lab, period_of
 from lostmotion_trials.paper.outcome import Outcome, listed
 
@@ -55,7 +54,7 @@ def _merged(kinds: Array) -> NDArray[np.int64]:
 def basins(lab: Lab) -> Outcome:
     """Return the basins of Case 2 and Case 3."""
     cells, periods = lab.pick((241, 240), (61, 120))
-    data: dict[str, Any] = {}
+    found: list[Basin] = []
     numbers: dict[str, float] = {}
     words: list[str] = []
     for k, (wide, high) in ((2, (8.0, 8.0)), (3, (8.0, 8.0))):
@@ -63,12 +62,12 @@ def basins(lab: Lab) -> Outcome:
         index, back = landed(lab, CASES[k], places, max(periods, 3 * LONGEST))
         shares = [float(np.mean(index == j)) for j in range(len(back))]
         labels = [_label(p, s) for p, s in zip(back, shares, strict=True)]
-        data[f"case{k}"] = {"across": places[0], "up": places[1], "index": index, "labels": labels}
+        found.append(Basin(*places, index, labels))
         numbers[f"case{k}_attractors"] = float(len(back))
         numbers[f"case{k}_chaos"] = sum(s for p, s in zip(back, shares, strict=True) if not p)
         words.append(f"Case {k} ends on {listed(labels)}")
     says = f"{'; '.join(words)}. An exponent is not a function of the parameters alone."
-    return Outcome("beyond the paper", says, numbers, data)
+    return Outcome("beyond the paper", says, numbers, BasinsDrawing(tuple(found)))
 
 
 def _label(period: int, share: float) -> str:
@@ -78,11 +77,11 @@ def _label(period: int, share: float) -> str:
 def section(lab: Lab) -> Outcome:
     """Return Poincare sections of Cases 1 and 3 as counts on a fine grid."""
     points, cells = lab.pick((4_000_000, 900), (200_000, 300))
-    data: dict[str, Any] = {}
+    found: list[Visits] = []
     numbers: dict[str, float] = {}
     for k in (1, 3):
         counts, edges = _counted(lab, CASES[k], points, cells)
-        data[f"case{k}"] = {"counts": counts, "x": edges[0], "v": edges[1], "points": points}
+        found.append(Visits(counts, *edges, points))
         visited = np.sort(counts[counts > 0])[::-1]
         numbers[f"case{k}_densest"] = float(visited[: max(len(visited) // 100, 1)].sum() / visited.sum())
     says = (
@@ -90,7 +89,7 @@ def section(lab: Lab) -> Outcome:
         f"{100 * numbers['case1_densest']:.0f} % of the visits in Case 1 and {100 * numbers['case3_densest']:.0f} % in "
         "Case 3, which a plot of single points hides."
     )
-    return Outcome("beyond the paper", says, numbers, data)
+    return Outcome("beyond the paper", says, numbers, VisitsDrawing(tuple(found)))
 
 
 def _counted(lab: Lab, case: Case, points: int, cells: int) -> tuple[Array, tuple[Array, Array]]:

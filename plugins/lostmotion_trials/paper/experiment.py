@@ -13,6 +13,14 @@ from lostmotion.results import Estimate
 from lostmotion.signals import spectrum, without_harmonics
 from lostmotion.stages.quantify import quantify
 from lostmotion_trials.paper.chain import Slopes, cleaned, first_minimum, size, slopes, unfolded
+from lostmotion_trials.paper.drawings import (
+    CaoDrawing,
+    CleanedCaoDrawing,
+    DelayDrawing,
+    InformationDrawing,
+    JointDrawing,
+    SlopesDrawing,
+)
 from lostmotion_trials.paper.joint import DAMPING, HALF, LEVELS, PAPER, RATIO, SUSPECT, Recording, motions, recording
 from lostmotion_trials.paper.lab import Lab
 from lostmotion_trials.paper.outcome import Outcome, Rows, judged
@@ -40,8 +48,7 @@ def fig17(lab: Lab) -> Outcome:
         f"At 2.68 degrees {100 * share:.0f} % of the output (rms) is left when the drive and its harmonics are "
         f"removed, against {100 * floor:.1f} % of encoder noise: it is aperiodic, as the paper shows, {STAND_IN}."
     )
-    data = {"time": made.time, "base": made.base, "link": made.link, "left": left, "frequency": whole.frequency,
-            "density": whole.density, "rest": rest.density}  # fmt: skip
+    data = JointDrawing(made.time, made.base, made.link, left, whole.frequency, whole.density, rest.density)
     numbers = {"aperiodic_share": share, "noise_share": floor, "removed_share": size(removed) / size(x)}
     return Outcome(judged(share > 3.0 * floor), says, numbers, data)
 
@@ -55,7 +62,7 @@ def fig18(lab: Lab) -> Outcome:
         f"{STAND_IN}."
     )
     curves = made.series.embedding.curves
-    data = {"lag": curves["lag"], "ami": curves["ami"], "first": lag}
+    data = InformationDrawing(curves["lag"], curves["ami"], lag)
     return Outcome(judged(abs(lag - 0.174) < 0.03), says, {"lag_s": lag}, data)
 
 
@@ -63,7 +70,7 @@ def fig19(lab: Lab) -> Outcome:
     """Return Cao's numbers at 2.68 degrees."""
     embedding = recording(lab, FIRST).series.embedding
     says = f"E1 levels off at dimension {embedding.dim} (paper: 5), {STAND_IN}."
-    data = {"dim": embedding.curves["dim"], "e1": embedding.curves["e1"], "e2": embedding.curves["e2"]}
+    data = CaoDrawing(embedding.curves["dim"], embedding.curves["e1"], embedding.curves["e2"])
     return Outcome(judged(abs(embedding.dim - 5) <= 1), says, {"dim": float(embedding.dim)}, data)
 
 
@@ -80,8 +87,9 @@ def fig20(lab: Lab) -> Outcome:
     )
     titles = [f"{m.level:.2f}°: {'chaotic' if c else f'period {f.periods[0]}'}"
               for m, c, f in zip(made, chaotic, found, strict=True)]  # fmt: skip
-    data = {"links": [m.link for m in made], "lags": [m.series.embedding.lag for m in made],
-            "seconds": [m.series.embedding.lag * m.series.dt for m in made], "titles": titles}  # fmt: skip
+    lags = [m.series.embedding.lag for m in made]
+    seconds = [lag * m.series.dt for lag, m in zip(lags, made, strict=True)]
+    data = DelayDrawing([m.link for m in made], lags, seconds, titles)
     numbers = {f"chaotic_share_{m.level:g}": float(f.chaotic.mean()) for m, f in zip(made, found, strict=True)}
     return Outcome(judged(*right), says, numbers, data)
 
@@ -104,7 +112,7 @@ def fig21(lab: Lab) -> Outcome:
     )
     numbers = {f"d2_{level:g}": v.value for level, v in zip(SUSPECT, values, strict=True)}
     numbers |= {f"apart_{level:g}": float(np.median(f.apart[2:])) for level, f in zip(SUSPECT, found, strict=True)}
-    data = {"slopes": [vars(f) for f in found], "titles": [f"{level:.2f}°" for level in SUSPECT], "draws": draws}
+    data = SlopesDrawing(found, [f"{level:.2f}°" for level in SUSPECT])
     return Outcome(judged(*differs, any(math.isfinite(v.value) for v in values)), says, numbers, data)
 
 
@@ -143,8 +151,9 @@ def fig22(lab: Lab) -> Outcome:
         f"At 3.41 degrees (so the text; the caption says 2.68) noise reduction takes the error from {before:.3f} to "
         f"{left:.3f} degrees, by a factor of {before / left:.1f}; here the truth is known, {STAND_IN}."
     )
-    data = {"before": made.series.x, "after": after.x, "lag": made.series.embedding.lag,
-            "seconds": made.series.embedding.lag * made.series.dt}  # fmt: skip
+    lag = made.series.embedding.lag
+    titles = ("as recorded", "behind noise reduction")
+    data = DelayDrawing((made.series.x, after.x), (lag, lag), (lag * made.series.dt,) * 2, titles)
     return Outcome(judged(left < 0.8 * before), says, {"error_before_deg": before, "error_after_deg": left}, data)
 
 
@@ -159,8 +168,7 @@ def fig23(lab: Lab) -> Outcome:
         f"dimensions 2 to 4 goes up by {rises:.2f}, {STAND_IN}."
     )
     numbers = {"dim_before": float(before.dim), "dim_after": float(after.dim), "e1_rise": rises}
-    data = {"dim": before.curves["dim"], "before": before.curves["e1"], "dim_after": after.curves["dim"],
-            "after": after.curves["e1"]}  # fmt: skip
+    data = CleanedCaoDrawing(*(curves[key] for curves in (before.curves, after.curves) for key in ("dim", "e1")))
     return Outcome(judged(after.dim <= before.dim, rises > 0.0, after.dim < before.dim), says, numbers, data)
 
 

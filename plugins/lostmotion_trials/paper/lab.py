@@ -63,7 +63,7 @@ class Lab:
     quick: bool = False
     seed: int = 0
     jobs: int = 2
-    kept: dict[str, Any] = field(default_factory=dict)
+    kept: dict[str, object] = field(default_factory=dict)
 
     def pick(self, full: T, quick: T) -> T:
         """Return the one or the other effort."""

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any, Literal
+from typing import Literal
+
+from lostmotion.codec import told
+from lostmotion_trials.paper.drawings import Drawing
 
 Verdict = Literal["reproduced", "reproduced in part", "not reproduced", "beyond the paper"]
 
@@ -28,8 +31,25 @@ class Outcome:
     verdict: Verdict
     says: str
     numbers: Mapping[str, float] = field(default_factory=dict)
-    data: Mapping[str, Any] = field(default_factory=dict)
+    data: Drawing | None = None
     table: Rows | None = None
+
+
+@dataclass(frozen=True)
+class ReproducedItem:
+    """What became of one figure or table."""
+
+    verdict: str = told("reproduced, reproduced in part, not reproduced, or beyond the paper")
+    says: str = told("what was found, against what the paper says")
+    numbers: Mapping[str, float] = told("key figures, by name")
+
+
+@dataclass(frozen=True)
+class Reproduction:
+    """What `reproduce.json` holds."""
+
+    items: Mapping[str, ReproducedItem] = told("figures and tables, by name")
+    provenance: Mapping[str, object] = told("versions, settings and seed that made it")
 
 
 def judged(*claims: bool) -> Verdict:

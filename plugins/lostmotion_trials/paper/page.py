@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -18,8 +18,9 @@ from lostmotion_trials.paper import draw_curves as paper_curves
 from lostmotion_trials.paper import draw_portraits as paper_portraits
 from lostmotion_trials.paper import draw_sweeps as paper_sweeps
 from lostmotion_trials.paper import style as paper_style
+from lostmotion_trials.paper.drawings import Drawing
 
-DRAWINGS: dict[str, Callable[[paper_style.Data], Figure]] = {
+DRAWINGS: Mapping[str, Callable[..., Figure]] = {
     **paper_portraits.FIGURES,
     **paper_sweeps.FIGURES,
     **paper_basins.FIGURES,
@@ -51,7 +52,7 @@ class Entry:
         return next((name for name in self.files if name.endswith(".png")), "")
 
 
-def drawn(name: str, data: paper_style.Data, folder: Path) -> tuple[str, ...]:
+def drawn(name: str, data: Drawing, folder: Path) -> tuple[str, ...]:
     """Return the names of the files into which the figure `name` was drawn."""
     with style.applied():
         return tuple(paper_style.files(DRAWINGS[name](data), folder, name))

@@ -9,6 +9,7 @@ import numpy as np
 
 from lostmotion.contracts import Array
 from lostmotion_trials.paper.cases import CASES, PRINTED, Case
+from lostmotion_trials.paper.drawings import ForceDrawing, PhaseDrawing, SectionsDrawing, UnfoldedDrawing
 from lostmotion_trials.paper.lab import Followed, Lab, Sampled
 from lostmotion_trials.paper.outcome import Outcome, Rows, Verdict, judged
 
@@ -62,7 +63,7 @@ def spelled(found: Followed) -> str:
 def fig3(lab: Lab) -> Outcome:
     """Return phase plots of Cases 1 and 2."""
     first, second = shared(lab, 1), shared(lab, 2)
-    data = {f"case{k}": portrait(lab, CASES[k], f, lab.pick(150, 60)) for k, f in ((1, first), (2, second))}
+    states = [portrait(lab, CASES[k], f, lab.pick(150, 60)) for k, f in ((1, first), (2, second))]
     holds = bool(first.chaotic.all()), bool(second.chaotic.any())
     bit = 1.0 / math.log(2.0)
     says = (
@@ -75,7 +76,7 @@ def fig3(lab: Lab) -> Outcome:
         "case2_chaotic_share": float(second.chaotic.mean()),
     }
     titles = (f"Case 1, A = 100 N: {kind(first)}", f"Case 2, A = 240 N: {kind(second)}")
-    return Outcome(judged(*holds), says, numbers, {**data, "titles": titles})
+    return Outcome(judged(*holds), says, numbers, PhaseDrawing(states, titles))
 
 
 def kind(found: Followed) -> str:
@@ -101,7 +102,7 @@ def fig4(lab: Lab) -> Outcome:
     numbers = {"chaotic_share": float(found.chaotic.mean()), "bit_per_s": float(found.bits[found.chaotic].mean())}
     numbers["periodic_bit_per_s"] = float(found.bits[calm].mean()) if calm.any() else math.nan
     numbers["printed_bit_per_s"] = float(printed.bits[printed.chaotic].mean()) if printed.chaotic.any() else math.nan
-    return Outcome(judged(bool(found.chaotic.any())), says, numbers, {"states": states, "lag": lag})
+    return Outcome(judged(bool(found.chaotic.any())), says, numbers, UnfoldedDrawing(states, lag))
 
 
 def fig5(lab: Lab) -> Outcome:
@@ -116,7 +117,7 @@ def fig5(lab: Lab) -> Outcome:
     off = float(np.abs(force - wanted).max())
     digits = "" if off == 0.0 else f" to {off:.1g}"
     says = f"The force of the model, read from its acceleration at rest, is that of eq. (3){digits}."
-    return Outcome(judged(off < 1e-12), says, {"largest_difference": off}, {"p": p, "force": force})
+    return Outcome(judged(off < 1e-12), says, {"largest_difference": off}, ForceDrawing(p, force))
 
 
 def four(lab: Lab) -> dict[float, Followed]:
@@ -134,7 +135,7 @@ def fig8(lab: Lab) -> Outcome:
     numbers = {f"chaotic_share_{x:g}": float(found[x].chaotic.mean()) for x in PLACES}
     numbers |= {f"bit_per_time_{x:g}": float(CASES[1].bit * found[x].exponents.mean()) for x in PLACES}
     numbers |= {f"highest_bit_per_time_{x:g}": float(CASES[1].bit * found[x].exponents.max()) for x in PLACES}
-    return Outcome(verdict, says, numbers, {"states": states, "titles": titles})
+    return Outcome(verdict, says, numbers, PhaseDrawing(states, titles))
 
 
 def _four_told(found: dict[float, Followed]) -> tuple[Verdict, str]:
@@ -165,7 +166,7 @@ def fig9(lab: Lab) -> Outcome:
     )
     titles = [f"1/alpha = {x:g}: {kind(found[x])}" for x in PLACES]
     numbers = {f"points_{x:g}": float(counts[x]) for x in PLACES}
-    data = {"points": points, "titles": titles, "transient": _transient(lab, CASES[1].at(alpha=1.0 / PLACES[-1]))}
+    data = SectionsDrawing(points, titles, _transient(lab, CASES[1].at(alpha=1.0 / PLACES[-1])))
     return Outcome(verdict, says, numbers, data)
 
 

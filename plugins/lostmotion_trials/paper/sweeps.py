@@ -9,6 +9,13 @@ from numpy.typing import NDArray
 
 from lostmotion.contracts import Array
 from lostmotion_trials.paper.cases import CASES
+from lostmotion_trials.paper.drawings import (
+    BranchesDrawing,
+    DiagramsDrawing,
+    LineDrawing,
+    PlaneDrawing,
+    SharedPlaneDrawing,
+)
 from lostmotion_trials.paper.lab import Lab
 from lostmotion_trials.paper.outcome import Outcome, judged, listed
 
@@ -110,7 +117,7 @@ def fig6(lab: Lab) -> Outcome:
     numbers = {"near_2_bit_per_time": near_two, "windows": float(len(found)), "share_mixed": mixed, **_inside(sweep)}
     numbers["highest_bit_per_time"] = float(np.nanmax(sweep.exponents))
     numbers["highest_near_4.1"] = near_four
-    data = {"inverse": sweep.inverse, "exponents": sweep.exponents, "share": sweep.share, "known": KNOWN}
+    data = LineDrawing(sweep.inverse, sweep.exponents, sweep.share, KNOWN)
     claims = judged(len(found) >= 3, abs(near_two - 0.06) < 0.015, near_four > 0.0)
     return Outcome(claims, says, numbers, data)
 
@@ -129,7 +136,7 @@ def fig7(lab: Lab) -> Outcome:
         + " At 0.005 part of what does not repeat is transient."
     )
     numbers = {f"share_{d:g}": float(s) for d, s in zip(DAMPINGS, shares, strict=True)}
-    data = {"inverse": inverse, "places": [s.places for s in sweeps], "dampings": DAMPINGS, "shares": shares}
+    data = DiagramsDrawing(inverse, [s.places for s in sweeps], DAMPINGS, shares)
     return Outcome(judged(bool(shares[-1] < 0.2 * shares.max()), bool(shares[3] > shares[-1])), says, numbers, data)
 
 
@@ -163,12 +170,7 @@ def fig10(lab: Lab) -> Outcome:
         "depends on the start: it is no function of 1/alpha and zeta alone, as an inversion would need."
     )
     numbers = {"share_low_damping": low, "share_high_damping": high, "share_mixed": mixed}
-    data = {
-        "inverse": found.inverse,
-        "zeta": 0.5 * found.dampings,
-        "exponent": found.exponents.max(axis=2),
-        "share": share,
-    }
+    data = SharedPlaneDrawing(found.inverse, 0.5 * found.dampings, found.exponents.max(axis=2), share)
     return Outcome(judged(low > 5.0 * high), says, numbers, data)
 
 
@@ -183,7 +185,7 @@ def bifurcation(lab: Lab) -> Outcome:
         "orbits of different exponents, or in chaos from some of them only."
     )
     numbers = {"share_chaotic": float(sweep.chaotic.mean()), "share_with_several_attractors": several}
-    data = {"inverse": sweep.inverse, "places": sweep.places, "exponents": sweep.exponents, "chaotic": sweep.chaotic}
+    data = BranchesDrawing(sweep.inverse, sweep.places, sweep.exponents)
     return Outcome("beyond the paper", says, numbers, data)
 
 
@@ -206,5 +208,5 @@ def plane_map(lab: Lab) -> Outcome:
         "from their neighbours are coexisting attractors and long transients."
     )
     numbers = {"share_chaotic": float(found.chaotic.mean()), "highest_zeta": top}
-    data = {"inverse": found.inverse, "zeta": 0.5 * found.dampings, "exponent": found.exponents[:, :, 0]}
+    data = PlaneDrawing(found.inverse, 0.5 * found.dampings, found.exponents[:, :, 0])
     return Outcome("beyond the paper", says, numbers, data)
