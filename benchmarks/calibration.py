@@ -26,7 +26,7 @@ from tqdm import tqdm
 from lostmotion.case import dump_case
 from lostmotion.stages.identify import Plan
 from lostmotion_trials.coverage.design import Design
-from lostmotion_trials.coverage.machines import Bench
+from lostmotion_trials.coverage.machines import Stand
 from lostmotion_trials.coverage.results import CalibrationSummary
 from lostmotion_trials.coverage.run import run_calibration
 
@@ -45,14 +45,14 @@ def drive(amplitude: float) -> str:
     return f"harmonic:amplitude={amplitude:g},omega={OMEGA:g}"
 
 
-SHORT = Bench((drive(100),), 30 * PERIOD, 100 / PERIOD, 0.01)
-LONG = Bench(tuple(map(drive, LEVELS)), 150 * PERIOD, 80 / PERIOD, 0.005)
+SHORT = Stand((drive(100),), 30 * PERIOD, 100 / PERIOD, 0.01)
+LONG = Stand(tuple(map(drive, LEVELS)), 150 * PERIOD, 80 / PERIOD, 0.005)
 
 
 @dataclass(frozen=True)
 class Campaign:
     machines: int
-    bench: Bench = SHORT
+    bench: Stand = SHORT
     hide: tuple[str, ...] = ()
     terms: tuple[str, ...] = ()
     route: str = "trajectory"

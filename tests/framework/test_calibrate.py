@@ -19,7 +19,7 @@ from lostmotion.errors import DataError
 from lostmotion.storage import save_json
 from lostmotion.workflow.campaign import Campaign
 from lostmotion_trials.coverage.design import Design, workshop
-from lostmotion_trials.coverage.machines import Bench
+from lostmotion_trials.coverage.machines import Stand
 from lostmotion_trials.coverage.page import write_calibration
 from lostmotion_trials.coverage.ranks import DRAWS, coverage_limits, ecdf, ecdf_band
 from lostmotion_trials.coverage.results import CalibrationResult, Coverage, LostMachine, MachineTrial
@@ -251,7 +251,7 @@ k0 = 40000.0
 c = { low = 2.0, high = 32.0, scale = "log" }
 gap = { mean = 0.005, sd = 0.004 }
 """
-BENCH = Bench((FORCE, "harmonic:amplitude=80,omega=40"), 1.0, 600.0, 0.01)
+BENCH = Stand((FORCE, "harmonic:amplitude=80,omega=40"), 1.0, 600.0, 0.01)
 
 
 def design(tmp_path, text=CASE, **more):

@@ -36,7 +36,7 @@ from lostmotion_trials.blind.page import render
 from lostmotion_trials.blind.pilot import Effect
 from lostmotion_trials.blind.results import Proof
 from lostmotion_trials.blind.sealed import SealedMachine, SealedTruth
-from lostmotion_trials.blind.simulator import Meddling, Signal, moved
+from lostmotion_trials.blind.simulator import BlindDrive, Meddling, moved
 from lostmotion_trials.integrators.hidden import Hidden
 from lostmotion_trials.integrators.imperfect import CELLS, REACH
 
@@ -222,7 +222,7 @@ def effect(mechanism, at="ground"):
 
 
 def judge(found, *effects, model="lin_backlash", errors=(0.2, 0.1)):
-    machine = SealedMachine(model, {}, (), Signal(((1.0, 1.0, 0.0),)), 1.0, 1, 0.0, measurement_noise=0.0)
+    machine = SealedMachine(model, {}, (), BlindDrive(((1.0, 1.0, 0.0),)), 1.0, 1, 0.0, measurement_noise=0.0)
     truth = SealedTruth(schema="s", case="000", salt="", variant="plain", effects=effects, machine=machine)
     said = answers.answer(found=list(found), ranking=list(found), errors=errors)
     return judging._judged_roughly(said, truth, CYCLE)

@@ -22,7 +22,7 @@ from lostmotion_trials.blind.commitment import VARIANTS, Blind, concealed, label
 from lostmotion_trials.blind.hiding import hidden_in
 from lostmotion_trials.blind.mechanisms import NAMES, UNKNOWN, Pilot
 from lostmotion_trials.blind.page import render
-from lostmotion_trials.blind.pilot import Draft
+from lostmotion_trials.blind.pilot import EffectDraft
 from lostmotion_trials.blind.results import (
     ConfusionCount,
     DiagnosedCase,
@@ -35,7 +35,7 @@ from lostmotion_trials.blind.results import (
 )
 from lostmotion_trials.blind.run import Diagnoser
 from lostmotion_trials.blind.sealed import SealedTruth
-from lostmotion_trials.blind.simulator import Meddling, Rig, Signal, draw_rig, moved
+from lostmotion_trials.blind.simulator import BlindDrive, BlindMachine, Meddling, draw_rig, moved
 
 SHORT = 600
 AGREED = {
@@ -151,7 +151,7 @@ def test_sizes_span_what_can_and_cannot_be_seen():
         rng = np.random.default_rng(seed)
         rig = draw_rig(rng, 500)
         pilot = Pilot(rig, moved(rig, hidden_in(rig, ())[0], Meddling(), rng))
-        gains.append(pilot.gain(Draft(1e-3 * pilot.inertial * np.sign(pilot.v), dict)))
+        gains.append(pilot.gain(EffectDraft(1e-3 * pilot.inertial * np.sign(pilot.v), dict)))
     assert np.all(np.array(gains) > 0.0)
 
 
@@ -189,7 +189,7 @@ def test_answers_are_judged(truth, answer, several, outcome):
 
 
 def test_effect_beside_one_that_was_named_is_missed_and_not_misnamed():
-    machine = Rig("lin_backlash", {}, (), Signal(((1.0, 1.0, 0.0),)), 1.0, 1, 0.0)
+    machine = BlindMachine("lin_backlash", {}, (), BlindDrive(((1.0, 1.0, 0.0),)), 1.0, 1, 0.0)
     effects = [effect("gap_drift", ""), effect("offset_force", "")]
     against = judging._held_against(said(entry("gap_drift")), effects, machine, several=False)
     assert [row.outcome for row in against.effects] == [judging.HIT, judging.MISSED]
@@ -216,7 +216,7 @@ def test_interval_that_is_withheld_is_not_judged():
 
 
 def test_wave_has_a_cosine_and_a_sine():
-    signal = Signal(((3.0, 1.0, 0.0), (4.0, 2.0, 0.0)))
+    signal = BlindDrive(((3.0, 1.0, 0.0), (4.0, 2.0, 0.0)))
     found = spelled({"amplitude": 0.5, "phase": 0.3, "ratio": 2.0}, {}, signal)
     angle = np.linspace(0.0, 6.0, 7)
     wave = 5.0 * (found["cosine"] * np.cos(angle) + found["sine"] * np.sin(angle))

@@ -30,7 +30,7 @@ from lostmotion_plugins.terms.sensor import PositionRipple
 from lostmotion_plugins.terms.viscous import QuadraticDamping
 from lostmotion_trials.blind.bound import alike, spelled
 from lostmotion_trials.blind.mechanisms import TABLE
-from lostmotion_trials.blind.simulator import Signal
+from lostmotion_trials.blind.simulator import BlindDrive
 
 VALUES = {"m": 1.2, "c": 0.8, "k": 300.0}
 T = np.arange(0.0, 12.0, 0.02)
@@ -251,7 +251,7 @@ def test_each_is_named_in_a_recording_by_another_integrator(library, tmp_path, n
     known = spelled(
         {k: v for k, v in truth.items() if k not in ("name", "at")},
         row["machine"]["values"],
-        Signal(row["machine"]["signal"]["tones"]),
+        BlindDrive(row["machine"]["signal"]["tones"]),
     )
     for parameter, interval in found[0]["parameters"].items():
         if parameter in known and interval["low"] is not None:

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from lostmotion_trials.blind.simulator import Meddling, Rig, Signal, moved
-from lostmotion_trials.integrators.hidden import BOUC_WEN, DAHL, LUGRE, Body, Hidden, _levels, move
+from lostmotion_trials.blind.simulator import BlindDrive, BlindMachine, Meddling, moved
+from lostmotion_trials.integrators.hidden import BOUC_WEN, DAHL, LUGRE, Hidden, HiddenBody, _levels, move
 
-BODY = Body(m=2.0, c=3.0, k=0.0, k0=800.0, x0=0.02)
+BODY = HiddenBody(m=2.0, c=3.0, k=0.0, k0=800.0, x0=0.02)
 DRIVE, OMEGA = 30.0, 7.0
 STEP, EVERY, SAMPLES = 2e-5, 500, 300
 
@@ -155,7 +155,7 @@ def test_hidden_things_show():
 
 
 def test_play_takes_the_spring_off():
-    body = Body(m=2.0, c=3.0, k=500.0, k0=0.0, x0=0.0)
+    body = HiddenBody(m=2.0, c=3.0, k=500.0, k0=0.0, x0=0.0)
     other = theirs(lambda t, x, v, z: 500.0 * min(max(x, -0.02), 0.02), body=body)
     assert np.max(np.abs(ours(Hidden(play=0.02), body) - other)) < 3e-4 * np.ptp(other)
 
@@ -209,7 +209,7 @@ def test_friction_has_the_level_of_its_law(hidden, ahead, back):
 def test_friction_stops_a_sliding_body_where_it_should():
     """A body of 2 kg at 0.5 m/s against 4 N slides for 0.25 s and 62.5 mm, and then does not move at all."""
     state = np.array([0.0, 0.5, 0.0, 0.0, 0.0, 0.0])
-    free = Body(2.0, 0.0, 0.0, 0.0, 0.0)
+    free = HiddenBody(2.0, 0.0, 0.0, 0.0, 0.0)
     steps = 20_000
     seen = move(np.zeros(steps), np.zeros((3, steps)), free, Hidden(friction=4.0), state, (0.0, STEP), 100)[:, 0]
     assert seen[-1] == pytest.approx(0.0625, abs=1e-5)
@@ -221,7 +221,7 @@ def test_body_sticks_below_its_breakaway_force():
     state = np.zeros(6)
     push = np.full(10_000, 5.0)
     hidden = Hidden(friction=4.0, excess=1.5, velocity=0.01)
-    seen = move(push, np.zeros((3, len(push))), Body(2.0, 0.0, 0.0, 0.0, 0.0), hidden, state, (0.0, STEP), 100)
+    seen = move(push, np.zeros((3, len(push))), HiddenBody(2.0, 0.0, 0.0, 0.0, 0.0), hidden, state, (0.0, STEP), 100)
     assert not seen.any()
 
 
@@ -230,15 +230,15 @@ def test_body_sticks_to_a_moving_base():
     middle = times - 0.5 * STEP
     base = np.stack([0.1 * np.sin(middle), 0.1 * np.cos(middle), 0.1 * np.cos(times)])
     state = np.array([0.0, 0.1, 0.0, 0.0, 0.0, 0.0])
-    body, hidden = Body(2.0, 0.0, 0.0, 0.0, 0.0), Hidden(friction=4.0, friction_place=1.0)
+    body, hidden = HiddenBody(2.0, 0.0, 0.0, 0.0, 0.0), Hidden(friction=4.0, friction_place=1.0)
     seen = move(np.zeros(len(times)), base, body, hidden, state, (0.0, STEP), 100)[:, 0]
     assert np.allclose(seen, 0.1 * np.sin(np.arange(len(seen)) * 100 * STEP), atol=1e-6)
 
 
 def rig(**changed):
     values = {"m": 2.0, "c": 8.0, "k": 800.0}
-    given = {"rate": 200.0, "samples": 800, "noise": 0.01, "signal": Signal(((30.0, OMEGA, 0.3), (9.0, 13.0, 1.0)))}
-    return Rig("linear_oscillator", values, ("c", "k"), **{**given, **changed})
+    given = {"rate": 200.0, "samples": 800, "noise": 0.01, "signal": BlindDrive(((30.0, OMEGA, 0.3), (9.0, 13.0, 1.0)))}
+    return BlindMachine("linear_oscillator", values, ("c", "k"), **{**given, **changed})
 
 
 def answer(t, amplitude, omega, phase):
@@ -295,7 +295,7 @@ def test_sensor_can_show_velocity_and_acceleration():
 
 
 def test_drive_is_cut_above_its_limit_and_in_its_dead_zone():
-    signal, t = Signal(((10.0, 5.0, 0.0),)), np.linspace(0.0, 3.0, 3001)
+    signal, t = BlindDrive(((10.0, 5.0, 0.0),)), np.linspace(0.0, 3.0, 3001)
     value, slope = Meddling(limit=6.0, dead=2.0).drive(signal, t)
     assert np.abs(value).max() == pytest.approx(4.0)
     assert (value == 0.0).mean() == pytest.approx(2.0 / math.pi * math.asin(0.2), abs=0.01)
@@ -303,6 +303,6 @@ def test_drive_is_cut_above_its_limit_and_in_its_dead_zone():
 
 
 def test_swept_drive_is_the_integral_of_its_slope():
-    signal = Signal(((2.0, 5.0, 0.2),), sweep=0.8)
+    signal = BlindDrive(((2.0, 5.0, 0.2),), sweep=0.8)
     t = np.linspace(-1.0, 6.0, 70_001)
     assert np.allclose(np.gradient(signal.value(t), t)[1:-1], signal.slope(t)[1:-1], atol=1e-4)

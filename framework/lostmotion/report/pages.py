@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from jinja2 import ChoiceLoader, Environment, PackageLoader, StrictUndefined, Template
+from markupsafe import Markup
 from matplotlib.figure import Figure
 
 from lostmotion.errors import DataError, LostMotionError
@@ -21,6 +22,15 @@ class Section(NamedTuple):
     title: str
     draw: Callable[[Evidence], Figure | None]
     caption: Callable[[Evidence], str]
+
+
+class DrawnFigure(NamedTuple):
+    """A figure as a template takes it."""
+
+    name: str
+    title: str
+    markup: Markup
+    caption: str
 
 
 def written(page: Path, render: Callable[[], str], source: str) -> Path:

@@ -27,7 +27,7 @@ from lostmotion.workflow.answer import Answer, AnswerEntry, AnswerFit
 from lostmotion.workflow.prepare import Prepared
 from lostmotion_trials.blind.pilot import Effect
 from lostmotion_trials.blind.sealed import SealedMachine
-from lostmotion_trials.blind.simulator import Rig, Signal
+from lostmotion_trials.blind.simulator import BlindDrive, BlindMachine
 
 ALIKE: tuple[frozenset[str], ...] = (
     frozenset({"excitation_delay", "sensor_delay"}),
@@ -88,12 +88,12 @@ def yardstick(
     return Yardstick(tuple(gains), tuple(status), error, margin)
 
 
-def with_names(effect: Effect, machine: Rig) -> Effect:
+def with_names(effect: Effect, machine: BlindMachine) -> Effect:
     """Return an effect whose parameters have all further names that they have in the library."""
     return replace(effect, parameters=spelled(effect.parameters, machine.values, machine.signal))
 
 
-def spelled(truth: Mapping[str, float], values: Mapping[str, float], signal: Signal) -> dict[str, float]:
+def spelled(truth: Mapping[str, float], values: Mapping[str, float], signal: BlindDrive) -> dict[str, float]:
     """Return the parameters of an effect with all further names they have in the library.
 
     `values` are those of the machine. A wave of an amplitude and a phase (rad) has a cosine and a sine; one of the

@@ -33,7 +33,7 @@ from lostmotion_trials.blind.imperfect import (
 )
 from lostmotion_trials.blind.mechanisms import NAMES, SPRUNG, TABLE, Effect, Pilot, drawn
 from lostmotion_trials.blind.sealed import ConcealedCase, Seal, SealedMachine, SealedTruth
-from lostmotion_trials.blind.simulator import USUAL, Meddling, Rig, draw_rig, moved
+from lostmotion_trials.blind.simulator import USUAL, BlindMachine, Meddling, draw_rig, moved
 from lostmotion_trials.blind.writing import write_case
 from lostmotion_trials.integrators.hidden import Hidden
 
@@ -178,9 +178,9 @@ Filled = tuple[tuple[Effect, ...], Array, "World | None"]
 def _machine(
     names: Sequence[str],
     rng: np.random.Generator,
-    draw: Callable[[], Rig],
+    draw: Callable[[], BlindMachine],
     fill: Callable[[Pilot], Filled],
-) -> tuple[Rig, Filled]:
+) -> tuple[BlindMachine, Filled]:
     """Return a machine that can have all of these mechanisms, and what it is filled with."""
     for _ in range(TRIES):
         rig = draw()
@@ -219,7 +219,7 @@ def _possible(name: str, kind: str) -> bool:
 
 
 def _recorded(
-    rig: Rig, truth: Array, step: float, variant: str, rng: np.random.Generator
+    rig: BlindMachine, truth: Array, step: float, variant: str, rng: np.random.Generator
 ) -> tuple[Array, Array, float]:
     """Return excitation and response (samples,) as the sensors show them, and the deviation of the latter's noise."""
     clean = rig.signal.value(rig.time)

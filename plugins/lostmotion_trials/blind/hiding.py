@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 from lostmotion_trials.blind.mechanisms import Effect
-from lostmotion_trials.blind.simulator import Meddling, Rig
+from lostmotion_trials.blind.simulator import BlindMachine, Meddling
 from lostmotion_trials.integrators.hidden import BOUC_WEN, DAHL, LUGRE, Hidden
 
 Numbers = Mapping[str, float]
@@ -96,7 +96,7 @@ _OUTSIDE: Mapping[str, Callable[[Meddling, Numbers, float], Meddling]] = {
 }
 
 
-def hidden_in(rig: Rig, effects: Sequence[Effect]) -> tuple[Hidden, Meddling]:
+def hidden_in(rig: BlindMachine, effects: Sequence[Effect]) -> tuple[Hidden, Meddling]:
     """Return what the integrator is told of the effects: what acts on the body, and what meddles around it."""
     inside: dict[str, float] = {}
     outside = Meddling()

@@ -27,7 +27,7 @@ from lostmotion_trials.blind.mechanisms import TABLE
 from lostmotion_trials.blind.pilot import Effect
 from lostmotion_trials.blind.results import HeldAgainst, HeldOutJudged, JudgedCase, JudgedEffect, JudgedParameter
 from lostmotion_trials.blind.sealed import SealedTruth
-from lostmotion_trials.blind.simulator import Rig
+from lostmotion_trials.blind.simulator import BlindMachine
 
 Named = AnswerEntry | AnswerRank | AnswerRival
 """What names a mechanism at a place."""
@@ -138,7 +138,9 @@ def _sured(
     return replace(effect, outcome=HIT if hit else effect.outcome, sure=sure)
 
 
-def _held_against(answer: Answer, effects: Sequence[JudgedEffect], machine: Rig, *, several: bool) -> HeldAgainst:
+def _held_against(
+    answer: Answer, effects: Sequence[JudgedEffect], machine: BlindMachine, *, several: bool
+) -> HeldAgainst:
     found = answer.found
     right = [entry for entry in found if any(same(e, entry, several=several) for e in effects)]
     rows = [_with_outcome(e, answer, several=several) for e in effects]

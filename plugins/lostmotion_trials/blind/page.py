@@ -8,12 +8,11 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-from markupsafe import Markup
 from matplotlib.figure import Figure
 
 from lostmotion.codec import from_plain, to_plain
 from lostmotion.report import style
-from lostmotion.report.pages import template, written
+from lostmotion.report.pages import DrawnFigure, template, written
 from lostmotion.report.words import DASH, figures, percent, sentence, spoken, typeset
 from lostmotion.storage import load_json, require_files
 from lostmotion_trials.blind.figures import CAPTIONS, detection, heldout, reliability
@@ -45,15 +44,6 @@ DRIVES = {
 }
 
 
-class Drawn(NamedTuple):
-    """A figure as the template takes it."""
-
-    name: str
-    title: str
-    markup: Markup
-    caption: str
-
-
 class Listed(NamedTuple):
     """A table as the template takes it: each cell with whether it is out of what was wanted."""
 
@@ -76,7 +66,9 @@ def render(proof: Proof) -> str:
     told = proof.summary
     with style.applied():
         parts = _figures(told)
-        drawn = [Drawn(name, title, style.embedded(figure, name), CAPTIONS[name]) for name, title, figure in parts]
+        drawn = [
+            DrawnFigure(name, title, style.embedded(figure, name), CAPTIONS[name]) for name, title, figure in parts
+        ]
     states = [row.state for row in told.targets]
     return template("page.html.j2", __package__).render(
         title=proof.title,

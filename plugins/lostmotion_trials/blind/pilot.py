@@ -15,7 +15,7 @@ import numpy as np
 
 from lostmotion.codec import told
 from lostmotion.contracts import Array
-from lostmotion_trials.blind.simulator import USUAL, Rig
+from lostmotion_trials.blind.simulator import USUAL, BlindMachine
 
 
 @dataclass(frozen=True)
@@ -32,7 +32,7 @@ class Effect:
 class Pilot:
     """The motion of a machine with nothing hidden: position `q` (samples,) in m or rad, before the noise."""
 
-    rig: Rig
+    rig: BlindMachine
     q: Array
 
     @cached_property
@@ -88,7 +88,7 @@ class Pilot:
         still = body.k + body.k0 * float(np.mean(np.abs(self.touching)))
         return np.asarray(np.hypot(still - body.m * omega**2, body.c * omega) + 0.1 * (still + body.m * omega**2))
 
-    def gain(self, draft: Draft) -> float:
+    def gain(self, draft: EffectDraft) -> float:
         """Return the gain in log-likelihood to expect of a mechanism of unit size, beyond what is simpler."""
         felt = draft.felt
         x, v = self.motion(self.own)
@@ -102,7 +102,7 @@ class Pilot:
 
 
 @dataclass(frozen=True)
-class Draft:
+class EffectDraft:
     """A mechanism of unit size: its force `felt` (samples,), or error if `shown`, and its parameters at a size.
 
     `beside` are forces of what is simpler and would be named in its place.

@@ -8,11 +8,11 @@ from dataclasses import dataclass
 from lostmotion.codec import told
 from lostmotion_trials.blind.imperfect import World
 from lostmotion_trials.blind.pilot import Effect
-from lostmotion_trials.blind.simulator import Rig
+from lostmotion_trials.blind.simulator import BlindMachine
 
 
 @dataclass(frozen=True, kw_only=True)
-class SealedMachine(Rig):
+class SealedMachine(BlindMachine):
     """A machine with the noise of its recording."""
 
     measurement_noise: float = told("standard deviation of the measurement noise, in SI units")

@@ -9,11 +9,11 @@ from lostmotion.case import dump_case
 from lostmotion.codec import to_plain
 from lostmotion.contracts import Array
 from lostmotion.storage import save_table, whole
-from lostmotion_trials.blind.simulator import Rig
+from lostmotion_trials.blind.simulator import BlindMachine
 
 
 def write_case(
-    rig: Rig, signals: tuple[Array, Array], folder: Path, *, title: str, stated: Mapping[str, float]
+    rig: BlindMachine, signals: tuple[Array, Array], folder: Path, *, title: str, stated: Mapping[str, float]
 ) -> Path:
     """Return the path of the case of a machine, written into a folder with its recording.
 

@@ -79,10 +79,10 @@ def command(ctx: click.Context, /, case: Path, out: Path, drives: tuple[str, ...
     """
     from lostmotion.stages.identify import Plan
     from lostmotion_trials.coverage.design import Design
-    from lostmotion_trials.coverage.machines import Bench
+    from lostmotion_trials.coverage.machines import Stand
     from lostmotion_trials.coverage.run import run_calibration
 
-    bench = Bench(drives, given["duration"], given["rate"], given["noise"], given["excitation_noise"])
+    bench = Stand(drives, given["duration"], given["rate"], given["noise"], given["excitation_noise"])
     plan = Plan(ess=given["ess"], max_steps=given["max_steps"])
     plugins = tuple(str(Path(file).absolute()) for file in ctx.find_root().params.get("plugin") or ())
     maps = tuple(path.absolute() for path in given["maps"])

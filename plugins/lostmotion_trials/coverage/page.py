@@ -7,17 +7,15 @@ import json
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
-from markupsafe import Markup
 from matplotlib.figure import Figure
 
 from lostmotion.codec import from_plain, to_plain
 from lostmotion.contracts import Array
 from lostmotion.errors import DataError
 from lostmotion.report import style
-from lostmotion.report.pages import template, written
+from lostmotion.report.pages import DrawnFigure, template, written
 from lostmotion.report.posteriors import words_of
 from lostmotion.report.words import DASH, figures, pretty, readable, sentence, spoken
 from lostmotion.storage import load_json, require_files
@@ -32,15 +30,6 @@ from lostmotion_trials.coverage.results import (
 
 FILES = ("calibration.json", "machines.csv")
 AGAIN = "run `lostmotion calibrate` again"
-
-
-class Drawn(NamedTuple):
-    """A figure as the template takes it."""
-
-    name: str
-    title: str
-    markup: Markup
-    caption: str
 
 
 @dataclass(frozen=True)
@@ -99,7 +88,7 @@ def render(calibration: Calibration) -> str:
     facts, summary = calibration.facts, calibration.summary
     with style.applied():
         drawn = [
-            Drawn(name, title, style.embedded(figure, name), said)
+            DrawnFigure(name, title, style.embedded(figure, name), said)
             for name, title, figure, said in _figures(calibration)
         ]
     return template("page.html.j2", __package__).render(

@@ -23,8 +23,8 @@ from lostmotion.workflow.drives import Options, pairs
 from lostmotion.workflow.levels import Survey, inversion_of, quantifier_task
 from lostmotion.workflow.prepare import case_of, prepare
 from lostmotion.workflow.trajectory import chosen_terms, sampled
-from lostmotion_trials.coverage.design import Design, Machine, Workshop, workshop
-from lostmotion_trials.coverage.machines import Seen
+from lostmotion_trials.coverage.design import Design, DrawnMachine, Workshop, workshop
+from lostmotion_trials.coverage.machines import SeenMachine
 from lostmotion_trials.coverage.ranks import rank_of
 from lostmotion_trials.coverage.results import FAILED, OK, UNCONVERGED, MachineTrial, Sought, Standing
 
@@ -69,12 +69,12 @@ def _standing(truth: float, chain: Array, unit: str) -> Standing:
     return Standing(unit, low, median, high, sd, (truth - mean) / sd, below, rank_of(truth, chain))
 
 
-Route = Callable[[Workshop, Machine, np.random.Generator, int], tuple[Identification, dict[str, float]]]
+Route = Callable[[Workshop, DrawnMachine, np.random.Generator, int], tuple[Identification, dict[str, float]]]
 """Makes the posterior of a machine from a generator for its motion and a seed for the fit; and further truths."""
 
 
 def by_trajectory(
-    shop: Workshop, machine: Machine, rng: np.random.Generator, seed: int
+    shop: Workshop, machine: DrawnMachine, rng: np.random.Generator, seed: int
 ) -> tuple[Identification, dict[str, float]]:
     """Return the posterior from the recordings themselves, and the true measurement noise of each."""
     seen = shop.record(machine, rng)
@@ -88,7 +88,7 @@ def by_trajectory(
 
 
 def by_quantifiers(
-    shop: Workshop, machine: Machine, rng: np.random.Generator, seed: int
+    shop: Workshop, machine: DrawnMachine, rng: np.random.Generator, seed: int
 ) -> tuple[Identification, dict[str, float]]:
     """Return the posterior from what the recordings are read as, one level of the drive each."""
     seen, design = shop.record(machine, rng), shop.design
@@ -119,7 +119,7 @@ def _harmonic(drive: str) -> tuple[float, float]:
     return options.number("amplitude"), options.omega()
 
 
-def _write(shop: Workshop, machine: Machine, seen: list[Seen], folder: Path) -> Path:
+def _write(shop: Workshop, machine: DrawnMachine, seen: list[SeenMachine], folder: Path) -> Path:
     """Return the case of a machine, written with its recordings into a folder."""
     design, model = shop.design, shop.system.model
     quantity = model.inputs[0]

@@ -17,8 +17,8 @@ from lostmotion_trials.paper.drawings import (
     NoisyMapsDrawing,
     SlopesDrawing,
 )
-from lostmotion_trials.paper.lab import Lab, Sampled
-from lostmotion_trials.paper.outcome import Outcome, judged
+from lostmotion_trials.paper.lab import Lab, SampledFlow
+from lostmotion_trials.paper.outcome import PaperOutcome, judged
 from lostmotion_trials.paper.portraits import shared
 
 LEVELS = (0.0, 0.01, 0.05, 0.1)
@@ -40,7 +40,7 @@ class Noisy:
     series: tuple[Series, ...]
 
 
-def _begun(lab: Lab) -> tuple[Sampled, Array]:
+def _begun(lab: Lab) -> tuple[SampledFlow, Array]:
     """Return the flow of Case 3 and a state on its chaotic attractor."""
     found = shared(lab, 3)
     return CASES[3].flow(lab), found.states[int(np.argmax(found.chaotic)), -1]
@@ -64,7 +64,7 @@ def long(lab: Lab) -> Noisy:
     return lab.once("long", lambda: _made(lab, lab.pick(2500, 500), PERIOD_LOOKS))
 
 
-def fig11(lab: Lab) -> Outcome:
+def fig11(lab: Lab) -> PaperOutcome:
     """Return the motion of Case 3 and its mutual information at four noise levels."""
     made = recorded(lab)
     curves = [s.embedding.curves for s in made.series]
@@ -81,7 +81,7 @@ def fig11(lab: Lab) -> Outcome:
     numbers = {f"lag_{100 * level:g}": lag for level, lag in zip(LEVELS, lags, strict=True)}
     lower = bool(np.all(np.diff(heights) < 0.0))
     same = max(lags) - min(lags) < 0.015
-    return Outcome(judged(abs(lags[0] - PAPER_LAG) < 0.012, same, lower), says, numbers, data)
+    return PaperOutcome(judged(abs(lags[0] - PAPER_LAG) < 0.012, same, lower), says, numbers, data)
 
 
 def _map(lab: Lab, x: Array, dt: float) -> Array:
@@ -90,7 +90,7 @@ def _map(lab: Lab, x: Array, dt: float) -> Array:
     return np.column_stack([x[:-lag:PERIOD_LOOKS], x[lag::PERIOD_LOOKS]])
 
 
-def fig12(lab: Lab) -> Outcome:
+def fig12(lab: Lab) -> PaperOutcome:
     """Return Poincare maps at four noise levels."""
     made = long(lab)
     maps = [_map(lab, s.x, made.dt) for s in made.series]
@@ -100,10 +100,10 @@ def fig12(lab: Lab) -> Outcome:
         f"noise blurs it and ten per cent, {0.1 / width:.1f} times its width, hides it, as the paper shows."
     )
     numbers = {"width_over_std": width}
-    return Outcome(judged(0.0 < width < 0.1, width > 0.01), says, numbers, NoisyMapsDrawing(NAMES, maps))
+    return PaperOutcome(judged(0.0 < width < 0.1, width > 0.01), says, numbers, NoisyMapsDrawing(NAMES, maps))
 
 
-def fig13(lab: Lab) -> Outcome:
+def fig13(lab: Lab) -> PaperOutcome:
     """Return Cao's E1 at four noise levels."""
     dims = [s.embedding.dim for s in recorded(lab).series]
     says = (
@@ -114,10 +114,10 @@ def fig13(lab: Lab) -> Outcome:
     data = NoisyCaoDrawing(NAMES, [c["dim"] for c in curves], [c["e1"] for c in curves])
     numbers = {f"dim_{100 * level:g}": float(d) for level, d in zip(LEVELS, dims, strict=True)}
     rising = bool(np.all(np.diff(dims) >= 0) and dims[-1] > dims[0])
-    return Outcome(judged(rising, abs(dims[0] - 3) <= 1, abs(dims[-1] - 6) <= 2), says, numbers, data)
+    return PaperOutcome(judged(rising, abs(dims[0] - 3) <= 1, abs(dims[-1] - 6) <= 2), says, numbers, data)
 
 
-def fig14(lab: Lab) -> Outcome:
+def fig14(lab: Lab) -> PaperOutcome:
     """Return slopes of the correlation sum over dimension, with those of surrogates, at four noise levels."""
     found: list[Slopes] = [
         slopes(lab, s, lab.pick(20, 4), f"surrogates {k}") for k, s in enumerate(recorded(lab).series)
@@ -131,7 +131,7 @@ def fig14(lab: Lab) -> Outcome:
     )
     numbers = {f"apart_{100 * level:g}": float(np.median(f.apart[2:])) for level, f in zip(LEVELS, found, strict=True)}
     numbers |= {f"slope_{100 * level:g}": float(f.recorded[4]) for level, f in zip(LEVELS, found, strict=True)}
-    return Outcome(judged(*differs), says, numbers, SlopesDrawing(found, NAMES))
+    return PaperOutcome(judged(*differs), says, numbers, SlopesDrawing(found, NAMES))
 
 
 def _reduced(lab: Lab) -> tuple[list[Array], list[float]]:
@@ -153,7 +153,7 @@ def _maps(lab: Lab, window: Array | None = None) -> CleanedMapsDrawing:
     return CleanedMapsDrawing(NAMES, noisy, cleaned, window)
 
 
-def fig15(lab: Lab) -> Outcome:
+def fig15(lab: Lab) -> PaperOutcome:
     """Return Poincare maps behind simple non-linear noise reduction."""
     _, left = _reduced(lab)
     says = (
@@ -161,10 +161,10 @@ def fig15(lab: Lab) -> Outcome:
         "(its level being known here): it does well below 10 %, as the paper says."
     )
     numbers = {f"left_{100 * level:g}": x for level, x in zip(LEVELS[1:], left[1:], strict=True)}
-    return Outcome(judged(left[1] < 0.6, left[2] < 0.6), says, numbers, _maps(lab))
+    return PaperOutcome(judged(left[1] < 0.6, left[2] < 0.6), says, numbers, _maps(lab))
 
 
-def fig16(lab: Lab) -> Outcome:
+def fig16(lab: Lab) -> PaperOutcome:
     """Return a part of the maps, enlarged: a window around the middle of the clean map."""
     clean, (reduced, _) = _map(lab, long(lab).true, long(lab).dt), _reduced(lab)
     low, high = clean.min(axis=0), clean.max(axis=0)
@@ -176,7 +176,7 @@ def fig16(lab: Lab) -> Outcome:
         f"of noise, {100 * off[2]:.1f} % at 5 % and {100 * off[3]:.1f} % at 10 % (medians)."
     )
     numbers = {f"off_{100 * level:g}": x for level, x in zip(LEVELS[1:], off[1:], strict=True)}
-    return Outcome(judged(off[1] < 0.02, off[2] < 0.1), says, numbers, _maps(lab, window))
+    return PaperOutcome(judged(off[1] < 0.02, off[2] < 0.1), says, numbers, _maps(lab, window))
 
 
 def _off(points: Array, curve: Array) -> float:

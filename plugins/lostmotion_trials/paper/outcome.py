@@ -13,7 +13,7 @@ Verdict = Literal["reproduced", "reproduced in part", "not reproduced", "beyond 
 
 
 @dataclass(frozen=True)
-class Rows:
+class PaperTable:
     """A table: its column heads, with units, and rows of text or numbers."""
 
     heads: tuple[str, ...]
@@ -21,7 +21,7 @@ class Rows:
 
 
 @dataclass(frozen=True, eq=False)
-class Outcome:
+class PaperOutcome:
     """The outcome of one figure or table.
 
     `data` is what its drawing takes, `numbers` are the key figures by name, `says` is one sentence: what was found,
@@ -32,7 +32,7 @@ class Outcome:
     says: str
     numbers: Mapping[str, float] = field(default_factory=dict)
     data: Drawing | None = None
-    table: Rows | None = None
+    table: PaperTable | None = None
 
 
 @dataclass(frozen=True)

@@ -29,7 +29,7 @@ DRAWINGS: Mapping[str, Callable[..., Figure]] = {
 
 
 @dataclass(frozen=True)
-class Entry:
+class PageEntry:
     """One figure or table on the page."""
 
     name: str
@@ -74,7 +74,7 @@ def tabled(name: str, heads: tuple[str, ...], rows: tuple[tuple[str, ...], ...],
     return f"{name}.csv", f"{name}.md"
 
 
-def write_index(folder: Path, entries: list[Entry], effort: str) -> Path:
+def write_index(folder: Path, entries: list[PageEntry], effort: str) -> Path:
     """Return the path of `index.html`, which stands beside the pictures that it shows."""
     page = folder / "index.html"
     counts = {e.verdict: sum(x.verdict == e.verdict for x in entries) for e in entries}
