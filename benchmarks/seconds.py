@@ -21,10 +21,10 @@ from pathlib import Path
 
 import numpy as np
 
-from lostmotion_trials.integrators.hidden import BOUC_WEN, LUGRE, Hidden, HiddenBody, move
+from lostmotion_trials.integrators.hidden import BOUC_WEN, LUGRE, Body, Hidden, move
 
 ROOT = Path(__file__).resolve().parents[1]
-BODY = HiddenBody(m=1.0, c=8.0, k=0.0, k0=4e4, x0=0.005)
+BODY = Body(m=1.0, c=8.0, k=0.0, k0=4e4, x0=0.005)
 FORCE, OMEGA, EVERY = 100.0, 40.0, 40
 STEP = 2.0 * math.pi / OMEGA / 160 / EVERY
 NOISE, SETTLING = 0.01, 3200

@@ -12,10 +12,10 @@ from lostmotion_trials.blind.hiding import hidden_in
 from lostmotion_trials.blind.imperfect import KINDS, draw_effect, draw_machine, draw_world, moved_roughly
 from lostmotion_trials.blind.mechanisms import Pilot
 from lostmotion_trials.blind.simulator import Meddling, moved
-from lostmotion_trials.integrators.hidden import BOUC_WEN, DAHL, LUGRE, Hidden, HiddenBody, move
+from lostmotion_trials.integrators.hidden import BOUC_WEN, DAHL, LUGRE, Body, Hidden, move
 from lostmotion_trials.integrators.imperfect import CELLS, REACH, Flaws, _read, move_rough
 
-BODY = HiddenBody(m=2.0, c=3.0, k=60.0, k0=800.0, x0=0.02)
+BODY = Body(m=2.0, c=3.0, k=60.0, k0=800.0, x0=0.02)
 DRIVE, OMEGA = 30.0, 7.0
 STEP, EVERY, SAMPLES = 2e-5, 500, 300
 PLACES = np.linspace(-REACH, REACH, CELLS + 1)
@@ -104,7 +104,7 @@ def test_foot_gives_way_by_force_over_stiffness():
 
 def far_part(loss):
     """Return what a far mode of 40 rad/s adds (samples,) under a push that sets in at once, and its static value."""
-    free, force = HiddenBody(2.0, 0.0, 0.0, 0.0, 0.0), np.full(len(MIDDLES), 6.0)
+    free, force = Body(2.0, 0.0, 0.0, 0.0, 0.0), np.full(len(MIDDLES), 6.0)
     bare = rough(Hidden(), body=free, force=force)[0]
     with_mode = rough(Hidden(), Flaws(far_pace=40.0, far_loss=loss, far_compliance=3e-3), body=free, force=force)[0]
     return with_mode - bare, 6.0 * 3e-3
@@ -134,7 +134,7 @@ def test_curves_are_read_by_straight_lines_and_are_constant_beyond():
 
 def test_friction_follows_its_curve_over_the_speed():
     """At a steady speed the push of dry friction is its level times the curve there."""
-    free, curves = HiddenBody(2.0, 0.0, 0.0, 0.0, 0.0), LEVEL.copy()
+    free, curves = Body(2.0, 0.0, 0.0, 0.0, 0.0), LEVEL.copy()
     curves[2] = np.where(np.abs(PLACES) > 1.0, 1.5, 0.5)
     for speed, level in ((0.5, 0.5), (-0.5, 0.5), (2.0, 1.5), (-2.0, 1.5)):
         pull = math.copysign(4.0 * level, speed)

@@ -8,9 +8,9 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from lostmotion_trials.blind.simulator import BlindDrive, BlindMachine, Meddling, moved
-from lostmotion_trials.integrators.hidden import BOUC_WEN, DAHL, LUGRE, Hidden, HiddenBody, _levels, move
+from lostmotion_trials.integrators.hidden import BOUC_WEN, DAHL, LUGRE, Body, Hidden, _levels, move
 
-BODY = HiddenBody(m=2.0, c=3.0, k=0.0, k0=800.0, x0=0.02)
+BODY = Body(m=2.0, c=3.0, k=0.0, k0=800.0, x0=0.02)
 DRIVE, OMEGA = 30.0, 7.0
 STEP, EVERY, SAMPLES = 2e-5, 500, 300
 
@@ -155,7 +155,7 @@ def test_hidden_things_show():
 
 
 def test_play_takes_the_spring_off():
-    body = HiddenBody(m=2.0, c=3.0, k=500.0, k0=0.0, x0=0.0)
+    body = Body(m=2.0, c=3.0, k=500.0, k0=0.0, x0=0.0)
     other = theirs(lambda t, x, v, z: 500.0 * min(max(x, -0.02), 0.02), body=body)
     assert np.max(np.abs(ours(Hidden(play=0.02), body) - other)) < 3e-4 * np.ptp(other)
 
@@ -209,7 +209,7 @@ def test_friction_has_the_level_of_its_law(hidden, ahead, back):
 def test_friction_stops_a_sliding_body_where_it_should():
     """A body of 2 kg at 0.5 m/s against 4 N slides for 0.25 s and 62.5 mm, and then does not move at all."""
     state = np.array([0.0, 0.5, 0.0, 0.0, 0.0, 0.0])
-    free = HiddenBody(2.0, 0.0, 0.0, 0.0, 0.0)
+    free = Body(2.0, 0.0, 0.0, 0.0, 0.0)
     steps = 20_000
     seen = move(np.zeros(steps), np.zeros((3, steps)), free, Hidden(friction=4.0), state, (0.0, STEP), 100)[:, 0]
     assert seen[-1] == pytest.approx(0.0625, abs=1e-5)
@@ -221,7 +221,7 @@ def test_body_sticks_below_its_breakaway_force():
     state = np.zeros(6)
     push = np.full(10_000, 5.0)
     hidden = Hidden(friction=4.0, excess=1.5, velocity=0.01)
-    seen = move(push, np.zeros((3, len(push))), HiddenBody(2.0, 0.0, 0.0, 0.0, 0.0), hidden, state, (0.0, STEP), 100)
+    seen = move(push, np.zeros((3, len(push))), Body(2.0, 0.0, 0.0, 0.0, 0.0), hidden, state, (0.0, STEP), 100)
     assert not seen.any()
 
 
@@ -230,7 +230,7 @@ def test_body_sticks_to_a_moving_base():
     middle = times - 0.5 * STEP
     base = np.stack([0.1 * np.sin(middle), 0.1 * np.cos(middle), 0.1 * np.cos(times)])
     state = np.array([0.0, 0.1, 0.0, 0.0, 0.0, 0.0])
-    body, hidden = HiddenBody(2.0, 0.0, 0.0, 0.0, 0.0), Hidden(friction=4.0, friction_place=1.0)
+    body, hidden = Body(2.0, 0.0, 0.0, 0.0, 0.0), Hidden(friction=4.0, friction_place=1.0)
     seen = move(np.zeros(len(times)), base, body, hidden, state, (0.0, STEP), 100)[:, 0]
     assert np.allclose(seen, 0.1 * np.sin(np.arange(len(seen)) * 100 * STEP), atol=1e-6)
 

@@ -13,7 +13,7 @@ from scipy.signal import lfilter
 from lostmotion.codec import told
 from lostmotion.contracts import Array
 from lostmotion.errors import DataError
-from lostmotion_trials.integrators.hidden import Hidden, HiddenBody, move
+from lostmotion_trials.integrators.hidden import Body, Hidden, move
 
 FINE = 0.0015
 """Steps times the fastest rate: a tenth of those of a final fit."""
@@ -167,10 +167,10 @@ class BlindMachine:
     channel: str = told("what the sensor shows: position, velocity or acceleration", default="position")
 
     @property
-    def body(self) -> HiddenBody:
+    def body(self) -> Body:
         """The parameters as the integrator takes them."""
         v = self.values
-        return HiddenBody(v["m"], v["c"], v.get("k", v.get("k1", 0.0)), v.get("k0", 0.0), v.get("x0", 0.0))
+        return Body(v["m"], v["c"], v.get("k", v.get("k1", 0.0)), v.get("k0", 0.0), v.get("x0", 0.0))
 
     @property
     def based(self) -> bool:

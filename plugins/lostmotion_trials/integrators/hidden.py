@@ -17,7 +17,7 @@ DAHL, LUGRE, BOUC_WEN = 1.0, 2.0, 3.0
 """The kinds of a force that remembers."""
 
 
-class HiddenBody(NamedTuple):
+class Body(NamedTuple):
     """What the model knows of, in SI units: m, c and k0 with the gap x0 act towards the base, k towards the ground."""
 
     m: float
