@@ -111,7 +111,7 @@ def fig5(lab: Lab) -> PaperOutcome:
     p = np.linspace(-3.0, 3.0, 121)
     force, out = np.empty(len(p)), np.zeros(2)
     for k, place in enumerate(p):
-        model.rhs(0.0, np.array([place, 0.0]), np.zeros(1), np.array([1.0, 0.0, 0.0, 1.0, 1.0]), out)
+        model.rhs(0.0, np.array([place, 0.0]), np.zeros(len(model.inputs)), np.array([1.0, 0.0, 0.0, 1.0, 1.0]), out)
         force[k] = -out[1]
     wanted = np.sign(p) * np.maximum(np.abs(p) - 1.0, 0.0)
     off = float(np.abs(force - wanted).max())
