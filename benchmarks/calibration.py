@@ -14,19 +14,20 @@ A campaign that is stopped goes on where it was. The time is that of this run, o
 from __future__ import annotations
 
 import argparse
+import math
 import sys
 import time
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from tqdm import tqdm
 
 from lostmotion.case import dump_case
 from lostmotion.stages.identify import SamplingPlan
 from lostmotion_trials.coverage.design import Design
-from lostmotion_trials.coverage.machines import Bench
+from lostmotion_trials.coverage.machines import Stand
+from lostmotion_trials.coverage.results import CalibrationSummary
 from lostmotion_trials.coverage.run import run_calibration
 
 KNOWN = {"m": 1.0, "k1": 0.0, "k0": 4e4}
@@ -44,14 +45,14 @@ def drive(amplitude: float) -> str:
     return f"harmonic:amplitude={amplitude:g},omega={OMEGA:g}"
 
 
-SHORT = Bench((drive(100),), 30 * PERIOD, 100 / PERIOD, 0.01)
-LONG = Bench(tuple(map(drive, LEVELS)), 150 * PERIOD, 80 / PERIOD, 0.005)
+SHORT = Stand((drive(100),), 30 * PERIOD, 100 / PERIOD, 0.01)
+LONG = Stand(tuple(map(drive, LEVELS)), 150 * PERIOD, 80 / PERIOD, 0.005)
 
 
 @dataclass(frozen=True)
 class Campaign:
     machines: int
-    bench: Bench = SHORT
+    bench: Stand = SHORT
     hide: tuple[str, ...] = ()
     terms: tuple[str, ...] = ()
     route: str = "trajectory"
@@ -67,7 +68,7 @@ CAMPAIGNS: Mapping[str, Campaign] = {
 HEAD = ("campaign", "parameter", "in 50 %", "in 90 %", "in 95 %", "chi2 p", "ECDF p", "z rms", "median rel. sd", "lost")
 
 
-def run(name: str, out: Path, machines: int, jobs: int, seed: int = 0) -> dict[str, Any]:
+def run(name: str, out: Path, machines: int, jobs: int, seed: int = 0) -> CalibrationSummary:
     campaign = CAMPAIGNS[name]
     folder = out / name
     folder.mkdir(parents=True, exist_ok=True)
@@ -82,22 +83,22 @@ def run(name: str, out: Path, machines: int, jobs: int, seed: int = 0) -> dict[s
             bar.total, bar.n = of, done
             bar.refresh()
 
-        return run_calibration(design, folder, machines=machines or campaign.machines, jobs=jobs, say=say)
+        return run_calibration(design, folder, machines=machines or campaign.machines, jobs=jobs, say=say).summary
 
 
-def lines(name: str, content: Mapping[str, Any]) -> list[str]:
-    lost = len(content["unconverged"]) + len(content["failed"])
+def lines(name: str, summary: CalibrationSummary) -> list[str]:
+    lost = len(summary.unconverged) + len(summary.failed)
     told = []
-    for parameter, row in content["parameters"].items():
-        covered = [f"{c['inside']} of {c['of']} ({c['low']}-{c['high']})" for c in row["coverage"].values()]
-        tests = ["-" if row[key] is None else f"{row[key]:.2g}" for key in ("chi2_p", "ecdf_p")]
+    for parameter, row in summary.parameters.items():
+        covered = [f"{c.inside} of {c.of} ({c.low}-{c.high})" for c in row.coverage.values()]
+        tests = ["-" if math.isnan(p) else f"{p:.2g}" for p in (row.chi2_p, row.ecdf_p)]
         cells = [
             name,
             parameter,
             *covered,
             *tests,
-            f"{row['rms_z']:.2f}",
-            f"{row['median_relative_sd']:.2g}",
+            f"{row.rms_z:.2f}",
+            f"{row.median_relative_sd:.2g}",
             str(lost),
         ]
         told.append(f"| {' | '.join(cells)} |")
@@ -119,7 +120,7 @@ def main() -> None:
     for name in args.only or CAMPAIGNS:
         content = run(name, args.out, args.machines, args.jobs, args.seed)
         table += lines(name, content)
-        said += [f"- {name}: {sentence}" for sentence in content["says"]]
+        said += [f"- {name}: {sentence}" for sentence in content.says]
     print(f"| {' | '.join(HEAD)} |", f"|{'---|' * len(HEAD)}", *table, "", *said, sep="\n")
     print(f"\n{time.perf_counter() - begin:.0f} s")
 

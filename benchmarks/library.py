@@ -21,6 +21,7 @@ from pathlib import Path
 import numpy as np
 
 from lostmotion.case import dump_case
+from lostmotion.codec import to_plain
 from lostmotion.errors import LostMotionError
 from lostmotion.registry import default
 from lostmotion.storage import save_table
@@ -29,7 +30,17 @@ from lostmotion_trials.blind.bound import alike, spelled, yardstick
 from lostmotion_trials.blind.hiding import hidden_in
 from lostmotion_trials.blind.mechanisms import NOISY, TABLE, Effect
 from lostmotion_trials.blind.pilot import Pilot
-from lostmotion_trials.blind.simulator import USUAL, Meddling, Rig, Signal, drawn_log, moved, sized, wide_prior
+from lostmotion_trials.blind.sealed import SealedMachine
+from lostmotion_trials.blind.simulator import (
+    USUAL,
+    BlindDrive,
+    BlindMachine,
+    Meddling,
+    drawn_log,
+    moved,
+    sized,
+    wide_prior,
+)
 from lostmotion_trials.integrators.hidden import Hidden
 
 SENSORS = ("position", "velocity", "acceleration")
@@ -44,14 +55,14 @@ def signal(kind, size, omega, duration, rng):
     """Return a drive whose strongest frequencies lie about `omega` (rad/s)."""
     turn = float(rng.uniform(0.0, 2.0 * math.pi))
     if kind == "harmonic":
-        return Signal(((size, omega, turn),))
+        return BlindDrive(((size, omega, turn),))
     if kind == "sweep":
-        return Signal(((size, 0.4 * omega, turn),), 1.4 * omega / duration)
+        return BlindDrive(((size, 0.4 * omega, turn),), 1.4 * omega / duration)
     lines = np.unique(np.round(np.linspace(0.25, 1.8, 14) * omega * duration / (2.0 * math.pi)))
     phases = rng.uniform(0.0, 2.0 * math.pi, len(lines))
     each = size * math.sqrt(2.0 / len(lines))
     pairs = zip(lines, phases, strict=True)
-    return Signal(tuple((each, float(n) * 2.0 * math.pi / duration, float(p)) for n, p in pairs))
+    return BlindDrive(tuple((each, float(n) * 2.0 * math.pi / duration, float(p)) for n, p in pairs))
 
 
 def rig_of(name, kind, rng, samples):
@@ -64,7 +75,7 @@ def rig_of(name, kind, rng, samples):
     rate = 40.0 * max(ratio, 0.4) * natural / (2.0 * math.pi)
     drive = signal(kind, amplitude, ratio * natural, samples / rate, rng)
     estimated = ESTIMATED.get(model, ("c", "x0"))
-    return Rig(
+    return BlindMachine(
         model, values, estimated, drive, rate, samples, NOISE, {n: wide_prior(values[n], rng) for n in estimated}
     )
 
@@ -95,7 +106,7 @@ def concealed(task, folder):
             if "x0" in rig.values and not 0.1 < float(np.mean(np.abs(pilot.touching))) < 0.95:
                 continue
             effects = () if name == "clean" else (sized_effect(name, pilot, gain, rng),)
-            seen = Rig(**{**rig.__dict__, "channel": channel})
+            seen = BlindMachine(**{**rig.__dict__, "channel": channel})
             hidden = hidden_in(rig, effects)
             truth = moved(seen, *hidden, np.random.default_rng([seed, attempt]))
             own = moved(rig, *hidden, np.random.default_rng([seed, attempt]))
@@ -122,21 +133,19 @@ def concealed(task, folder):
         "response": {"column": "shown", "quantity": channel, "unit": units[1]},
     }
     known = {n: v for n, v in rig.values.items() if n not in rig.estimated}
-    model = {"name": rig.model, "known": known, "estimate": dict(rig.priors)}
+    model = {"name": rig.model, "known": known, "estimate": to_plain(rig.priors)}
     dump_case(
         {"title": f"{name} {channel} {kind} {seed}", "recordings": [recording], "model": model}, folder / "case.toml"
     )
     return effects, rig, noise
 
 
-def reached(folder, row, noise):
+def reached(folder, effects, rig, noise):
     """Return what the true term gains in log-likelihood on the fitted data, by our own likelihood, begun there."""
-    told = {"mechanism": row["truth"][0]["name"], "at": row["truth"][0]["at"]}
-    parameters = {k: v for k, v in row["truth"][0].items() if k not in ("name", "at")}
-    machine = {**row["machine"], "measurement_noise": noise}
-    truth = {"machine": machine, "effects": [{**told, "parameters": parameters}]}
+    machine = SealedMachine(**vars(rig), measurement_noise=noise)
     try:
-        return yardstick(prepare(folder / "case.toml", default()), truth, None).gains[0]
+        gain = yardstick(prepare(folder / "case.toml", default()), machine, effects, None).gains[0]
+        return None if math.isnan(gain) else gain
     except (LostMotionError, ValueError, ArithmeticError) as err:
         return f"not reached: {err}"
 
@@ -171,7 +180,7 @@ def work(task):
         row["ranking"] = told["ranking"][:6]
         row["nrmse"] = [told["fit"][k]["heldout_nrmse"] for k in ("before", "after")]
         if effects:
-            row["reached"] = reached(folder, row, noise)
+            row["reached"] = reached(folder, effects, rig, noise)
     return row
 
 
@@ -208,7 +217,8 @@ def covered(row):
     if not row["truth"]:
         return []
     truth = {k: v for k, v in row["truth"][0].items() if k not in ("name", "at")}
-    known = spelled(truth, row["machine"]) if row.get("machine") else truth
+    machine = row.get("machine")
+    known = spelled(truth, machine["values"], BlindDrive(machine["signal"]["tones"])) if machine else truth
     entry = next((f for f in row["found"] if f["mechanism"] == row["name"]), None)
     told = entry["parameters"] if entry else {}
     return [i["low"] <= known[k] <= i["high"] for k, i in told.items() if k in known and i["low"] is not None]

@@ -35,7 +35,6 @@ from typing import Any
 import numpy as np
 from scipy.stats import beta
 
-from lostmotion.case import dump_case
 from lostmotion.errors import DataError
 from lostmotion.inference.candidates import screen, slopes_of
 from lostmotion.inference.odds import Ratio, likely, log_odds
@@ -45,12 +44,12 @@ from lostmotion.likelihood.system import System, key_of
 from lostmotion.registry import default
 from lostmotion.settings import DEFAULT
 from lostmotion.stages.diagnose import locate, plays_of
-from lostmotion.storage import save_table
 from lostmotion.workflow.prepare import Prepared, prepare
 from lostmotion_trials.blind.commitment import RUNAWAY, TOUCHES
 from lostmotion_trials.blind.hiding import hidden_in
 from lostmotion_trials.blind.mechanisms import LARGEST, TABLE, UNKNOWN, Effect, Pilot
-from lostmotion_trials.blind.simulator import USUAL, Meddling, Rig, draw_rig, moved
+from lostmotion_trials.blind.simulator import USUAL, BlindMachine, Meddling, draw_rig, moved
+from lostmotion_trials.blind.writing import write_case
 from lostmotion_trials.integrators.hidden import Hidden
 
 GAIN = (50.0, 500.0)
@@ -90,7 +89,7 @@ def drawn(name: str, pilot: Pilot, rng: np.random.Generator) -> Effect:
     return Effect("unknown", at, parameters, name) if name in UNKNOWN else Effect(name, at, parameters)
 
 
-def machine_of(kind: str, rng: np.random.Generator, number: int) -> tuple[Rig, Effect | None, np.ndarray]:
+def machine_of(kind: str, rng: np.random.Generator, number: int) -> tuple[BlindMachine, Effect | None, np.ndarray]:
     """Return a machine, what is hidden in it, and its true motion (samples,)."""
     models = MODELS[kind] if kind in MODELS else MODELS[("two", "one")[number % 2]]
     offered = [name for name in GOES_WITH if any(m in (TABLE | UNKNOWN)[name].models for m in models)]
@@ -116,7 +115,9 @@ def _noise_of(number: int) -> str:
     return NOISES[number // 2 % len(NOISES)]
 
 
-def recorded(rig: Rig, truth: np.ndarray, noise: str, rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:
+def recorded(
+    rig: BlindMachine, truth: np.ndarray, noise: str, rng: np.random.Generator
+) -> tuple[np.ndarray, np.ndarray]:
     """Return drive and position (samples,) of a machine as they are recorded."""
     clean, n = rig.signal.value(rig.time), len(truth)
     white = rng.standard_normal(n)
@@ -131,22 +132,10 @@ def recorded(rig: Rig, truth: np.ndarray, noise: str, rng: np.random.Generator) 
     return clean + USUAL * rig.signal.amplitude * rng.standard_normal(n), shown
 
 
-def prepared(rig: Rig, excitation: np.ndarray, response: np.ndarray) -> Prepared:
+def prepared(rig: BlindMachine, excitation: np.ndarray, response: np.ndarray) -> Prepared:
     """Return a machine as a diagnosis reads it: from a case file and a table."""
-    quantity, units = ("base_position", ("rad", "rad")) if rig.based else ("force", ("N", "m"))
-    recording = {
-        "file": "recording.csv",
-        "time": "time",
-        "excitation": {"column": "excitation", "quantity": quantity, "unit": units[0]},
-        "response": {"column": "response", "quantity": "position", "unit": units[1]},
-    }
-    known = {name: value for name, value in rig.values.items() if name not in rig.estimated}
-    model = {"name": rig.model, "known": known, "estimate": dict(rig.priors)}
-    with tempfile.TemporaryDirectory() as name:
-        folder = Path(name)
-        save_table(folder / "recording.csv", {"time": rig.time, "excitation": excitation, "response": response}, {}, {})
-        dump_case({"title": "study", "recordings": [recording], "model": model}, folder / "case.toml")
-        return prepare(folder / "case.toml", default())
+    with tempfile.TemporaryDirectory() as folder:
+        return prepare(write_case(rig, (excitation, response), Path(folder), title="study", stated={}), default())
 
 
 def one(kind: str, seed: int, number: int) -> Row:

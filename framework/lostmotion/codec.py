@@ -32,12 +32,13 @@ WORDS: Mapping[Any, str] = {
 }
 
 
-def told(doc: str, *, unit: str = "", key: str = "", default: Any = dataclasses.MISSING) -> Any:
+def told(doc: str, *, unit: str = "", key: str = "", flat: bool = False, default: Any = dataclasses.MISSING) -> Any:
     """Return a field of a result: what it means, for the schema; its unit; its `key` in a file where that differs.
 
-    A `default` that is a mapping stands for an empty one of its own in each result.
+    The keys of a `flat` field, a result itself, stand in the file among those of its owner; it may be None, where none
+    of them is there. A `default` that is a mapping stands for an empty one of its own in each result.
     """
-    metadata = {"doc": doc, "unit": unit, "key": key}
+    metadata = {"doc": doc, "unit": unit, "key": key, "flat": flat}
     if isinstance(default, dict):
         return dataclasses.field(default_factory=dict, metadata=metadata)
     return dataclasses.field(default=default, metadata=metadata)
@@ -76,8 +77,11 @@ def schema(kind: type) -> Iterator[Entry]:
 def _entries(kind: Any, before: str) -> Iterator[Entry]:
     hints = get_type_hints(kind)
     for f in dataclasses.fields(kind):
-        path = before + (f.metadata.get("key") or f.name)
+        path = before + _key(f)
         core, ending, words = _read(hints[f.name])
+        if f.metadata.get("flat"):
+            yield from _entries(core, before)
+            continue
         yield Entry(path + ending, words, f.metadata.get("unit", ""), f.metadata.get("doc", ""))
         if dataclasses.is_dataclass(core):
             yield from _entries(core, f"{path}{ending}.")
@@ -148,20 +152,44 @@ def _writer(kind: type, converter: Converter) -> Any:
 
     how = {f.name: override(rename=f.metadata.get("key") or None, omit_if_default=f.default is None) for f in _of(kind)}
     write: Any = make_dict_unstructure_fn(kind, converter, _cattrs_use_linecache=False, **how)  # type: ignore[arg-type]
-    keys = [f.metadata.get("key") or f.name for f in _of(kind)]
+    fields = [(_key(f), bool(f.metadata.get("flat"))) for f in _of(kind)]
 
-    def in_order(result: Any) -> dict[str, Any]:  # what may be left out would stand last otherwise
-        plain = write(result)
-        return {key: plain[key] for key in keys if key in plain}
+    def written(result: Any) -> dict[str, Any]:
+        found = write(result)  # cattrs puts what may be left out behind all else
+        plain: dict[str, Any] = {}
+        for key, flat in fields:
+            if key in found:
+                plain.update(found[key] if flat else {key: found[key]})
+        return plain
 
-    return in_order
+    return written if any(f.default is None or f.metadata.get("flat") for f in _of(kind)) else write
 
 
 def _reader(kind: type, converter: Converter) -> Any:
     from cattrs.gen import make_dict_structure_fn, override
 
     how = {f.name: override(rename=f.metadata.get("key") or None) for f in _of(kind)}
-    return make_dict_structure_fn(kind, converter, _cattrs_use_linecache=False, **how)  # type: ignore[arg-type]
+    read: Any = make_dict_structure_fn(kind, converter, _cattrs_use_linecache=False, **how)  # type: ignore[arg-type]
+    hints = get_type_hints(kind)
+    flat = {_key(f): (f.default is None, _keys(_read(hints[f.name])[0])) for f in _flat(kind)}
+
+    def structured(plain: Any, wanted: Any) -> Any:
+        inner = {key: None if optional and not keys & set(plain) else plain for key, (optional, keys) in flat.items()}
+        return read({**plain, **inner}, wanted)
+
+    return structured if flat else read
+
+
+def _flat(kind: Any) -> list[dataclasses.Field[Any]]:
+    return [f for f in _of(kind) if f.metadata.get("flat")]
+
+
+def _keys(kind: Any) -> set[str]:
+    return {_key(f) for f in _of(kind)}
+
+
+def _key(f: dataclasses.Field[Any]) -> str:
+    return str(f.metadata.get("key") or f.name)
 
 
 def _of(kind: Any) -> tuple[dataclasses.Field[Any], ...]:

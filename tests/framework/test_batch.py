@@ -10,6 +10,7 @@ import time
 from pathlib import Path
 
 import pytest
+from answers import answer, entry, interval, plain
 from click.testing import CliRunner
 
 from lostmotion.cli import main
@@ -43,26 +44,17 @@ from lostmotion.hookspecs import hookimpl
 def lostmotion_terms():
     return {"mine": "mine:Mine"}
 """
-FRICTION = {"mechanism": "coulomb_friction", "at": "ground", "probability": 0.9, "share_of_drive": 0.03}
+FRICTION = entry("coulomb_friction", "ground", share_of_drive=0.03)
+PARAMETERS = {
+    "before": {"c": interval(10.0), "x0": interval(2.0), "zero": interval(0.0)},
+    "after": {"c": interval(8.0), "x0": interval(2.2), "zero": interval(1.0), "force": interval(3.0)},
+}
 ENOUGH, PATIENCE = 3, 300.0
 
 
 def content(**changes):
-    def median(value):
-        return {"median": value}
-
-    told = {
-        "verdict": "mismatch",
-        "found": [FRICTION],
-        "unexplained": {"share_of_drive": 1e-4},
-        "fit": {"before": {"heldout_nrmse": 0.3}, "after": {"heldout_nrmse": 0.01}, "noise_floor_nrmse": None},
-        "parameters": {
-            "before": {"c": median(10.0), "x0": median(2.0), "zero": median(0.0)},
-            "after": {"c": median(8.0), "x0": median(2.2), "zero": median(1.0), "force": median(3.0)},
-        },
-        "says": ["Dry friction, it says.", "And more."],
-    }
-    return {**told, **changes}
+    says = ["Dry friction, it says.", "And more."]
+    return plain(**{"found": [FRICTION], "parameters": PARAMETERS, "says": says, **changes})
 
 
 @pytest.fixture
@@ -86,7 +78,9 @@ def calls(monkeypatch):
             (out / name).write_text(json.dumps(told), encoding="utf-8")
 
     monkeypatch.setattr(batch, "run_diagnosis", diagnosis)
-    monkeypatch.setattr(batch, "Campaign", lambda trial, count, identity, **_: Campaign(trial, count, identity))
+    monkeypatch.setattr(
+        batch, "Campaign", lambda trial, kind, count, identity, **_: Campaign(trial, kind, count, identity)
+    )
     return made
 
 
@@ -198,11 +192,11 @@ def test_names_that_cannot_be_told_apart_are_refused():
 
 
 def test_a_row_tells_what_moved_most_and_an_adequate_case_has_little_to_tell():
-    row = row_of("a", content(found=[FRICTION, {"mechanism": "random_force", "probability": 0.8}]))
-    assert (row["moved"], row["moved_by"]) == ("c", pytest.approx(-0.2))
-    assert (row["mechanisms"], row["probability"]) == ("coulomb_friction@ground + random_force", 0.8)
-    plain = row_of("b", content(verdict="adequate", found=[], parameters={"before": {}, "after": {}}))
-    assert (plain["probability"], plain["share_of_drive"], plain.get("moved")) == (None, None, None)
+    row = row_of("a", answer(found=[FRICTION, entry("random_force", probability=0.8)], parameters=PARAMETERS))
+    assert (row.move.moved, row.move.moved_by) == ("c", pytest.approx(-0.2))
+    assert (row.mechanisms, row.probability) == ("coulomb_friction@ground + random_force", 0.8)
+    plain = row_of("b", answer(verdict="adequate"))
+    assert (plain.probability, plain.share_of_drive, plain.move) == (None, None, None)
     assert lines_of([row, plain, plain]) == [
         "3 of 3 cases diagnosed", "  2  adequate", "  1  coulomb_friction@ground + random_force",
     ]  # fmt: skip
@@ -211,7 +205,7 @@ def test_a_row_tells_what_moved_most_and_an_adequate_case_has_little_to_tell():
 @pytest.mark.slow
 def test_twelve_real_cases_two_of_them_broken_killed_and_gone_on_with(tmp_path):
     clean = Blind(3, 400, (), True)
-    paths = [tmp_path / "cases" / concealed(clean, tmp_path, k)["case"] / "case.toml" for k in range(12)]
+    paths = [tmp_path / "cases" / concealed(clean, tmp_path, k).case / "case.toml" for k in range(12)]
     (paths[2].parent / "recording.csv").write_text("time,excitation,response\n0,1\n", encoding="utf-8")
     paths[7].write_text(paths[7].read_text(encoding="utf-8").replace("title", "tittle"), encoding="utf-8")
     out = tmp_path / "out"

@@ -1,26 +1,28 @@
 """A campaign that is killed goes on and ends with the same bytes, and its summary tells good posteriors from bad."""
 
-import json
 import os
 import re
 import signal
 import subprocess
 import sys
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
-from toy_campaign import COUNT, buried, campaign, deadly, placed, whoami
+from toy_campaign import COUNT, Fate, Maker, buried, campaign, deadly, placed, whoami
 
 from lostmotion.case import Prior
+from lostmotion.codec import to_plain
 from lostmotion.errors import DataError
 from lostmotion.storage import save_json
 from lostmotion.workflow.campaign import Campaign
 from lostmotion_trials.coverage.design import Design, workshop
-from lostmotion_trials.coverage.machines import Bench
+from lostmotion_trials.coverage.machines import Stand
 from lostmotion_trials.coverage.page import write_calibration
 from lostmotion_trials.coverage.ranks import DRAWS, coverage_limits, ecdf, ecdf_band
+from lostmotion_trials.coverage.results import CalibrationResult, Coverage, LostMachine, MachineTrial
 from lostmotion_trials.coverage.run import _save_csv, sound, summary
 
 PERFECT = 2000
@@ -141,32 +143,32 @@ def broken(number):
 
 def test_a_slip_of_the_code_is_no_failed_machine(tmp_path):
     with pytest.raises(TypeError, match="a slip"):
-        Campaign(broken, 3, {}).run(tmp_path, 1)
+        Campaign(broken, Fate, 3, {}).run(tmp_path, 1)
 
 
 @pytest.mark.slow
 def test_trials_whose_process_is_killed_are_lost_and_no_others(tmp_path):
     """What ran beside them is made again, and they are tried once more by themselves."""
     told = []
-    made = Campaign(deadly, 7, {}, lost=buried).run(tmp_path, 2, lambda done, of: told.append(done))
-    assert [row["number"] for row in made] == list(range(7))
-    assert [row["number"] for row in made if row.get("lost")] == [2, 5]
+    made = Campaign(deadly, Fate, 7, {}, lost=buried).run(tmp_path, 2, lambda done, of: told.append(done))
+    assert [row.number for row in made] == list(range(7))
+    assert [row.number for row in made if row.lost] == [2, 5]
     assert told == list(range(8))
 
 
 @pytest.mark.slow
 def test_processes_are_renewed_so_that_memory_does_not_grow(tmp_path, monkeypatch):
     monkeypatch.setattr("lostmotion.workflow.campaign.RENEWED", 2)
-    made = Campaign(whoami, 9, {}).run(tmp_path, 2)
-    assert [row["number"] for row in made] == list(range(9))
-    makers = [{row["process"] for row in made[k : k + 4]} for k in (0, 4, 8)]
+    made = Campaign(whoami, Maker, 9, {}).run(tmp_path, 2)
+    assert [row.number for row in made] == list(range(9))
+    makers = [{row.process for row in made[k : k + 4]} for k in (0, 4, 8)]
     assert not makers[0] & makers[1]
     assert not makers[1] & makers[2]
 
 
 def test_without_a_word_for_the_lost_a_killed_process_ends_the_campaign(tmp_path):
     with pytest.raises(DataError, match="killed, perhaps for want of memory"):
-        Campaign(deadly, 7, {}).run(tmp_path, 2)
+        Campaign(deadly, Fate, 7, {}).run(tmp_path, 2)
 
 
 def rows(machines, *, width=1.0, shift=0.0, seed=0):
@@ -178,11 +180,11 @@ def rows(machines, *, width=1.0, shift=0.0, seed=0):
 
 def test_a_right_posterior_passes():
     content = summary(rows(200))
-    assert content["passes"] is True
-    assert content["parameters"]["a"]["rms_z"] == pytest.approx(1.0, abs=0.15)
-    assert content["says"] == [
-        "The intervals hold what they promise, over 200 machines: ranks are uniform, and intervals cover."
-    ]
+    assert content.passes is True
+    assert content.parameters["a"].rms_z == pytest.approx(1.0, abs=0.15)
+    assert content.says == (
+        "The intervals hold what they promise, over 200 machines: ranks are uniform, and intervals cover.",
+    )
 
 
 @pytest.mark.parametrize(
@@ -191,9 +193,9 @@ def test_a_right_posterior_passes():
 )
 def test_a_bad_posterior_does_not_pass(wrong, word):
     content = summary(rows(200, **wrong))
-    assert content["passes"] is False
-    assert "do not hold" in content["says"][0]
-    assert re.search(word, content["says"][1])
+    assert content.passes is False
+    assert "do not hold" in content.says[0]
+    assert re.search(word, content.says[1])
 
 
 def test_verdict_refuses_few_perfect_parameters():
@@ -211,23 +213,23 @@ def test_verdict_refuses_few_perfect_parameters():
 
 
 def test_lost_machines_are_told_and_not_counted():
-    lost = [{"machine": 200 + k, "status": "failed", "says": "no", "parameters": {}} for k in range(3)]
+    lost = [MachineTrial(200 + k, "failed", "no", {}) for k in range(3)]
     content = summary([*rows(200), *lost])
-    assert content["passes"] is True
-    assert content["failed"] == [{"machine": 200 + k, "says": "no"} for k in range(3)]
-    assert "Of 203 machines 3 failed" in content["says"][1]
-    many = [{"machine": 200 + k, "status": "unconverged", "says": "ESS", "parameters": {}} for k in range(20)]
+    assert content.passes is True
+    assert content.failed == tuple(LostMachine(200 + k, "no") for k in range(3))
+    assert "Of 203 machines 3 failed" in content.says[1]
+    many = [MachineTrial(200 + k, "unconverged", "ESS", {}) for k in range(20)]
     content = summary([*rows(200), *many])
-    assert content["passes"] is False
-    assert "without a posterior" in content["says"][0]
-    assert summary(many)["says"][0] == "Not one machine has a posterior."
-    assert summary(many)["passes"] is False
+    assert content.passes is False
+    assert "without a posterior" in content.says[0]
+    assert summary(many).says[0] == "Not one machine has a posterior."
+    assert summary(many).passes is False
 
 
 def test_page_shows_what_was_found(tmp_path):
-    found = [*rows(60), {"machine": 60, "status": "failed", "says": "the <motion> left", "parameters": {}}]
-    head = {"title": "T & co", "model": "m", "route": "trajectory", "moved_by": "hand", "hidden": {}}
-    save_json(tmp_path / "calibration.json", {**head, **summary(found), "provenance": {}})
+    found = [*rows(60), MachineTrial(60, "failed", "the <motion> left", {})]
+    head = CalibrationResult("s", "T & co", "m", "trajectory", "hand", {}, summary(found), {})
+    save_json(tmp_path / "calibration.json", to_plain(head))
     _save_csv(tmp_path / "machines.csv", found)
     page = write_calibration(tmp_path).read_text(encoding="utf-8")
     for words in (
@@ -240,7 +242,7 @@ def test_page_shows_what_was_found(tmp_path):
         assert words in page
     assert "<script" not in page
     assert len((tmp_path / "machines.csv").read_text().splitlines()) == 62
-    save_json(tmp_path / "calibration.json", {**head, **summary(found[-1:]), "provenance": {}})
+    save_json(tmp_path / "calibration.json", to_plain(replace(head, summary=summary(found[-1:]))))
     _save_csv(tmp_path / "machines.csv", found[-1:])
     assert "Not calibrated" in write_calibration(tmp_path).read_text(encoding="utf-8")
 
@@ -256,7 +258,7 @@ k0 = 40000.0
 c = { low = 2.0, high = 32.0, scale = "log" }
 gap = { mean = 0.005, sd = 0.004 }
 """
-BENCH = Bench((FORCE, "harmonic:amplitude=80,omega=40"), 1.0, 600.0, 0.01)
+BENCH = Stand((FORCE, "harmonic:amplitude=80,omega=40"), 1.0, 600.0, 0.01)
 
 
 def design(tmp_path, text=CASE, **more):
@@ -310,8 +312,8 @@ def test_what_cannot_be_meant_is_refused(tmp_path, text, more, sentence):
 
 def test_prior_and_verdict_are_what_they_say():
     assert Prior(low=2.0, high=32.0, scale="log").quantile(0.5) == pytest.approx(8.0)
-    row = {"ecdf_p": 0.5, "coverage": {"50": {"low": 1, "inside": 2, "high": 3}}}
+    (made,) = summary(rows(20)).parameters.values()
+    row = replace(made, ecdf_p=0.5, coverage={"50": Coverage(inside=2, of=4, low=1, high=3)})
     assert sound(row, 0.01)
-    assert not sound({**row, "ecdf_p": 0.001}, 0.01)
-    assert not sound({**row, "coverage": {"50": {"low": 3, "inside": 2, "high": 4}}}, 0.01)
-    json.dumps(row)
+    assert not sound(replace(row, ecdf_p=0.001), 0.01)
+    assert not sound(replace(row, coverage={"50": Coverage(inside=2, of=4, low=3, high=4)}), 0.01)

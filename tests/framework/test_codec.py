@@ -90,3 +90,31 @@ def test_the_schema_has_each_key_with_unit_and_meaning():
     assert rows["parts[].late"].type == "object, or absent"
     assert rows["kind"].type == '"near" or "far"'
     assert rows["in[][]"].type == "list of list of number"
+
+
+@dataclass(frozen=True)
+class Share:
+    hits: int = told("how many were right")
+    of: int = told("of how many")
+
+
+@dataclass(frozen=True)
+class Counted:
+    name: str = told("what was counted")
+    share: Share = told("how often it was right", flat=True)
+    late: float = told("what comes behind", default=0.0)
+    where: Interval | None = told("where it was", flat=True, default=None)
+
+
+def test_keys_of_a_flat_field_stand_among_those_of_its_owner():
+    some, all_of_it = Counted("a", Share(1, 2)), Counted("b", Share(1, 2), 3.0, Interval(1.0, 0.5, 2.0, "N"))
+    assert to_plain(some) == {"name": "a", "hits": 1, "of": 2, "late": 0.0}
+    assert list(to_plain(all_of_it)) == ["name", "hits", "of", "late", "median", "low", "high", "unit"]
+    assert [from_plain(Counted, to_plain(one)) for one in (some, all_of_it)] == [some, all_of_it]
+    assert [row.path for row in schema(Counted)][:4] == ["name", "hits", "of", "late"]
+
+
+@pytest.mark.parametrize(("plain", "said"), [({"name": "a", "hits": 1}, "'of' is absent"), ([1], "is not what this")])
+def test_a_wrong_flat_field_is_told_at_its_key(plain, said):
+    with pytest.raises(DataError, match=said):
+        from_plain(Counted, plain)

@@ -40,7 +40,7 @@ def test_encoders_add_what_they_are_said_to(concealed):
 
 def test_truth_is_complete(concealed):
     assert concealed.truth == {**JOINT, HIDDEN: FRICTION}
-    assert set(concealed.nominal["known"]) | set(concealed.nominal["estimate"]) == set(JOINT)
+    assert set(concealed.nominal.known) | set(concealed.nominal.estimate) == set(JOINT)
 
 
 def test_one_seed_makes_one_recording(concealed):

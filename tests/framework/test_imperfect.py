@@ -4,11 +4,13 @@ import json
 import tomllib
 from dataclasses import replace
 
+import answers
 import numpy as np
 import pytest
 from click.testing import CliRunner
 
 from lostmotion.cli import main
+from lostmotion.codec import from_plain, to_plain
 from lostmotion.contracts import Array
 from lostmotion.errors import DataError
 from lostmotion_trials.blind import judging
@@ -31,7 +33,10 @@ from lostmotion_trials.blind.imperfect import (
 )
 from lostmotion_trials.blind.mechanisms import NAMES, Pilot
 from lostmotion_trials.blind.page import render
-from lostmotion_trials.blind.simulator import Meddling, moved
+from lostmotion_trials.blind.pilot import Effect
+from lostmotion_trials.blind.results import Proof
+from lostmotion_trials.blind.sealed import SealedMachine, SealedTruth
+from lostmotion_trials.blind.simulator import BlindDrive, Meddling, moved
 from lostmotion_trials.integrators.hidden import Hidden
 from lostmotion_trials.integrators.imperfect import CELLS, REACH
 
@@ -40,7 +45,7 @@ ROUGH = Blind(most=SHORT, world="imperfect")
 
 
 def sealed(out, number=0):
-    return json.loads((out / "sealed" / f"{label(number)}.json").read_text(encoding="utf-8"))
+    return from_plain(SealedTruth, json.loads((out / "sealed" / f"{label(number)}.json").read_text(encoding="utf-8")))
 
 
 def told(out, number=0):
@@ -68,7 +73,7 @@ def ten(tmp_path_factory):
 
 @pytest.mark.slow
 def test_kinds_of_drives_take_turns(ten):
-    kinds = [sealed(ten, number)["world"]["kind"] for number in range(10)]
+    kinds = [sealed(ten, number).world.kind for number in range(10)]
     assert kinds == [*KINDS, *KINDS]
 
 
@@ -77,16 +82,16 @@ def test_every_kind_makes_a_case_that_can_be_diagnosed(ten):
         case, truth = told(ten, number), sealed(ten, number)
         table = np.loadtxt(ten / "cases" / label(number) / "recording.csv", delimiter=",", skiprows=1)
         assert np.isfinite(table).all()
-        assert table.shape == (truth["machine"]["samples"], 3)
+        assert table.shape == (truth.machine.samples, 3)
         assert np.std(table[:, 1]) > 0.0
         assert np.std(table[:, 2]) > 0.0
-        assert set(case["model"]["known"]) | set(case["model"]["estimate"]) == set(truth["machine"]["values"])
+        assert set(case["model"]["known"]) | set(case["model"]["estimate"]) == set(truth.machine.values)
         assert "world" not in case
 
 
 def test_seed_reproduces_and_another_does_not(ten, tmp_path):
-    first = {number: concealed(ROUGH, tmp_path / "again", number)["digests"] for number in (3, 7)}
-    other = {number: concealed(replace(ROUGH, seed=1), tmp_path / "other", number)["digests"] for number in (3, 7)}
+    first = {number: concealed(ROUGH, tmp_path / "again", number).digests for number in (3, 7)}
+    other = {number: concealed(replace(ROUGH, seed=1), tmp_path / "other", number).digests for number in (3, 7)}
     for number in (3, 7):
         for name in ("case.toml", "recording.csv"):
             same = (tmp_path / "again" / "cases" / label(number) / name).read_bytes()
@@ -97,10 +102,10 @@ def test_seed_reproduces_and_another_does_not(ten, tmp_path):
 def test_known_values_are_off_by_a_tenth_of_a_per_cent_to_one(ten):
     seen = []
     for number in range(10):
-        truth = sealed(ten, number)["machine"]
+        truth = sealed(ten, number).machine
         for name, value in told(ten, number)["model"]["known"].items():
-            if truth["values"][name]:
-                seen.append(value / truth["values"][name] - 1.0)
+            if truth.values[name]:
+                seen.append(value / truth.values[name] - 1.0)
             else:
                 assert value == 0.0
     assert 0.00099 < np.abs(seen).min() < np.abs(seen).max() < 0.0101
@@ -110,7 +115,7 @@ def test_known_values_are_off_by_a_tenth_of_a_per_cent_to_one(ten):
 def test_readings_lie_on_a_lattice(ten):
     for number in range(10):
         truth = sealed(ten, number)
-        step = truth["world"]["step"] * truth["machine"]["measurement_noise"]
+        step = truth.world.step * truth.machine.measurement_noise
         shown = np.loadtxt(ten / "cases" / label(number) / "recording.csv", delimiter=",", skiprows=1)[:, 2]
         assert np.abs(shown / step - np.round(shown / step)).max() < 1e-3
 
@@ -196,7 +201,7 @@ def test_hidden_force_is_a_share_of_that_of_inertia():
 @pytest.mark.parametrize("name", NAMES)
 def test_every_mechanism_can_be_hidden_under_one_cycle(name, tmp_path):
     concealed(replace(ROUGH, only=(name,), most=500), tmp_path, 0)
-    assert [one["mechanism"] for one in sealed(tmp_path)["effects"]] == [name]
+    assert [one.mechanism for one in sealed(tmp_path).effects] == [name]
 
 
 def test_what_cannot_be_hidden_under_a_drive_is_refused(tmp_path):
@@ -212,80 +217,74 @@ def test_world_that_does_not_exist_is_refused():
 
 
 def entry(mechanism, at="ground", probability=0.99, **more):
-    return {"mechanism": mechanism, "at": at, "probability": probability, "parameters": {}, **more}
+    return answers.entry(mechanism, at, probability, **more)
 
 
 def effect(mechanism, at="ground"):
-    return {"mechanism": mechanism, "at": at, "parameters": {}, "what": ""}
+    return Effect(mechanism, at, {})
 
 
 def judge(found, *effects, model="lin_backlash", errors=(0.2, 0.1)):
-    truth = {
-        "effects": list(effects),
-        "machine": {"model": model, "values": {}, "signal": {"tones": [[1.0, 1.0, 0.0]]}},
-        "world": {"kind": CYCLE},
-    }
-    fit = {when: {"heldout_nrmse": error} for when, error in zip(("before", "after"), errors, strict=True)}
-    diagnosis = {"found": list(found), "ranking": list(found), "confused_with": [], "verdict": "mismatch", "fit": fit}
-    diagnosis["parameters"] = {"after": {}}
-    start = {"case": "000", "model": model, "variant": "plain", "margin": None, "kind": CYCLE}
-    return judging._judged_roughly(start, diagnosis, truth)
+    machine = SealedMachine(model, {}, (), BlindDrive(((1.0, 1.0, 0.0),)), 1.0, 1, 0.0, measurement_noise=0.0)
+    truth = SealedTruth(schema="s", case="000", salt="", variant="plain", effects=effects, machine=machine)
+    said = answers.answer(found=list(found), ranking=list(found), errors=errors)
+    return judging._judged_roughly(said, truth, CYCLE)
 
 
 @pytest.mark.parametrize("law", judging.RUB)
 @pytest.mark.parametrize("said", ["coulomb_friction", "bouc_wen_hysteresis"])
 def test_any_law_of_friction_names_friction(law, said):
-    answer = judge([entry(said)], effect(law))
-    assert answer["sure"] == [[said, True]]
-    assert answer["effects"][0]["outcome"] == judging.HIT
-    assert answer["effects"][0]["sure"]
-    assert answer["stated"] == [[0.99, 1.0]]
-    assert answer["false"] == []
+    case = judge([entry(said)], effect(law))
+    assert case.sure == ((said, True),)
+    assert case.answer.effects[0].outcome == judging.HIT
+    assert case.answer.effects[0].sure
+    assert case.answer.stated == ((0.99, 1.0),)
+    assert case.answer.false == ()
 
 
 def test_friction_at_another_place_is_not_there():
-    answer = judge([entry("dahl_friction", "ground")], effect("coulomb_friction", "base"), model="robot_joint")
-    assert answer["sure"] == [["dahl_friction", False]]
-    assert not answer["effects"][0]["sure"]
+    case = judge([entry("dahl_friction", "ground")], effect("coulomb_friction", "base"), model="robot_joint")
+    assert case.sure == (("dahl_friction", False),)
+    assert not case.answer.effects[0].sure
 
 
 def test_friction_where_a_spring_is_hidden_is_not_there():
-    answer = judge([entry("coulomb_friction")], effect("cubic_stiffness"))
-    assert answer["sure"] == [["coulomb_friction", False]]
-    assert answer["false"] == ["coulomb_friction"]
-    assert answer["stated"] == [[0.99, 0.0]]
+    case = judge([entry("coulomb_friction")], effect("cubic_stiffness"))
+    assert case.sure == (("coulomb_friction", False),)
+    assert case.answer.false == ("coulomb_friction",)
+    assert case.answer.stated == ((0.99, 0.0),)
 
 
 def test_quantisation_is_on_every_machine_and_names_nothing_that_is_hidden():
-    answer = judge([entry("sensor_quantisation", "sensor")], effect("coulomb_friction"))
-    assert answer["sure"] == [["sensor_quantisation", True]]
-    assert answer["effects"][0]["outcome"] != judging.HIT
-    assert not answer["effects"][0]["sure"]
+    case = judge([entry("sensor_quantisation", "sensor")], effect("coulomb_friction"))
+    assert case.sure == (("sensor_quantisation", True),)
+    assert case.answer.effects[0].outcome != judging.HIT
+    assert not case.answer.effects[0].sure
 
 
 @pytest.mark.parametrize("unsure", [{"probability": 0.94}, {"state": "likely"}, {"state": "open"}])
 def test_what_is_not_stated_with_more_than_95_per_cent_is_not_sure(unsure):
-    answer = judge([entry("coulomb_friction", **unsure)], effect("coulomb_friction"))
-    assert answer["sure"] == []
-    assert answer["effects"][0]["outcome"] == judging.HIT
-    assert not answer["effects"][0]["sure"]
+    case = judge([entry("coulomb_friction", **unsure)], effect("coulomb_friction"))
+    assert case.sure == ()
+    assert case.answer.effects[0].outcome == judging.HIT
+    assert not case.answer.effects[0].sure
 
 
 def test_unknown_is_neither_right_nor_false():
-    answer = judge([entry("unknown"), entry("random_force")], effect("coulomb_friction"))
-    assert (answer["sure"], answer["false"]) == ([], [])
-    assert answer["effects"][0]["outcome"] == judging.NOTICED
+    case = judge([entry("unknown"), entry("random_force")], effect("coulomb_friction"))
+    assert (case.sure, case.answer.false) == ((), ())
+    assert case.answer.effects[0].outcome == judging.NOTICED
 
 
 def test_rise_of_the_held_out_error_is_told():
-    assert judge([], effect("gap_drift"), errors=(0.1, 0.3))["worse"] == pytest.approx(0.2)
-    assert judge([], effect("gap_drift"), errors=(None, 0.3))["worse"] is None
+    assert judge([], effect("gap_drift"), errors=(0.1, 0.3)).worse == pytest.approx(0.2)
+    assert np.isnan(judge([], effect("gap_drift"), errors=(None, 0.3)).worse)
 
 
 def rows():
     """Return what became of machines, two kinds of drives, in the order of their cases."""
     friction, spring = effect("coulomb_friction"), effect("cubic_stiffness")
-    answers = [
+    told = [
         (CYCLE, judge([entry("dahl_friction")], friction)),
         (CYCLE, judge([entry("gap_drift")], spring, errors=(0.1, 0.3))),
         (SWEEP, judge([entry("cubic_stiffness"), entry("sensor_quantisation", "sensor")], spring)),
@@ -293,49 +292,50 @@ def rows():
         (SWEEP, judge([entry("unknown")])),
         (SWEEP, judge([entry("offset_force")])),
     ]
-    return [{**answer, "kind": kind, "case": label(k)} for k, (kind, answer) in enumerate(answers)]
+    return [replace(case, kind=kind, case=label(k)) for k, (kind, case) in enumerate(told)]
 
 
 def test_summary_rates_sure_names_by_kind():
     found = proof.summary(rows(), [])
-    every, cycle, sweep = found["sure"]
-    assert [row["kind"] for row in found["sure"]] == ["all", CYCLE, SWEEP]
-    assert (every["machines"], every["hits"], every["of"]) == (6, 3, 5)
-    assert (cycle["machines"], cycle["hits"], cycle["of"]) == (2, 1, 2)
-    assert (sweep["machines"], sweep["hits"], sweep["of"]) == (4, 2, 3)
-    assert (every["named"]["hits"], every["named"]["of"]) == (2, 4)
-    assert (every["worse"]["hits"], every["worse"]["of"]) == (1, 6)
-    assert every["low"] == proof.rate(3, 5)["low"]
-    assert {(row["truth"], row["answer"]) for row in found["confusion"]} == {
+    every, cycle, sweep = found.sure
+    assert [row.kind for row in found.sure] == ["all", CYCLE, SWEEP]
+    assert (every.machines, every.rate.hits, every.rate.of) == (6, 3, 5)
+    assert (cycle.machines, cycle.rate.hits, cycle.rate.of) == (2, 1, 2)
+    assert (sweep.machines, sweep.rate.hits, sweep.rate.of) == (4, 2, 3)
+    assert (every.named.hits, every.named.of) == (2, 4)
+    assert (every.worse.hits, every.worse.of) == (1, 6)
+    assert every.rate.low == proof.rate(3, 5).low
+    assert {(row.truth, row.answer) for row in found.confusion} == {
         ("coulomb_friction", "dahl_friction"), ("cubic_stiffness", "gap_drift"), ("nothing", "unknown"),
         ("cubic_stiffness", "cubic_stiffness"), ("coulomb_friction", "unknown"), ("nothing", "offset_force"),
     }  # fmt: skip
 
 
 def test_alarm_on_a_machine_that_hides_nothing_is_a_false_sure_name():
-    (alarms,) = proof.summary(rows(), [])["alarms"]
-    assert (alarms["noise"], alarms["hits"], alarms["of"]) == ("all", 1, 2)
+    (alarms,) = proof.summary(rows(), []).alarms
+    assert (alarms.noise, alarms.rate.hits, alarms.rate.of) == ("all", 1, 2)
 
 
 def test_targets_are_those_of_sure_names():
-    targets = proof.summary(rows(), [])["targets"]
-    assert [row["what"] for row in targets] == [f"sure names that are there, {kind}" for kind in ("all", CYCLE, SWEEP)]
-    assert {row["at_least"] for row in targets} == {0.95}
-    many = proof.summary([row for row in rows() for _ in range(20)], [])["targets"]
-    assert many[0]["state"] == "missed"
+    targets = proof.summary(rows(), []).targets
+    assert [row.what for row in targets] == [f"sure names that are there, {kind}" for kind in ("all", CYCLE, SWEEP)]
+    assert {row.at_least for row in targets} == {0.95}
+    many = proof.summary([row for row in rows() for _ in range(20)], []).targets
+    assert many[0].state == "missed"
 
 
 def test_sentences_count_sure_names():
-    says = proof.summary(rows(), [])["says"]
+    says = proof.summary(rows(), []).says
     assert says[0] == "Of 5 names that were stated with more than 0.95, 3 are there (60 %, 95 % band 15 to 95 %)."
     assert says[1] == "The hidden effect was named so on 2 of 4 machines that hide one."
     assert says[2] == "On 1 of 2 machines that hide nothing a name was stated so that is not there."
     assert says[3] == "The held-out error rose by what was found on 1 of 6 machines."
-    assert proof.summary(rows()[3:5], [])["says"][0] == "No name was stated with more than 0.95."
+    assert proof.summary(rows()[3:5], []).says[0] == "No name was stated with more than 0.95."
 
 
 def page(cases):
-    return render(json.loads(json.dumps({"title": "Rough", **proof.summary(cases, []), "provenance": {}})))
+    told = Proof("lostmotion.proof/1", "Rough", proof.summary(cases, []), {})
+    return render(from_plain(Proof, json.loads(json.dumps(to_plain(told)))))
 
 
 def test_page_shows_sure_names_by_drive_and_nothing_that_needs_a_true_model():
@@ -351,8 +351,8 @@ def test_page_shows_sure_names_by_drive_and_nothing_that_needs_a_true_model():
 
 
 def test_page_of_a_perfect_world_says_nothing_of_flaws():
-    row = {**rows()[4], "named": [], "sure": None}
-    text = page([{key: value for key, value in row.items() if key not in ("sure", "kind", "worse")}])
+    row = rows()[4]
+    text = page([replace(row, answer=replace(row.answer, named=()), sure=None, kind=None, worse=None)])
     assert "flaws that no term describes" not in text
     assert "Names stated with more than 0.95" not in text
 

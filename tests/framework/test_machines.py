@@ -8,7 +8,7 @@ from lostmotion.likelihood.system import Clock, System
 from lostmotion.registry import default
 from lostmotion.workflow.drives import signal_of
 from lostmotion_trials.coverage import machines
-from lostmotion_trials.coverage.machines import Bench, recorded
+from lostmotion_trials.coverage.machines import Stand, recorded
 
 LIN = {"m": 1.0, "c": 8.0, "k1": 0.0, "k0": 4e4, "x0": 0.005}
 JOINT = {"m": 0.05, "c": 0.15, "k0": 180.0, "x0": 0.0131, "mgl": 0.3}
@@ -46,7 +46,7 @@ def test_friction_sticks():
     registry = default()
     system = System(registry.make("model", "lin_backlash"), (registry.make("term", "coulomb_friction"),))
     full = system.vector({**LIN, "coulomb_friction.force": 3.0})
-    bench = Bench(("step:size=2.9,at=0.2",), 1.0, 500.0, 0.0)
+    bench = Stand(("step:size=2.9,at=0.2",), 1.0, 500.0, 0.0)
     seen = recorded(system, full, bench, bench.drives[0], np.random.default_rng(0))
     # A push below the friction force moves nothing, not even slowly.
     assert np.ptp(seen.response[150:]) == 0.0
@@ -55,7 +55,7 @@ def test_friction_sticks():
 def test_noise_is_what_was_asked_for():
     system = System(default().make("model", "lin_backlash"))
     clean, noisy = (
-        recorded(system, system.vector(LIN), Bench((FORCE,), 5.0, 600.0, noise, loud), FORCE, np.random.default_rng(0))
+        recorded(system, system.vector(LIN), Stand((FORCE,), 5.0, 600.0, noise, loud), FORCE, np.random.default_rng(0))
         for noise, loud in ((0.0, 0.0), (0.05, 0.01))
     )
     assert noisy.noise == pytest.approx(0.05 * clean.response.std())
@@ -87,4 +87,4 @@ def test_another_term_is_moved_by_the_model_itself():
 def test_benches_that_cannot_be_are_refused(change, sentence):
     given = {"drives": (FORCE,), "duration": 1.0, "rate": 600.0, "noise": 0.01, **change}
     with pytest.raises(CaseError, match=sentence):
-        Bench(**given).check()
+        Stand(**given).check()

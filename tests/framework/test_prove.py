@@ -1,14 +1,18 @@
 """The blind trial: what is concealed and sealed, how answers are judged, and what all cases say together."""
 
 import json
+import math
 import os
 import tomllib
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
 import pytest
-from toy_campaign import whoami
+from answers import answer, entry, interval
+from toy_campaign import Maker, whoami
 
+from lostmotion.codec import from_plain, to_plain
 from lostmotion.errors import DataError
 from lostmotion.workflow.campaign import Campaign
 from lostmotion_trials.blind import judging
@@ -18,9 +22,20 @@ from lostmotion_trials.blind.commitment import VARIANTS, Blind, concealed, label
 from lostmotion_trials.blind.hiding import hidden_in
 from lostmotion_trials.blind.mechanisms import NAMES, UNKNOWN, Pilot
 from lostmotion_trials.blind.page import render
-from lostmotion_trials.blind.pilot import Draft
+from lostmotion_trials.blind.pilot import EffectDraft
+from lostmotion_trials.blind.results import (
+    ConfusionCount,
+    DiagnosedCase,
+    HeldAgainst,
+    HeldOutJudged,
+    JudgedCase,
+    JudgedEffect,
+    JudgedParameter,
+    Proof,
+)
 from lostmotion_trials.blind.run import Diagnoser
-from lostmotion_trials.blind.simulator import Meddling, draw_rig, moved
+from lostmotion_trials.blind.sealed import SealedTruth
+from lostmotion_trials.blind.simulator import BlindDrive, BlindMachine, Meddling, draw_rig, moved
 
 SHORT = 600
 AGREED = {
@@ -40,20 +55,20 @@ AGREED = {
 
 
 def sealed(out, number=0):
-    return json.loads((out / "sealed" / f"{label(number)}.json").read_text(encoding="utf-8"))
+    return from_plain(SealedTruth, json.loads((out / "sealed" / f"{label(number)}.json").read_text(encoding="utf-8")))
 
 
 @pytest.mark.parametrize("name", NAMES)
 def test_every_mechanism_can_be_hidden(name, tmp_path):
     concealed(Blind(only=(name,), most=SHORT), tmp_path, 0)
-    (effect,) = sealed(tmp_path)["effects"]
-    assert effect["mechanism"] == name
-    assert all(np.isfinite(value) for value in effect["parameters"].values())
-    assert set(effect["parameters"]) == AGREED.get(name, set(effect["parameters"]))
-    assert bool(effect["what"]) == (name == "unknown")
+    (effect,) = sealed(tmp_path).effects
+    assert effect.mechanism == name
+    assert all(np.isfinite(value) for value in effect.parameters.values())
+    assert set(effect.parameters) == AGREED.get(name, set(effect.parameters))
+    assert bool(effect.what) == (name == "unknown")
     case = tomllib.loads((tmp_path / "cases" / "000" / "case.toml").read_text(encoding="utf-8"))
     assert "truth" not in case
-    assert set(case["model"]["known"]) | set(case["model"]["estimate"]) == set(sealed(tmp_path)["machine"]["values"])
+    assert set(case["model"]["known"]) | set(case["model"]["estimate"]) == set(sealed(tmp_path).machine.values)
 
 
 @pytest.mark.slow
@@ -61,7 +76,7 @@ def test_every_unknown_is_somebodys(tmp_path):
     found = set()
     for number in range(16):
         concealed(Blind(only=("unknown",), most=500), tmp_path, number)
-        found.add(sealed(tmp_path, number)["effects"][0]["what"])
+        found.add(sealed(tmp_path, number).effects[0].what)
     assert found == set(UNKNOWN)
 
 
@@ -70,8 +85,8 @@ def test_same_seed_same_bytes(tmp_path):
         concealed(Blind(seed, SHORT), tmp_path / name, 3) for name, seed in (("a", 1), ("b", 1), ("c", 2))
     )
     assert first == again
-    assert first["digests"]["truth"] != other["digests"]["truth"]
-    assert sealed(tmp_path / "a", 3)["salt"] == sealed(tmp_path / "b", 3)["salt"] != sealed(tmp_path / "c", 3)["salt"]
+    assert first.digests["truth"] != other.digests["truth"]
+    assert sealed(tmp_path / "a", 3).salt == sealed(tmp_path / "b", 3).salt != sealed(tmp_path / "c", 3).salt
 
 
 def test_case_tells_nothing_of_its_truth(tmp_path):
@@ -80,12 +95,12 @@ def test_case_tells_nothing_of_its_truth(tmp_path):
     assert sorted(p.name for p in place.iterdir()) == ["case.toml", "recording.csv"]
     text = (place / "case.toml").read_text(encoding="utf-8")
     assert "friction" not in text
-    assert repr(sealed(tmp_path)["machine"]["values"]["c"]) not in text
+    assert repr(sealed(tmp_path).machine.values["c"]) not in text
 
 
 def test_truth_that_was_changed_is_refused(tmp_path):
     publish(tmp_path, [concealed(Blind(most=SHORT), tmp_path, 0)])
-    assert unsealed(tmp_path, 0)["case"] == "000"
+    assert unsealed(tmp_path, 0).case == "000"
     path = tmp_path / "sealed" / "000.json"
     path.write_text(path.read_text(encoding="utf-8").replace('"plain"', '"outliers"'), encoding="utf-8")
     with pytest.raises(DataError, match="truth of case 000 is not what"):
@@ -103,7 +118,7 @@ def test_recording_that_was_changed_is_refused(tmp_path):
 def test_seal_is_enlarged_and_never_replaced(tmp_path):
     publish(tmp_path, [concealed(Blind(most=SHORT), tmp_path, 0)])
     content = publish(tmp_path, [concealed(Blind(most=SHORT), tmp_path, k) for k in (0, 1)])
-    assert set(content["digests"]) == {"000", "001"}
+    assert set(content.digests) == {"000", "001"}
     with pytest.raises(DataError, match="case 000 is not the one"):
         publish(tmp_path, [concealed(Blind(9, SHORT), tmp_path, 0)])
 
@@ -112,8 +127,8 @@ def test_clean_study_has_every_kind_of_noise(tmp_path):
     kinds = set()
     for number in range(12):
         concealed(Blind(most=500, clean=True), tmp_path, number)
-        assert sealed(tmp_path, number)["effects"] == []
-        kinds.add(sealed(tmp_path, number)["variant"])
+        assert sealed(tmp_path, number).effects == ()
+        kinds.add(sealed(tmp_path, number).variant)
     assert kinds == set(VARIANTS)
 
 
@@ -136,34 +151,31 @@ def test_sizes_span_what_can_and_cannot_be_seen():
         rng = np.random.default_rng(seed)
         rig = draw_rig(rng, 500)
         pilot = Pilot(rig, moved(rig, hidden_in(rig, ())[0], Meddling(), rng))
-        gains.append(pilot.gain(Draft(1e-3 * pilot.inertial * np.sign(pilot.v), dict)))
+        gains.append(pilot.gain(EffectDraft(1e-3 * pilot.inertial * np.sign(pilot.v), dict)))
     assert np.all(np.array(gains) > 0.0)
 
 
-def entry(mechanism, at="ground", **more):
-    return {"mechanism": mechanism, "at": at, "probability": 0.9, "parameters": {}, **more}
-
-
-def said(*found, confused=()):
-    return {"found": list(found), "confused_with": list(confused), "ranking": []}
+def said(*found, confused=(), ranking=()):
+    return answer(found=list(found), confused_with=list(confused), ranking=list(ranking))
 
 
 def effect(mechanism, at="ground", **parameters):
-    return {"mechanism": mechanism, "at": at, "parameters": parameters, "what": ""}
+    return JudgedEffect(mechanism, at, parameters, status="ok", outcome=judging.MISSED)
 
 
 COULOMB = effect("coulomb_friction", "base")
 
 
 @pytest.mark.parametrize(
-    ("truth", "diagnosis", "several", "outcome"),
+    ("truth", "answer", "several", "outcome"),
     [
         (COULOMB, said(entry("coulomb_friction", "base")), True, judging.HIT),
         (COULOMB, said(entry("coulomb_friction", "ground")), True, judging.MISNAMED),
         (effect("coulomb_friction"), said(entry("coulomb_friction")), False, judging.HIT),
         (COULOMB, said(entry("gap_drift"), confused=[entry("coulomb_friction", "base")]), True, judging.CONFUSED),
-        (COULOMB, said(entry("gap_drift", confused_with=["coulomb_friction"])), True, judging.MISNAMED),
-        (effect("gap_drift", ""), said(entry("offset_force", confused_with=["gap_drift"])), True, judging.CONFUSED),
+        (COULOMB, said(entry("gap_drift"), confused=[entry("coulomb_friction", "ground")]), True, judging.MISNAMED),
+        (COULOMB, said(entry("gap_drift"), confused=[{"mechanism": "coulomb_friction"}]), True, judging.CONFUSED),
+        (effect("gap_drift", ""), said(entry("offset_force"), confused=[entry("gap_drift")]), True, judging.CONFUSED),
         (COULOMB, said(entry("unknown")), True, judging.NOTICED),
         (COULOMB, said(), True, judging.MISSED),
         (effect("sensor_delay", ""), said(entry("excitation_delay", "drive")), True, judging.HIT),
@@ -172,42 +184,45 @@ COULOMB = effect("coulomb_friction", "base")
         (effect("unknown", ""), said(entry("gap_drift")), False, judging.MISNAMED),
     ],
 )
-def test_answers_are_judged(truth, diagnosis, several, outcome):
-    if outcome == judging.MISNAMED and several and "confused_with" in diagnosis["found"][0]:
-        truth = {**truth, "at": "base"}
-        diagnosis["found"][0]["confused_with"] = [entry("coulomb_friction", "ground")]
-    assert judging._outcome(truth, diagnosis, several=several)["outcome"] == outcome
+def test_answers_are_judged(truth, answer, several, outcome):
+    assert judging._with_outcome(truth, answer, several=several).outcome == outcome
 
 
 def test_effect_beside_one_that_was_named_is_missed_and_not_misnamed():
-    truth = {"machine": {"values": {}, "signal": {"tones": [[1.0, 1.0, 0.0]]}}}
+    machine = BlindMachine("lin_backlash", {}, (), BlindDrive(((1.0, 1.0, 0.0),)), 1.0, 1, 0.0)
     effects = [effect("gap_drift", ""), effect("offset_force", "")]
-    answer = judging._held_against(said(entry("gap_drift")), effects, truth, several=False)
-    assert [row["outcome"] for row in answer["effects"]] == [judging.HIT, judging.MISSED]
-    assert answer["false"] == []
-    answer = judging._held_against(said(entry("gap_drift"), entry("viscous_damping")), effects, truth, several=False)
-    assert [row["outcome"] for row in answer["effects"]] == [judging.HIT, judging.MISNAMED]
-    assert answer["false"] == ["viscous_damping"]
+    against = judging._held_against(said(entry("gap_drift")), effects, machine, several=False)
+    assert [row.outcome for row in against.effects] == [judging.HIT, judging.MISSED]
+    assert against.false == ()
+    both = said(entry("gap_drift"), entry("viscous_damping"))
+    against = judging._held_against(both, effects, machine, several=False)
+    assert [row.outcome for row in against.effects] == [judging.HIT, judging.MISNAMED]
+    assert against.false == ("viscous_damping",)
 
 
 def test_phase_turns_with_the_sign_of_its_amplitude():
-    whole = {"low": -0.11, "median": -0.1, "high": -0.09}
-    angle = {"low": 0.4 + np.pi - 0.1, "median": 0.4 + np.pi, "high": 0.4 + np.pi + 0.1}
+    whole = interval(-0.1, -0.11, -0.09)
+    angle = interval(0.4 + np.pi, 0.4 + np.pi - 0.1, 0.4 + np.pi + 0.1)
     truth = effect("parametric_stiffness", "", depth=0.1, phase=0.4 + 2.0 * np.pi, ratio=2.0)
-    found = [entry("parametric_stiffness", parameters={"depth": whole, "phase": angle})]
+    found = said(entry("parametric_stiffness", parameters={"depth": whole, "phase": angle})).found
     rows = list(judging._of_effect(truth, found, several=False))
-    assert [row["name"] for row in rows] == ["parametric_stiffness.depth", "parametric_stiffness.phase"]
-    assert all(row["inside"] for row in rows)
+    assert [row.name for row in rows] == ["parametric_stiffness.depth", "parametric_stiffness.phase"]
+    assert all(row.inside for row in rows)
+
+
+def test_interval_that_is_withheld_is_not_judged():
+    found = said(entry("coulomb_friction", parameters={"force": interval(1.0)})).found
+    assert list(judging._of_effect(effect("coulomb_friction", force=1.0), found, several=False)) == []
 
 
 def test_wave_has_a_cosine_and_a_sine():
-    machine = {"signal": {"tones": [[3.0, 1.0, 0.0], [4.0, 2.0, 0.0]]}}
-    found = spelled({"amplitude": 0.5, "phase": 0.3, "ratio": 2.0}, machine)
+    signal = BlindDrive(((3.0, 1.0, 0.0), (4.0, 2.0, 0.0)))
+    found = spelled({"amplitude": 0.5, "phase": 0.3, "ratio": 2.0}, {}, signal)
     angle = np.linspace(0.0, 6.0, 7)
     wave = 5.0 * (found["cosine"] * np.cos(angle) + found["sine"] * np.sin(angle))
     assert np.allclose(wave, 0.5 * np.cos(angle + 0.3))
     assert found["share"] == pytest.approx(0.1)
-    assert spelled({"force": 1.0}, machine) == {"force": 1.0}
+    assert spelled({"force": 1.0}, {}, signal) == {"force": 1.0}
 
 
 def test_probabilities_of_what_cannot_be_told_apart_are_added():
@@ -215,62 +230,66 @@ def test_probabilities_of_what_cannot_be_told_apart_are_added():
         {"mechanism": name, "at": "ground", "probability": p}
         for name, p in (("dahl_friction", 0.6), ("lugre_friction", 0.3), ("gap_drift", 0.05), ("unknown", 0.05))
     ]
-    found = list(judging._stated({"ranking": ranking}, [effect("bouc_wen_hysteresis")], several=False))
-    assert found == [[pytest.approx(0.9), 1.0], [0.05, 0.0]]
+    found = list(judging._stated(said(ranking=ranking).ranking, [effect("bouc_wen_hysteresis")], several=False))
+    assert found == [(pytest.approx(0.9), 1.0), (0.05, 0.0)]
 
 
 def case(number, *effects, named=(), false=(), heldout=None, parameters=()):
-    return {
-        "case": label(number), "model": "lin_backlash", "variant": "plain",
-        "verdict": "mismatch" if named else "adequate", "effects": list(effects),
-        "named": list(named), "false": list(false), "parameters": list(parameters),
-        "stated": [[0.95, 1.0], [0.001, 0.0]], "heldout": heldout, "margin": 1.5,
-    }  # fmt: skip
+    return JudgedCase(
+        case=label(number), model="lin_backlash", variant="plain", margin=1.5,
+        verdict="mismatch" if named else "adequate",
+        answer=HeldAgainst(effects, named, false, parameters, ((0.95, 1.0), (0.001, 0.0))), heldout=heldout,
+    )  # fmt: skip
 
 
 def scored(outcome, gain, mechanism="coulomb_friction", status="ok"):
-    more = {"gain": gain, "outcome": outcome, "status": status, "probability": 0.9}
-    return {**effect(mechanism), **more}
+    return replace(effect(mechanism), gain=gain, outcome=outcome, status=status, probability=0.9)
 
 
 def rows():
-    inside = {"name": "c", "truth": 1.0, "low": 0.9, "median": 1.0, "high": 1.1, "inside": True, "relative_error": 0.0}
-    won = {"before": 0.3, "after": 0.011, "true": 0.01, "share": 0.997, "ratio": 1.1}
+    inside = JudgedParameter("c", 1.0, 0.9, 1.0, 1.1, inside=True, relative_error=0.0)
+    won = HeldOutJudged(before=0.3, after=0.011, true=0.01, share=0.997, ratio=1.1)
     return [
-        case(0, scored(judging.HIT, 100.0), named=["coulomb_friction"], heldout=won, parameters=[inside]),
+        case(0, scored(judging.HIT, 100.0), named=("coulomb_friction",), heldout=won, parameters=(inside,)),
         case(1, scored(judging.MISSED, 7.0)),
-        case(2, scored(judging.MISNAMED, 30.0), named=["gap_drift"], false=["gap_drift"]),
-        case(3, scored(judging.NOTICED, None, "unknown", "no likelihood"), named=["unknown"]),
+        case(2, scored(judging.MISNAMED, 30.0), named=("gap_drift",), false=("gap_drift",)),
+        case(3, scored(judging.NOTICED, math.nan, "unknown", "no likelihood"), named=("unknown",)),
         case(4),
-        case(5, named=["offset_force"], false=["offset_force"]),
+        case(5, named=("offset_force",), false=("offset_force",)),
         case(6),
     ]
 
 
+def test_rows_are_read_back_as_they_were_written():
+    for row in rows():
+        assert repr(from_plain(JudgedCase, json.loads(json.dumps(to_plain(row))))) == repr(row)
+
+
 def test_summary_counts():
-    found = proof.summary(rows(), [{"case": "006", "says": "it failed"}])
-    assert (found["cases"], found["clean"], found["effects"]) == (7, 2, 4)
-    assert [row["hits"] for row in found["detection"]] == [0, 0, 0, 1, 0, 0]
-    assert [row["of"] for row in found["detection"]] == [0, 1, 1, 1, 0, 0]
-    assert found["alarms"][0]["hits"] == 1
-    assert found["coverage"][0]["share"] == 1.0
-    assert found["heldout"]["within"]["hits"] == 0
-    assert [one["case"] for one in found["misses"]] == ["001", "002", "003"]
-    assert [one["case"] for one in found["false_alarms"]] == ["002", "005"]
-    assert {"truth": "coulomb_friction", "answer": "gap_drift", "cases": 1} in found["confusion"]
-    assert {row["state"] for row in found["targets"]} == {"open"}
-    assert found["says"][0].startswith("Of 4 hidden effects 1 were named")
+    found = proof.summary(rows(), [DiagnosedCase("006", "failed", "it failed")])
+    assert (found.cases, found.clean, found.effects) == (7, 2, 4)
+    assert [row.counts.rate.hits for row in found.detection] == [0, 0, 0, 1, 0, 0]
+    assert [row.counts.rate.of for row in found.detection] == [0, 1, 1, 1, 0, 0]
+    assert [row.counts.misnamed_alike for row in found.detection] == [0, 0, 1, 0, 0, 0]
+    assert found.alarms[0].rate.hits == 1
+    assert found.coverage[0].rate.share == 1.0
+    assert found.heldout.within.hits == 0
+    assert [one.case for one in found.misses] == ["001", "002", "003"]
+    assert [one.case for one in found.false_alarms] == ["002", "005"]
+    assert ConfusionCount("coulomb_friction", "gap_drift", 1) in found.confusion
+    assert {row.state for row in found.targets} == {"open"}
+    assert found.says[0].startswith("Of 4 hidden effects 1 were named")
 
 
 def test_bands_are_exact():
-    assert proof.rate(0, 10)["high"] == pytest.approx(1.0 - 0.025**0.1)
-    assert proof.rate(10, 10)["low"] == pytest.approx(0.025**0.1)
-    assert proof.rate(0, 0)["share"] is None
+    assert proof.rate(0, 10).high == pytest.approx(1.0 - 0.025**0.1)
+    assert proof.rate(10, 10).low == pytest.approx(0.025**0.1)
+    assert math.isnan(proof.rate(0, 0).share)
 
 
 def test_no_test_does_better_than_its_false_alarms_without_an_effect():
     limit = proof._limit(rows())
-    told, many = np.array(limit["told"]), np.array(limit["one_of_many"])
+    told, many = np.array(limit.informed), np.array(limit.one_of_many)
     assert np.all(np.diff(told) >= 0.0)
     assert np.all(many <= told)
     assert proof.ncx2.sf(proof.chi2.isf(0.02, 1), 1, 1e-9) == pytest.approx(0.02, abs=1e-6)
@@ -281,12 +300,17 @@ def test_target_is_missed_only_beyond_chance():
     few = proof._target("a", proof.rate(2, 3), 0.95, 1.0)
     many = proof._target("a", proof.rate(10, 30), 0.95, 1.0)
     good = proof._target("a", proof.rate(30, 30), 0.95, 1.0)
-    assert [one["state"] for one in (few, many, good)] == ["open", "missed", "met"]
+    assert [one.state for one in (few, many, good)] == ["open", "missed", "met"]
+
+
+def rendered(title, cases):
+    """Return the page of a trial, read back from what its file holds."""
+    told = Proof("lostmotion.proof/1", title, proof.summary(cases, []), {"seed": 0})
+    return render(from_plain(Proof, json.loads(json.dumps(to_plain(told)))))
 
 
 def test_page_stands_by_itself():
-    facts = {"title": "Blind <trial>", **proof.summary(rows(), []), "provenance": {"seed": 0}}
-    page = render(json.loads(json.dumps(facts)))
+    page = rendered("Blind <trial>", rows())
     assert "Blind &lt;trial&gt;" in page
     for name in ("detection", "reliability", "heldout"):
         assert f'id="section-{name}"' in page
@@ -299,8 +323,7 @@ def test_page_stands_by_itself():
 
 
 def test_page_of_a_clean_study_has_no_curve():
-    facts = {"title": "Clean", **proof.summary([case(k) for k in range(3)], []), "provenance": {}}
-    page = render(json.loads(json.dumps(facts)))
+    page = rendered("Clean", [case(k) for k in range(3)])
     assert "Nothing was hidden in 3 machines." in page
     assert "section-detection" not in page
 
@@ -309,15 +332,15 @@ def test_case_that_cannot_be_diagnosed_is_kept_as_failed(tmp_path):
     concealed(Blind(most=SHORT), tmp_path, 0)
     (tmp_path / "cases" / "000" / "case.toml").write_text("title = 3\n", encoding="utf-8")
     outcome = Diagnoser(tmp_path / "cases")(0)
-    assert outcome["status"] == "failed"
-    assert "lacks 'model'" in outcome["says"]
+    assert outcome.status == "failed"
+    assert "lacks 'model'" in outcome.says
 
 
 def test_single_trial_is_made_apart(tmp_path, monkeypatch):
     """It takes one thread, whatever this process was told to take."""
     monkeypatch.setenv("OPENBLAS_NUM_THREADS", "7")
-    (apart,) = Campaign(whoami, 1, {"seed": 0}, apart=True).run(tmp_path / "apart", 1)
-    (here,) = Campaign(partial(whoami), 1, {"seed": 0}).run(tmp_path / "here", 1)
-    assert apart["process"] != os.getpid()
-    assert here["process"] == os.getpid()
-    assert (apart["threads"], here["threads"]) == ("1", "7")
+    (apart,) = Campaign(whoami, Maker, 1, {"seed": 0}, apart=True).run(tmp_path / "apart", 1)
+    (here,) = Campaign(partial(whoami), Maker, 1, {"seed": 0}).run(tmp_path / "here", 1)
+    assert apart.process != os.getpid()
+    assert here.process == os.getpid()
+    assert (apart.threads, here.threads) == ("1", "7")

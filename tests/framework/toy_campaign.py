@@ -3,18 +3,37 @@
 import os
 import signal
 import time
+from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
 
 from lostmotion.workflow.campaign import Campaign
 from lostmotion_trials.coverage.ranks import rank_of
+from lostmotion_trials.coverage.results import MachineTrial, Sought, Standing
 
 COUNT = 12
 
 
 HELD, SLOW = 4, 0.5
 """From this trial on each one waits to be let go, and then takes so many seconds."""
+
+
+@dataclass(frozen=True)
+class Maker:
+    """In which process a trial was made, and how many threads algebra may take there."""
+
+    number: int
+    process: int
+    threads: str | None
+
+
+@dataclass(frozen=True)
+class Fate:
+    """A trial that ended, or whose process was killed."""
+
+    number: int
+    lost: bool = False
 
 
 def toy(gate, number):
@@ -33,29 +52,26 @@ def toy(gate, number):
 
 def whoami(number):
     """Return a trial that tells in which process it was made, and how many threads algebra may take there."""
-    return {"number": number, "process": os.getpid(), "threads": os.environ.get("OPENBLAS_NUM_THREADS")}
+    return Maker(number, os.getpid(), os.environ.get("OPENBLAS_NUM_THREADS"))
 
 
 def deadly(number):
     """Return a trial, but for two whose process the system kills."""
     if number in (2, 5):
         os.kill(os.getpid(), signal.SIGKILL)
-    return {"number": number}
+    return Fate(number)
 
 
 def buried(number):
-    return {"number": number, "lost": True}
+    return Fate(number, lost=True)
 
 
 def placed(number, truth, chain):
     low, median, high = np.quantile(chain, [0.025, 0.5, 0.975])
-    place = {
-        "truth": truth, "drawn": True, "unit": "1", "low": low, "median": median, "high": high, "sd": chain.std(),
-        "z": (truth - chain.mean()) / chain.std(), "below": float(np.mean(chain < truth)),
-        "rank": rank_of(truth, chain),
-    }  # fmt: skip
-    return {"machine": number, "status": "ok", "says": "", "parameters": {"a": place}}
+    z, below = (truth - chain.mean()) / chain.std(), float(np.mean(chain < truth))
+    standing = Standing("1", low, median, high, chain.std(), z, below, rank_of(truth, chain))
+    return MachineTrial(number, "ok", "", {"a": Sought(truth, True, standing)})
 
 
 def campaign(*, count=COUNT, gate=None, identity=None):
-    return Campaign(partial(toy, gate), count, identity or {"settings": {"noise": 1.0}, "seed": 3})
+    return Campaign(partial(toy, gate), MachineTrial, count, identity or {"settings": {"noise": 1.0}, "seed": 3})

@@ -30,6 +30,7 @@ from lostmotion_plugins.terms.sensor import PositionRipple
 from lostmotion_plugins.terms.viscous import QuadraticDamping
 from lostmotion_trials.blind.bound import alike, spelled
 from lostmotion_trials.blind.mechanisms import TABLE
+from lostmotion_trials.blind.simulator import BlindDrive
 
 VALUES = {"m": 1.2, "c": 0.8, "k": 300.0}
 T = np.arange(0.0, 12.0, 0.02)
@@ -247,7 +248,11 @@ def test_each_is_named_in_a_recording_by_another_integrator(library, tmp_path, n
     (truth,) = row["truth"]
     found = [entry for entry in row["found"] if alike(entry["mechanism"], name)]
     assert found, json.dumps(row["found"])
-    known = spelled({k: v for k, v in truth.items() if k not in ("name", "at")}, row["machine"])
+    known = spelled(
+        {k: v for k, v in truth.items() if k not in ("name", "at")},
+        row["machine"]["values"],
+        BlindDrive(row["machine"]["signal"]["tones"]),
+    )
     for parameter, interval in found[0]["parameters"].items():
         if parameter in known and interval["low"] is not None:
             width = 1.5 * (interval["high"] - interval["low"])

@@ -1,28 +1,26 @@
 """What the true model gains over the nominal one, where the nominal one has to find its way from afar."""
 
-import json
-
 import pytest
 
 from lostmotion.registry import default
 from lostmotion.workflow.prepare import prepare
 from lostmotion_trials.blind.bound import yardstick
-from lostmotion_trials.blind.commitment import Blind, concealed, publish
+from lostmotion_trials.blind.commitment import Blind, concealed, publish, unsealed
 from lostmotion_trials.blind.judging import judged
+from lostmotion_trials.blind.pilot import Effect
 
 pytestmark = pytest.mark.slow
 
 
 def concealed_in(folder, blind, number=0):
     publish(folder, [concealed(blind, folder, number)])
-    truth = json.loads((folder / "sealed" / f"{number:03d}.json").read_text(encoding="utf-8"))
-    return prepare(folder / "cases" / f"{number:03d}" / "case.toml", default()), truth
+    return prepare(folder / "cases" / f"{number:03d}" / "case.toml", default()), unsealed(folder, number)
 
 
 def test_nominal_model_finds_its_best_fit_without_half_of_the_forces(tmp_path):
     """Friction of half of the drive: from the truth itself the nominal fit stops a million below its maximum."""
     prepared, truth = concealed_in(tmp_path, Blind(11, 1500, ("coulomb_friction",)))
-    found = yardstick(prepared, truth, None)
+    found = yardstick(prepared, truth.machine, truth.effects, None)
     assert found.status == ("ok",)
     assert 100.0 < found.gains[0] < 600.0
 
@@ -30,14 +28,13 @@ def test_nominal_model_finds_its_best_fit_without_half_of_the_forces(tmp_path):
 def test_gain_grows_with_what_is_left_out(tmp_path):
     """An effect of no size gains nothing but chance."""
     prepared, truth = concealed_in(tmp_path, Blind(3, 1500, clean=True))
-    nothing = {"mechanism": "offset_force", "at": "", "parameters": {"force": 0.0}, "what": ""}
-    found = yardstick(prepared, {**truth, "effects": [nothing]}, None)
+    found = yardstick(prepared, truth.machine, [Effect("offset_force", "", {"force": 0.0})], None)
     assert 0.0 <= found.gains[0] < 8.0
 
 
 def test_case_without_a_diagnosis_counts_as_missed(tmp_path):
     concealed_in(tmp_path, Blind(4, 800, ("unknown",)))
     row = judged(tmp_path, default(), 0)
-    assert row["verdict"] == "failed"
-    assert [e["outcome"] for e in row["effects"]] == ["missed"]
-    assert row["effects"][0]["status"] == "no likelihood"
+    assert row.verdict == "failed"
+    assert [e.outcome for e in row.answer.effects] == ["missed"]
+    assert row.answer.effects[0].status == "no likelihood"

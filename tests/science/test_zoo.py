@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from lostmotion_trials.blind.simulator import Meddling, Rig, Signal, moved
+from lostmotion_trials.blind.simulator import BlindDrive, BlindMachine, Meddling, moved
 from lostmotion_trials.integrators.hidden import BOUC_WEN, DAHL, LUGRE, Body, Hidden, _levels, move
 
 BODY = Body(m=2.0, c=3.0, k=0.0, k0=800.0, x0=0.02)
@@ -237,8 +237,8 @@ def test_body_sticks_to_a_moving_base():
 
 def rig(**changed):
     values = {"m": 2.0, "c": 8.0, "k": 800.0}
-    given = {"rate": 200.0, "samples": 800, "noise": 0.01, "signal": Signal(((30.0, OMEGA, 0.3), (9.0, 13.0, 1.0)))}
-    return Rig("linear_oscillator", values, ("c", "k"), **{**given, **changed})
+    given = {"rate": 200.0, "samples": 800, "noise": 0.01, "signal": BlindDrive(((30.0, OMEGA, 0.3), (9.0, 13.0, 1.0)))}
+    return BlindMachine("linear_oscillator", values, ("c", "k"), **{**given, **changed})
 
 
 def answer(t, amplitude, omega, phase):
@@ -295,7 +295,7 @@ def test_sensor_can_show_velocity_and_acceleration():
 
 
 def test_drive_is_cut_above_its_limit_and_in_its_dead_zone():
-    signal, t = Signal(((10.0, 5.0, 0.0),)), np.linspace(0.0, 3.0, 3001)
+    signal, t = BlindDrive(((10.0, 5.0, 0.0),)), np.linspace(0.0, 3.0, 3001)
     value, slope = Meddling(limit=6.0, dead=2.0).drive(signal, t)
     assert np.abs(value).max() == pytest.approx(4.0)
     assert (value == 0.0).mean() == pytest.approx(2.0 / math.pi * math.asin(0.2), abs=0.01)
@@ -303,6 +303,6 @@ def test_drive_is_cut_above_its_limit_and_in_its_dead_zone():
 
 
 def test_swept_drive_is_the_integral_of_its_slope():
-    signal = Signal(((2.0, 5.0, 0.2),), sweep=0.8)
+    signal = BlindDrive(((2.0, 5.0, 0.2),), sweep=0.8)
     t = np.linspace(-1.0, 6.0, 70_001)
     assert np.allclose(np.gradient(signal.value(t), t)[1:-1], signal.slope(t)[1:-1], atol=1e-4)

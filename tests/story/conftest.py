@@ -1,6 +1,9 @@
-"""Lets the tests of this folder `import independent`, the integrator of tests/science that shares nothing with ours."""
+"""Lets the tests of this folder import `independent` of tests/science, an integrator that shares nothing with ours, and
+`answers` of tests/framework.
+"""
 
 import sys
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).parents[1] / "science"))
+for folder in ("science", "framework"):
+    sys.path.insert(0, str(Path(__file__).parents[1] / folder))

@@ -3,6 +3,7 @@
 import json
 
 import pytest
+from answers import answer, entry
 from click.testing import CliRunner
 
 from lostmotion.cli import main
@@ -55,7 +56,7 @@ def test_nothing_hidden_nothing_found(tmp_path):
     assert "found      nothing, as it should be" in done.stdout
 
 
-FOUND = {"mechanism": "coulomb_friction", "at": "base"}
+FOUND = entry("coulomb_friction", "base")
 
 
 @pytest.mark.parametrize(
@@ -66,18 +67,18 @@ FOUND = {"mechanism": "coulomb_friction", "at": "base"}
         ([], True, True),
         ([], False, False),
         ([{**FOUND, "at": "ground"}], False, False),
-        ([{"mechanism": "unknown"}], False, False),
-        ([FOUND, {"mechanism": "offset_force", "at": "ground"}], False, False),
+        ([entry("unknown")], False, False),
+        ([FOUND, entry("offset_force", "ground")], False, False),
     ],
 )
 def test_a_wrong_answer_is_called_wrong(found, clean, right):
-    assert judge({"found": found}, clean=clean) is right
+    assert judge(answer(found=found), clean=clean) is right
 
 
 def test_a_miss_ends_with_status_1(monkeypatch, tmp_path):
     from lostmotion_trials.demo import run as workflow
 
-    missed = workflow.Judged(("found      nothing: this should not happen",), {"found": []}, right=False)
+    missed = workflow.Judged(("found      nothing: this should not happen",), right=False)
     monkeypatch.setattr(workflow, "run_demo", lambda *_, **__: missed)
     done = demo("--out", tmp_path / "out")
     assert done.exit_code == 1

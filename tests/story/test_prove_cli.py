@@ -59,7 +59,7 @@ def test_interrupted_trial_goes_on_with_the_same_bytes(done):
 def test_diagnosis_needs_no_truth(done, tmp_path):
     _, out = done
     shutil.copytree(out / "cases" / "000", tmp_path / "000", ignore=shutil.ignore_patterns("diagnosis"))
-    assert Diagnoser(tmp_path)(0)["status"] == "ok"
+    assert Diagnoser(tmp_path)(0).status == "ok"
     there, here = (place / "000" / "diagnosis" / "diagnosis.json" for place in (out / "cases", tmp_path))
     assert here.read_bytes() == there.read_bytes()
 

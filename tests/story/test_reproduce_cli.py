@@ -21,14 +21,24 @@ def run(*args):
 @pytest.fixture(scope="module")
 def done(tmp_path_factory):
     out = tmp_path_factory.mktemp("paper")
-    return run("table1", "fig3", "fig18", "--out", out, "--quick", "--quiet"), out
+    return run("table1", "fig3", "fig5", "fig18", "--out", out, "--quick", "--quiet"), out
 
 
 def test_every_verdict_is_said_and_the_files_are_there(done):
     result, out = done
     assert result.exit_code == 0, result.output
     assert result.output.splitlines()[-1] == str(out / "index.html")
-    names = {"table1.csv", "table1.md", "fig3.png", "fig3.pdf", "fig18.png", "fig18.pdf", "index.html"}
+    names = {
+        "table1.csv",
+        "table1.md",
+        "fig3.png",
+        "fig3.pdf",
+        "fig5.png",
+        "fig5.pdf",
+        "fig18.png",
+        "fig18.pdf",
+        "index.html",
+    }
     assert names | {"reproduce.json"} == {path.name for path in out.iterdir()}
 
 
@@ -41,12 +51,12 @@ def test_figures_have_print_quality(done):
 
 def test_the_numbers_stand_in_the_json(done):
     content = json.loads((done[1] / "reproduce.json").read_text(encoding="utf-8"))
-    assert list(content["items"]) == ["table1", "fig3", "fig18"]
+    assert list(content["items"]) == ["table1", "fig3", "fig5", "fig18"]
     for entry in content["items"].values():
         assert entry["verdict"] in VERDICTS
         assert entry["says"].endswith(".")
         assert entry["numbers"]
-    assert content["provenance"]["settings"] == {"names": ["table1", "fig3", "fig18"], "quick": True}
+    assert content["provenance"]["settings"] == {"names": ["table1", "fig3", "fig5", "fig18"], "quick": True}
 
 
 def test_the_page_shows_each_with_its_sentence(done):
@@ -64,7 +74,7 @@ def test_the_table_has_the_three_cases(done):
 
 
 def test_the_same_seed_gives_the_same_files(done, tmp_path):
-    assert run("table1", "fig3", "fig18", "--out", tmp_path, "--quick", "--quiet", "--jobs", "1").exit_code == 0
+    assert run("table1", "fig3", "fig5", "fig18", "--out", tmp_path, "--quick", "--quiet", "--jobs", "1").exit_code == 0
     for path in done[1].iterdir():
         assert path.read_bytes() == (tmp_path / path.name).read_bytes(), path.name
 

@@ -89,9 +89,9 @@ def _many(
     batch = Batch(named(cases), out.absolute(), plugins, seed, settings)
     with counted("diagnose", len(batch.cases), "cases", quiet=quiet) as say:
         rows = run_batch(batch, jobs=jobs, say=say)
-    aside = [row for row in rows if row["status"] == ASIDE]
+    aside = [row for row in rows if row.status == ASIDE]
     for row in aside:
-        click.echo(f"lostmotion: {plain(row['case'])} is set aside: {plain(row['says'])}", err=True)
+        click.echo(f"lostmotion: {plain(row.case)} is set aside: {plain(row.says)}", err=True)
     for line in (*lines_of(rows), str(out / SUMMARY)):
         click.echo(line)
     if aside:

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 
 import click
 
-from lostmotion.cli._lazy import PluginName, examples, registry_of
-from lostmotion.cli.options import on_a_case, settable
+from lostmotion.cli._lazy import examples, registry_of
+from lostmotion.cli.options import on_a_case, settable, with_maps, with_terms
 
 if TYPE_CHECKING:
     from lostmotion.results.identification import Parameter
@@ -33,22 +33,8 @@ if TYPE_CHECKING:
     type=click.Choice(["trajectory", "quantifiers"]),
     help="By the recordings themselves, or by chaos measures at levels of the drive; the case decides if not given.",
 )
-@click.option(
-    "--term",
-    "terms",
-    metavar="NAME[@PLACE]",
-    type=PluginName("term"),
-    multiple=True,
-    help="A term to add to the model of the case.",
-)
-@click.option(
-    "--map",
-    "maps",
-    metavar="FILE",
-    multiple=True,
-    type=click.Path(exists=True, path_type=Path),
-    help="A map for the route by quantifiers, of `lostmotion map`; made in DIR if not given.",
-)
+@with_terms
+@with_maps
 @click.option("--walkers", type=click.IntRange(1), help="Walkers of the ensemble; 16 or more if not given.")
 @click.option("--max-steps", default=2000, show_default=True, type=click.IntRange(10), help="Steps at the most.")
 @click.option(

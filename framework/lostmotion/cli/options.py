@@ -8,6 +8,7 @@ from typing import Any
 
 import click
 
+from lostmotion.cli._lazy import PluginName
 from lostmotion.settings import DEFAULT, Settings
 
 Command = Callable[..., Any]
@@ -54,6 +55,30 @@ def settable(command: Command) -> Command:
         multiple=True,
         callback=_settings,
         help="Change a threshold that decides, such as select.decisive=4; `lostmotion settings` lists them.",
+    )(command)
+
+
+def with_terms(command: Command) -> Command:
+    """Return the command with the option --term, terms that are added to the model that is fitted: `terms`."""
+    return click.option(
+        "--term",
+        "terms",
+        metavar="NAME[@PLACE]",
+        type=PluginName("term"),
+        multiple=True,
+        help="A term to add to the model that is fitted.",
+    )(command)
+
+
+def with_maps(command: Command) -> Command:
+    """Return the command with the option --map, maps that the route by quantifiers looks things up in: `maps`."""
+    return click.option(
+        "--map",
+        "maps",
+        metavar="FILE.nc|FILE.zarr",
+        multiple=True,
+        type=click.Path(exists=True, path_type=Path),
+        help="A map for the route by quantifiers, of `lostmotion map`; made in DIR if not given.",
     )(command)
 
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import json
 import platform
 from collections import Counter
-from dataclasses import MISSING, asdict, fields, is_dataclass
-from typing import TYPE_CHECKING, Any
+from dataclasses import asdict
+from typing import TYPE_CHECKING
 
 import click
 
@@ -16,7 +16,7 @@ from lostmotion.errors import PluginError, nearest
 from lostmotion.registry import Entry, Registry
 
 if TYPE_CHECKING:
-    from lostmotion.contracts import Param
+    from lostmotion.cli.sheets import ParameterSheet, PluginSheet
     from lostmotion.testing import Finding
 
 _AS_JSON = click.option("--json", "as_json", is_flag=True, help="Write JSON, for machines.")
@@ -50,10 +50,13 @@ def command(ctx: click.Context, as_json: bool) -> None:
 @click.pass_context
 def show(ctx: click.Context, name: str, as_json: bool) -> None:
     """Show what a plugin says of itself: physics, formula, parameters with units and bounds, paper, owner."""
+    from lostmotion.cli.sheets import sheet_of
+    from lostmotion.codec import to_plain
+
     registry = registry_of(ctx)
-    sheets = [_sheet(entry, registry.load(entry.kind, name)) for entry in _called(registry, name)]
+    sheets = [sheet_of(entry, registry.load(entry.kind, name)) for entry in _called(registry, name)]
     if _wants_json(ctx, as_json):
-        _print_json(ctx, plugins=sheets)
+        _print_json(ctx, plugins=[to_plain(sheet) for sheet in sheets])
         return
     for sheet in sheets:
         _print_sheet(sheet)
@@ -101,10 +104,10 @@ def _wants_json(ctx: click.Context, as_json: bool) -> bool:
     return as_json or bool(ctx.parent and ctx.parent.params.get("as_json"))
 
 
-def _print_json(ctx: click.Context, **content: Any) -> None:
+def _print_json(ctx: click.Context, **content: object) -> None:
     provenance = {"lostmotion": __version__, "python": platform.python_version(), "command": ctx.command_path}
-    content = {"schema": "lostmotion.plugins/1", "provenance": provenance, **content}
-    click.echo(json.dumps(content, indent=1, default=str))
+    whole = {"schema": "lostmotion.plugins/1", "provenance": provenance, **content}
+    click.echo(json.dumps(whole, indent=1, default=str))
 
 
 def _print_table(entries: tuple[Entry, ...]) -> None:
@@ -120,84 +123,33 @@ def _complaint(entry: Entry) -> str:
     return f"{entry.owner} ({entry.target}): {entry.why}" if entry.kind == "package" else entry.why
 
 
-def _sheet(entry: Entry, cls: type[Any]) -> dict[str, Any]:
-    """Return everything that a class says of itself, as plain data."""
-    said = {"kind": entry.kind, "name": entry.name, "owner": f"{entry.owner} {entry.version}".strip()}
-    said["about"] = " ".join((cls.__doc__ or "").split())
-    words = {key: getattr(cls, key, None) for key in _WORDS}
-    sheet: dict[str, Any] = said | {key: word for key, word in words.items() if isinstance(word, str)}
-    sheet |= {key: sorted(getattr(cls, key)) for key in _SETS if getattr(cls, key, None)}
-    sheet |= {key: list(getattr(cls, key)) for key in _LISTS if getattr(cls, key, None)}
-    if places := getattr(cls, "interfaces", None):
-        sheet["interfaces"] = [{"name": i.name, "row": i.row, "inertia": i.inertia, "holds": i.holds} for i in places]
-    if params := getattr(cls, "params", None):
-        motions = getattr(cls, "motions", None) or (cls.motion,)
-        sheet["parameters"] = [_parameter(q, motions, entry.kind) for q in params]
-    if options := [f for f in fields(cls) if f.init and f.name != "at"] if is_dataclass(cls) else []:
-        sheet["options"] = {f.name: None if f.default is MISSING else f.default for f in options}
-    if known := getattr(cls, "known_failures", None):
-        sheet["known_failures"] = dict(known)
-    return sheet
+def _print_sheet(sheet: PluginSheet) -> None:
+    from lostmotion.cli.sheets import LISTS, SETS, WORDS
 
-
-_WORDS = ("physics", "formula", "null", "paper", "motion", "reads", "unit")
-_LISTS = ("states", "inputs", "channels", "needs", "motions", "resembles")
-_SETS = ("preserves",)
-
-
-def _parameter(q: Param, motions: tuple[str, ...], kind: str) -> dict[str, Any]:
-    """Return a parameter as plain data, with its unit in each kind of motion."""
-    sheet: dict[str, Any] = {"name": q.name, "meaning": q.meaning, "units": {m: q.dimension.unit(m) for m in motions}}
-    sheet |= {"low": _bound(q.low), "high": _bound(q.high), "scale": q.scale, "null": q.null}
-    sheet |= {"typical": q.typical, "aliases": list(q.aliases)}
-    return sheet | ({"prior": _prior(q)} if kind == "term" else {})
-
-
-def _prior(q: Param) -> str:
-    """Return how a diagnosis believes in a parameter of a term beforehand, in natural sizes of the recording."""
-    if q.choices:
-        return f"one of {', '.join(f'{c:g}' for c in q.choices)}"
-    sizes = ("drive force", "rms position", "length of the recording" if q.lasting else "time of the motion")
-    powers = zip(sizes, (q.dimension.force, q.dimension.length, q.dimension.time), strict=True)
-    natural = "".join(
-        f" {'*' if n > 0 else '/'} {size}" + (f"^{abs(n)}" if abs(n) > 1 else "") for size, n in powers if n
-    )
-    form = "log-normal about" if q.scale == "log" else "half-normal of width" if q.low == 0.0 else "normal about 0, sd"
-    return f"{form} {q.typical:g}{natural}"
-
-
-def _bound(value: float) -> float | None:
-    """Return a finite bound, or None, since JSON has no infinity."""
-    return value if abs(value) < float("inf") else None
-
-
-def _print_sheet(sheet: dict[str, Any]) -> None:
-    click.secho(f"{sheet['name']} ({sheet['kind']} of {sheet['owner']})", bold=True)
-    click.echo(click.wrap_text(sheet["about"], 100, "  ", "  "))
-    for key in (*_WORDS, *_LISTS, *_SETS):
-        if key in sheet:
-            value = sheet[key] if isinstance(sheet[key], str) else ", ".join(sheet[key])
-            click.echo(click.wrap_text(value, 100, f"  {key:<11}", " " * 13))
-    for place in sheet.get("interfaces", ()):
-        holds = f", holds {', '.join(place['holds'])}" if place["holds"] else ""
-        click.echo(f"  {'interface':<11}{place['name']}: acts on row {place['row']} through {place['inertia']}{holds}")
-    for parameter in sheet.get("parameters", ()):
+    click.secho(f"{sheet.name} ({sheet.kind} of {sheet.owner})", bold=True)
+    click.echo(click.wrap_text(sheet.about, 100, "  ", "  "))
+    for key in (*WORDS, *LISTS, *SETS):
+        if (value := getattr(sheet, key)) is not None:
+            text = value if isinstance(value, str) else ", ".join(value)
+            click.echo(click.wrap_text(text, 100, f"  {key:<11}", " " * 13))
+    for place in sheet.interfaces or ():
+        holds = f", holds {', '.join(place.holds)}" if place.holds else ""
+        click.echo(f"  {'interface':<11}{place.name}: acts on row {place.row} through {place.inertia}{holds}")
+    for parameter in sheet.parameters or ():
         click.echo(f"  {'parameter':<11}{_parameter_line(parameter)}")
-        if "prior" in parameter:
-            click.echo(f"  {'':<11}  prior {parameter['prior']}")
-    for option, value in sheet.get("options", {}).items():
-        click.echo(f"  {'option':<11}{option} = {value!r}")
-    for rule, reason in sheet.get("known_failures", {}).items():
+        if parameter.prior is not None:
+            click.echo(f"  {'':<11}  prior {parameter.prior}")
+    for option, default in (sheet.options or {}).items():
+        click.echo(f"  {'option':<11}{option} = {default!r}")
+    for rule, reason in (sheet.known_failures or {}).items():
         click.echo(f"  {'breaks':<11}{rule}: {reason}")
 
 
-def _parameter_line(q: dict[str, Any]) -> str:
-    units = " or ".join(dict.fromkeys(q["units"].values()))
-    low = "-inf" if q["low"] is None else f"{q['low']:g}"
-    high = "inf" if q["high"] is None else f"{q['high']:g}"
-    null = "" if q["null"] is None else f", does nothing at {q['null']:g}"
-    also = f", also called {', '.join(q['aliases'])}" if q["aliases"] else ""
-    return f"{q['name']}: {q['meaning']} in {units}, from {low} to {high}, {q['scale']}{null}{also}"
+def _parameter_line(q: ParameterSheet) -> str:
+    units = " or ".join(dict.fromkeys(q.units.values()))
+    null = "" if q.null is None else f", does nothing at {q.null:g}"
+    also = f", also called {', '.join(q.aliases)}" if q.aliases else ""
+    return f"{q.name}: {q.meaning} in {units}, from {q.low:g} to {q.high:g}, {q.scale}{null}{also}"
 
 
 def _print_checks(report: list[tuple[Entry, list[Finding]]]) -> None:

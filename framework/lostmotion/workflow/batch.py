@@ -12,14 +12,14 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from lostmotion.errors import CaseError, DataError, LostMotionError, PlaceError, PluginWarning
 from lostmotion.provenance import digest, provenance
 from lostmotion.registry import Registry
 from lostmotion.settings import DEFAULT, Settings
-from lostmotion.storage import folder_for, load_json, writing
-from lostmotion.workflow.batch_table import SUMMARY, row_aside, row_of, save_rows
+from lostmotion.storage import folder_for, writing
+from lostmotion.workflow.answer import read_answer
+from lostmotion.workflow.batch_table import SUMMARY, BatchRow, row_aside, row_of, save_rows
 from lostmotion.workflow.campaign import Campaign, Say
 from lostmotion.workflow.diagnose import run_diagnosis
 from lostmotion.workflow.prepare import case_of
@@ -40,14 +40,14 @@ class Batch:
     seed: int = 0
     settings: Settings = DEFAULT
 
-    def __call__(self, number: int) -> dict[str, Any]:
+    def __call__(self, number: int) -> BatchRow:
         """Return the row of a case, once its diagnosis stands in its folder; one that cannot be used has none."""
         name, path = self.cases[number]
         place = self.out / name
         try:
             with _notes_only():
                 self._settle(path, place)
-            return row_of(name, load_json(place / "diagnosis.json", "run the same command again"))
+            return row_of(name, read_answer(place))
         except PlaceError:
             raise
         except LostMotionError as err:
@@ -59,7 +59,7 @@ class Batch:
         _clear(place)
         return row_aside(name, said)
 
-    def lost(self, number: int) -> dict[str, Any]:
+    def lost(self, number: int) -> BatchRow:
         """Return the row of a case whose process was killed from outside, twice: the second time it ran by itself."""
         name, _ = self.cases[number]
         _clear(self.out / name)
@@ -80,23 +80,22 @@ class Batch:
         files = {spec.label: digest(case.folder / spec.file) for spec in case.recordings}
         wanted = provenance("diagnose", {}, self.seed, {**registry.origins(), "case": case.digest, **files})
         try:
-            made: Any = load_json(place / "diagnosis.json", "it is made again").get("provenance")
+            made = read_answer(place).provenance
         except DataError:
             return False
-        if not isinstance(made, Mapping) or {**made, "settings": {}} != wanted:
-            return False
         told = made.get("settings")
-        return isinstance(told, Mapping) and told.get("thresholds") == self.settings.as_dict()
+        thresholds = told.get("thresholds") if isinstance(told, Mapping) else None
+        return {**made, "settings": {}} == wanted and thresholds == self.settings.as_dict()
 
     def _registry(self) -> Registry:
         """Return a registry for one case, which may bring plugins that the next one does not know."""
         return Registry.discover(self.plugins)
 
 
-def run_batch(batch: Batch, *, jobs: int, say: Say = lambda _done, _of: None) -> list[dict[str, Any]]:
+def run_batch(batch: Batch, *, jobs: int, say: Say = lambda _done, _of: None) -> list[BatchRow]:
     """Return a row for each case after writing its diagnosis into the folder of its name, and all rows as a table."""
     identity = provenance("diagnose many", {"thresholds": batch.settings.as_dict()}, batch.seed, {})
-    campaign = Campaign(batch, len(batch.cases), identity, apart=True, lost=batch.lost)
+    campaign = Campaign(batch, BatchRow, len(batch.cases), identity, apart=True, lost=batch.lost)
     rows = campaign.run(folder_for(batch.out) / KEPT, jobs, say, fresh=True)
     save_rows(batch.out / SUMMARY, rows)
     return rows

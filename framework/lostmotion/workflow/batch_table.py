@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import csv
+import math
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
+from lostmotion.codec import to_plain, told
 from lostmotion.storage import whole
+from lostmotion.workflow.answer import Answer, AnswerEntry, AnswerParameters
 
 SUMMARY = "summary.csv"
 DIAGNOSED, ASIDE = "diagnosed", "set aside"
@@ -17,44 +20,71 @@ COLUMNS = (
     "heldout_before", "heldout_after", "noise_floor", "moved", "moved_before", "moved_after", "moved_by", "says",
 )  # fmt: skip
 
-Row = Mapping[str, Any]
+
+@dataclass(frozen=True, kw_only=True)
+class BatchRow:
+    """What became of a case; of one that was set aside there are name, status and sentence only."""
+
+    case: str = told("name of the case, and of its folder")
+    status: str = told(f"{DIAGNOSED} or {ASIDE}")
+    verdict: str | None = told("adequate or mismatch", default=None)
+    mechanisms: str | None = told("what was found, with places; empty where nothing was", default=None)
+    probability: float | None = told("least probability of what was found", default=None)
+    share_of_drive: float | None = told("largest force of what was found over that of the drive", default=None)
+    unexplained_share: float | None = told("rms of the force that is left over that of the drive", default=None)
+    heldout_before: float | None = told("held-out error of the nominal model over the response", default=None)
+    heldout_after: float | None = told("the same of the model with what was found", default=None)
+    noise_floor: float | None = told("the noise over the response", default=None)
+    move: Move | None = told("the parameter that moved most, if one did", flat=True, default=None)
+    says: str = told("the answer in sentences, or why there is none")
 
 
-def row_of(name: str, content: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the row of a case from its `diagnosis.json`; shares are of the drive, held-out errors of the response."""
-    found, fit = content["found"], content["fit"]
-    return {
-        "case": name,
-        "status": DIAGNOSED,
-        "verdict": content["verdict"],
-        "mechanisms": " + ".join(map(_mechanism, found)),
-        "probability": min(_known(found, "probability"), default=None),
-        "share_of_drive": max(_known(found, "share_of_drive"), default=None),
-        "unexplained_share": content["unexplained"]["share_of_drive"],
-        "heldout_before": fit["before"]["heldout_nrmse"],
-        "heldout_after": fit["after"]["heldout_nrmse"],
-        "noise_floor": fit["noise_floor_nrmse"],
-        **_moved(content["parameters"]),
-        "says": " ".join(content["says"]),
-    }
+@dataclass(frozen=True)
+class Move:
+    """The parameter that moved most from the nominal model to the one with what was found."""
+
+    moved: str = told("its name")
+    moved_before: float = told("its median in the nominal model, in SI units")
+    moved_after: float = told("its median with what was found, in SI units")
+    moved_by: float = told("the change over the first of both")
 
 
-def row_aside(name: str, said: str) -> dict[str, Any]:
+def row_of(name: str, answer: Answer) -> BatchRow:
+    """Return the row of a case from what its diagnosis said."""
+    found, fit = answer.found, answer.fit
+    return BatchRow(
+        case=name,
+        status=DIAGNOSED,
+        verdict=answer.verdict,
+        mechanisms=" + ".join(map(_mechanism, found)),
+        probability=min(_known(one.probability for one in found), default=None),
+        share_of_drive=max(_known(one.share_of_drive for one in found), default=None),
+        unexplained_share=answer.unexplained.share_of_drive,
+        heldout_before=fit.before.heldout_nrmse,
+        heldout_after=fit.after.heldout_nrmse,
+        noise_floor=fit.noise_floor_nrmse,
+        move=_moved(answer.parameters),
+        says=" ".join(answer.says),
+    )
+
+
+def row_aside(name: str, said: str) -> BatchRow:
     """Return the row of a case that could not be used, with the sentence that says why."""
-    return {"case": name, "status": ASIDE, "says": " ".join(said.split())}
+    return BatchRow(case=name, status=ASIDE, says=" ".join(said.split()))
 
 
-def save_rows(path: Path, rows: Sequence[Row]) -> None:
+def save_rows(path: Path, rows: Sequence[BatchRow]) -> None:
     """Write one line for each case as CSV; what a case does not have stays empty."""
     with whole(path) as spare, spare.open("w", encoding="utf-8", newline="") as stream:
         writer = csv.writer(stream, lineterminator="\n")
         writer.writerow(COLUMNS)
-        writer.writerows([_cell(row.get(column)) for column in COLUMNS] for row in rows)
+        plain = map(to_plain, rows)
+        writer.writerows([_cell(row.get(column)) for column in COLUMNS] for row in plain)
 
 
-def lines_of(rows: Sequence[Row]) -> list[str]:
+def lines_of(rows: Sequence[BatchRow]) -> list[str]:
     """Return how many cases were diagnosed, and how often each answer was given, the most frequent one first."""
-    answers = Counter(row["mechanisms"] or row["verdict"] for row in rows if row["status"] == DIAGNOSED)
+    answers = Counter(row.mechanisms or str(row.verdict) for row in rows if row.status == DIAGNOSED)
     aside = len(rows) - answers.total()
     head = f"{answers.total()} of {len(rows)} cases diagnosed" + (f", {aside} set aside" if aside else "")
     width = len(str(max(answers.values(), default=0)))
@@ -62,27 +92,26 @@ def lines_of(rows: Sequence[Row]) -> list[str]:
     return [head, *(f"  {count:>{width}}  {answer}" for answer, count in ordered)]
 
 
-def _mechanism(entry: Mapping[str, Any]) -> str:
-    place = entry.get("at")
-    return f"{entry['mechanism']}@{place}" if place else str(entry["mechanism"])
+def _mechanism(entry: AnswerEntry) -> str:
+    return f"{entry.mechanism}@{entry.at}" if entry.at else entry.mechanism
 
 
-def _known(entries: Sequence[Mapping[str, Any]], key: str) -> list[float]:
-    return [entry[key] for entry in entries if entry.get(key) is not None]
+def _known(values: Iterable[float]) -> list[float]:
+    return [value for value in values if not math.isnan(value)]
 
 
-def _moved(parameters: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the parameter that moved most from before to after, as a share of what it was; nothing if none moved."""
-    before, after = ({name: one["median"] for name, one in parameters[when].items()} for when in ("before", "after"))
+def _moved(parameters: AnswerParameters) -> Move | None:
+    """Return the parameter that moved most from before to after, as a share of what it was; None if none moved."""
+    before, after = ({name: one.median for name, one in of.items()} for of in (parameters.before, parameters.after))
     both = [name for name in before if before[name] and after.get(name) not in (None, before[name])]
     shares = {name: after[name] / before[name] - 1.0 for name in both}
     if not shares:
-        return {}
+        return None
     name = max(shares, key=lambda one: abs(shares[one]))
-    return {"moved": name, "moved_before": before[name], "moved_after": after[name], "moved_by": shares[name]}
+    return Move(name, before[name], after[name], shares[name])
 
 
-def _cell(value: Any) -> Any:
+def _cell(value: object) -> object:
     if isinstance(value, float):
         return f"{value:.6g}"
     return "" if value is None else value

@@ -19,8 +19,9 @@ from dataclasses import dataclass
 from functools import partial
 from multiprocessing.connection import Connection
 from pathlib import Path
-from typing import Any
+from typing import Generic, TypeVar
 
+from lostmotion.codec import from_plain, to_plain
 from lostmotion.errors import DataError
 from lostmotion.recording.apart import ALONE
 from lostmotion.storage import folder_for, held, load_json, save_json, writing
@@ -32,39 +33,55 @@ TRIALS = "trials"
 RENEWED = 100
 """Trials that a process makes: a kernel it compiles holds 35 MiB for good, and one from the cache next to nothing."""
 
-Trial = Callable[[int], Mapping[str, Any]]
-"""Makes the outcome of one trial, ready for JSON, from its number; it can be pickled."""
+T = TypeVar("T")
+Trial = Callable[[int], T]
+"""Makes the outcome of one trial, a frozen dataclass that the codec writes, from its number; it can be pickled."""
 Say = Callable[[int, int], None]
 """Told how many trials are done, and how many there are."""
 
 
 @dataclass(frozen=True)
-class Campaign:
+class Campaign(Generic[T]):
     """Trials 0 to `count` - 1 and what makes them: `identity`, plain as JSON knows it, without the number of trials.
 
-    With `apart` no trial is made in this process, even if a single one is left. A trial whose process is killed, by a
-    system that runs out of memory for instance, has the outcome `lost`; without that it ends the campaign.
+    `kind` is the class of an outcome, as which it is read from its file. With `apart` no trial is made in this process,
+    even if a single one is left. A trial whose process is killed, by a system that runs out of memory for instance, has
+    the outcome `lost`; without that it ends the campaign.
     """
 
-    trial: Trial
+    trial: Trial[T]
+    kind: type[T]
     count: int
-    identity: Mapping[str, Any]
+    identity: Mapping[str, object]
     apart: bool = False
-    lost: Trial | None = None
+    lost: Trial[T] | None = None
 
-    def run(self, folder: Path, jobs: int, say: Say = lambda _done, _of: None, *, fresh: bool = False) -> list[Any]:
+    def run(self, folder: Path, jobs: int, say: Say = lambda _done, _of: None, *, fresh: bool = False) -> list[T]:
         """Return the outcome of every trial in order; those that `folder` already holds are not made again.
 
         Raises `DataError` when the folder holds a campaign of another identity, unless a `fresh` one is wanted.
         """
         with held(folder_for(folder)):
             self._claim(folder, fresh)
-            missing = [k for k in range(self.count) if _outcome(folder, k) is None]
+            missing = [k for k in range(self.count) if not self._stands(folder, k)]
             say(self.count - len(missing), self.count)
             with closing(self._made(folder, missing, jobs)) as numbers:
                 for done, _ in enumerate(numbers, start=self.count - len(missing) + 1):
                     say(done, self.count)
-        return [load_json(_file(folder, k), "run the same command again") for k in range(self.count)]
+        return [self._outcome(folder, k) for k in range(self.count)]
+
+    def _outcome(self, folder: Path, number: int) -> T:
+        """Return the outcome of a trial that is kept."""
+        path = _file(folder, number)
+        return from_plain(self.kind, load_json(path, "run the same command again"), str(path))
+
+    def _stands(self, folder: Path, number: int) -> bool:
+        """Return whether the outcome of a trial is kept; one that cannot be read is made again."""
+        try:
+            self._outcome(folder, number)
+        except DataError:
+            return False
+        return True
 
     def _claim(self, folder: Path, fresh: bool) -> None:
         """Make the folder this campaign's, or refuse one that is another's."""
@@ -91,10 +108,10 @@ class Campaign:
         return _spread(make, missing, min(jobs, len(missing)), self.lost and partial(_kept, self.lost, folder))
 
 
-def _plan(path: Path) -> dict[str, Any] | None:
+def _plan(path: Path) -> Mapping[str, object] | None:
     """Return what made the campaign of a folder, or None where there is none of ours."""
     try:
-        found: Any = json.loads(path.read_text(encoding="utf-8"))
+        found = json.loads(path.read_text(encoding="utf-8"))
     except (OSError, ValueError, RecursionError):
         return None
     return found if isinstance(found, dict) and found.get("schema") == SCHEMA else None
@@ -104,17 +121,9 @@ def _file(folder: Path, number: int) -> Path:
     return folder / TRIALS / f"{number:05d}.json"
 
 
-def _outcome(folder: Path, number: int) -> dict[str, Any] | None:
-    """Return the outcome of a trial that is kept, or None where there is none that can be read: it is made again."""
-    try:
-        return load_json(_file(folder, number), "it is made again")
-    except DataError:
-        return None
-
-
-def _kept(trial: Trial, folder: Path, number: int) -> int:
+def _kept(trial: Trial[T], folder: Path, number: int) -> int:
     """Return the number of a trial, once its outcome is on the disk."""
-    save_json(_file(folder, number), trial(number))
+    save_json(_file(folder, number), to_plain(trial(number)))
     return number
 
 
@@ -194,7 +203,7 @@ def _listen(ear: Connection) -> None:
     threading.Thread(target=hear, daemon=True).start()
 
 
-def _require_same(folder: Path, old: Mapping[str, Any], new: Mapping[str, Any]) -> None:
+def _require_same(folder: Path, old: Mapping[str, object], new: Mapping[str, object]) -> None:
     if old == new:
         return
     said = "; ".join(_differences(old, new))
@@ -204,7 +213,7 @@ def _require_same(folder: Path, old: Mapping[str, Any], new: Mapping[str, Any]) 
     )
 
 
-def _differences(old: Mapping[str, Any], new: Mapping[str, Any]) -> Iterator[str]:
+def _differences(old: Mapping[str, object], new: Mapping[str, object]) -> Iterator[str]:
     """Yield what two nested tables differ in, entry by entry."""
     for key in sorted({*old, *new}):
         was, now = old.get(key), new.get(key)

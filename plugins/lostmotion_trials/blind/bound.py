@@ -9,7 +9,6 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
@@ -18,11 +17,17 @@ from lostmotion.inference.fit import Fit, maximise, restarted, warmed
 from lostmotion.inference.leftovers import significant_random_force
 from lostmotion.inference.natural import term_of
 from lostmotion.inference.setup import polish, problem_of, split, stepped
+from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.predict import Horizon
 from lostmotion.likelihood.problem import NOISE, RANDOM, Problem
 from lostmotion.likelihood.system import System, key_of
+from lostmotion.results import Interval
 from lostmotion.stages.compare import pieces_of, predict, rates_of
+from lostmotion.workflow.answer import Answer, AnswerEntry, AnswerFit
 from lostmotion.workflow.prepare import Prepared
+from lostmotion_trials.blind.pilot import Effect
+from lostmotion_trials.blind.sealed import SealedMachine
+from lostmotion_trials.blind.simulator import BlindDrive, BlindMachine
 
 ALIKE: tuple[frozenset[str], ...] = (
     frozenset({"excitation_delay", "sensor_delay"}),
@@ -37,8 +42,6 @@ WARM = (0.0, 3.0, 2.0 * math.log(300.0))
 """Fits begin at the usual random force and at larger ones, in log intensity; with the largest, 0.3 of the drive, a
 model that lacks something finds its way from afar."""
 
-Row = Mapping[str, Any]
-
 
 def alike(one: str, other: str) -> bool:
     """Return whether two names count as one."""
@@ -47,27 +50,29 @@ def alike(one: str, other: str) -> bool:
 
 @dataclass(frozen=True)
 class Yardstick:
-    """What the true model reaches: the gain of each effect (None where no term stands for it), with a status.
+    """What the true model reaches: the gain of each effect (NaN where no term stands for it), with a status.
 
     `nrmse` is its error on held-out data over the horizon of the diagnosis, and `margin` by how much log-likelihood it
-    is better than the model that was found; None where either could not be fitted.
+    is better than the model that was found; NaN where either could not be fitted.
     """
 
-    gains: tuple[float | None, ...]
+    gains: tuple[float, ...]
     status: tuple[str, ...]
-    nrmse: float | None = None
-    margin: float | None = None
+    nrmse: float = math.nan
+    margin: float = math.nan
 
 
-def yardstick(prepared: Prepared, truth: Row, diagnosis: Row | None) -> Yardstick:
+def yardstick(
+    prepared: Prepared, machine: SealedMachine, effects: Sequence[Effect], answer: Answer | None
+) -> Yardstick:
     """Return what the true model of a case reaches, over the horizon of a diagnosis if there is one."""
     train, held = split(prepared.observations)
     system = System(prepared.model, prepared.terms)
-    problem = _begun(problem_of(system, prepared.case, train, jobs=1), truth["machine"])
-    effects = [{**e, "parameters": spelled(e["parameters"], truth["machine"])} for e in truth["effects"]]
-    keys = [key_for(system, effect) for effect in effects]
+    problem = _begun(problem_of(system, prepared.case, train, jobs=1), machine)
+    effects = [with_names(effect, machine) for effect in effects]
+    keys = [key_for(system, effect.mechanism, effect.at) for effect in effects]
     status = [_status(effect, key) for effect, key in zip(effects, keys, strict=True)]
-    acting = {key: effect for key, effect in zip(keys, effects, strict=True) if key}
+    acting = {key: effect.parameters for key, effect in zip(keys, effects, strict=True) if key}
     full = _fitted(problem, acting)
     gains = [
         max(full.log_likelihood - _fitted(problem, {k: e for k, e in acting.items() if k != key}).log_likelihood, 0.0)
@@ -75,22 +80,27 @@ def yardstick(prepared: Prepared, truth: Row, diagnosis: Row | None) -> Yardstic
         else _without_term(full, effect)
         for key, effect in zip(keys, effects, strict=True)
     ]
-    known = all(key or effect["mechanism"] == "random_force" for key, effect in zip(keys, effects, strict=True))
-    if not diagnosis or not known:
+    known = all(key or effect.mechanism == "random_force" for key, effect in zip(keys, effects, strict=True))
+    if answer is None or not known:
         return Yardstick(tuple(gains), tuple(status))
-    margin = _margin(full, problem, diagnosis["found"]) if acting else None
-    error = _held_out(polish(full), prepared, held, diagnosis["fit"])
+    margin = _margin(full, problem, answer.found) if acting else math.nan
+    error = _held_out(polish(full), prepared, held, answer.fit)
     return Yardstick(tuple(gains), tuple(status), error, margin)
 
 
-def spelled(truth: Mapping[str, float], machine: Row) -> dict[str, float]:
+def with_names(effect: Effect, machine: BlindMachine) -> Effect:
+    """Return an effect whose parameters have all further names that they have in the library."""
+    return replace(effect, parameters=spelled(effect.parameters, machine.values, machine.signal))
+
+
+def spelled(truth: Mapping[str, float], values: Mapping[str, float], signal: BlindDrive) -> dict[str, float]:
     """Return the parameters of an effect with all further names they have in the library.
 
-    A wave of an amplitude and a phase (rad) has a cosine and a sine; one of the drive is a share of that. A hidden mass
-    is a share of the moving one, and of a drive that is cut all is lost.
+    `values` are those of the machine. A wave of an amplitude and a phase (rad) has a cosine and a sine; one of the
+    drive is a share of that. A hidden mass is a share of the moving one, and of a drive that is cut all is lost.
     """
     if "mass" in truth:
-        return {**truth, "mass_ratio": truth["mass"] / machine["values"]["m"]}
+        return {**truth, "mass_ratio": truth["mass"] / values["m"]}
     if {"limit", "width"} & set(truth):
         return {**truth, "share": 1.0}
     if "phase" not in truth:
@@ -100,7 +110,7 @@ def spelled(truth: Mapping[str, float], machine: Row) -> dict[str, float]:
         sized = next(name for name in ("wave", "size", "force") if name in truth)
         phase -= 0.5 * math.pi if sized == "force" else 0.0
         return {**truth, "phase": phase, **_waves(truth[sized], phase)}
-    drive = math.hypot(*(tone[0] for tone in machine["signal"]["tones"]))
+    drive = math.hypot(*(tone[0] for tone in signal.tones))
     depth = truth["depth"] if "depth" in truth else truth["amplitude"] / drive
     return {**truth, "share": depth, **_waves(depth, phase)}
 
@@ -110,47 +120,43 @@ def _waves(size: float, phase: float) -> dict[str, float]:
     return {"cosine": size * math.cos(phase), "sine": -size * math.sin(phase)}
 
 
-def _margin(full: Fit, problem: Problem, found: Sequence[Row]) -> float | None:
+def _margin(full: Fit, problem: Problem, found: Sequence[AnswerEntry]) -> float:
     """Return by how much log-likelihood the true model is better than one with what was found in place of it."""
-    keys = {key_for(problem.system, {"at": "", **entry}): entry for entry in found}
+    keys = {key_for(problem.system, entry.mechanism, entry.at): entry for entry in found}
     if None in keys or set(keys) == set(full.problem.active):
-        return None
-    medians = {
-        key: {"parameters": {name: interval["median"] for name, interval in entry["parameters"].items()}}
-        for key, entry in keys.items()
-        if key
-    }
+        return math.nan
+    medians = {key: {n: i.median for n, i in entry.parameters.items()} for key, entry in keys.items() if key}
     return float(full.log_likelihood - _fitted(problem, medians).log_likelihood)
 
 
-def key_for(system: System, effect: Row) -> str | None:
-    """Return the term that stands for an effect at its place, or one that equals it; None where there is none."""
-    same = [t for t in system.terms if alike(t.name, effect["mechanism"]) and effect["at"] in ("", t.at)]
+def key_for(system: System, mechanism: str, at: str) -> str | None:
+    """Return the term that stands for a mechanism at a place, or one that equals it; None where there is none."""
+    same = [t for t in system.terms if alike(t.name, mechanism) and at in ("", t.at)]
     usable = [t for t in same if not t.marked]
-    return next((key_of(t) for t in sorted(usable, key=lambda t: t.name != effect["mechanism"])), None)
+    return next((key_of(t) for t in sorted(usable, key=lambda t: t.name != mechanism)), None)
 
 
-def _status(effect: Row, key: str | None) -> str:
-    if key or effect["mechanism"] == "random_force":
+def _status(effect: Effect, key: str | None) -> str:
+    if key or effect.mechanism == "random_force":
         return "ok"
-    return "no likelihood" if effect["mechanism"] in SKIPPED else "no term"
+    return "no likelihood" if effect.mechanism in SKIPPED else "no term"
 
 
-def _without_term(fit: Fit, effect: Row) -> float | None:
+def _without_term(fit: Fit, effect: Effect) -> float:
     """Return the gain of what is no term: a random force beyond the usual."""
-    return significant_random_force(fit) if effect["mechanism"] == "random_force" else None
+    return significant_random_force(fit) if effect.mechanism == "random_force" else math.nan
 
 
-def _begun(problem: Problem, machine: Row) -> Problem:
+def _begun(problem: Problem, machine: SealedMachine) -> Problem:
     """Return the problem with the true values, and the usual noise, as its start."""
     free = []
     for f in problem.free:
         if f.level == NOISE:
-            free.append(replace(f, start=_within(math.log(machine["measurement_noise"]), f.low, f.high)))
+            free.append(replace(f, start=_within(math.log(machine.measurement_noise), f.low, f.high)))
         elif f.parameter == RANDOM:
             free.append(replace(f, start=_within(problem.scales.usual, f.low, f.high)))
         else:
-            free.append(replace(f, start=f.coordinate(machine["values"][f.parameter])))
+            free.append(replace(f, start=f.coordinate(machine.values[f.parameter])))
     begun = replace(problem, free=tuple(free))
     return stepped(begun, begun.start)
 
@@ -159,10 +165,10 @@ def _within(value: float, low: float, high: float) -> float:
     return min(max(value, low), high)
 
 
-def _fitted(problem: Problem, acting: Mapping[str, Row]) -> Fit:
+def _fitted(problem: Problem, acting: Mapping[str, Mapping[str, float]]) -> Fit:
     """Return the best fit with these terms, begun at the truth with several random forces."""
-    for key, effect in acting.items():
-        problem = _with(problem, key, effect["parameters"])
+    for key, parameters in acting.items():
+        problem = _with(problem, key, parameters)
     fits = [maximise(problem, warmed(problem, problem.start, by)) for by in WARM]
     best = max(fits, key=lambda f: f.local.log_posterior)
     again = maximise(restarted(best), warmed(problem, best.theta, 1.0))
@@ -175,21 +181,21 @@ def _with(problem: Problem, key: str, truth: Mapping[str, float]) -> Problem:
     return joined(problem, key, {s.key: truth[s.param.name] for s in slots if s.param.name in truth})
 
 
-def _held_out(fit: Fit, prepared: Prepared, held: Sequence[Any], said: Row) -> float | None:
+def _held_out(fit: Fit, prepared: Prepared, held: Sequence[Observation], said: AnswerFit) -> float:
     """Return the error of free runs of a fit on held-out data, over the horizon that a diagnosis chose."""
     pieces = pieces_of(prepared.observations, held)
     observation = pieces[0].observation
-    unit_time, number = float(said["horizon_unit_time"]), float(said["after"]["horizon"])
+    unit_time, number = said.horizon_unit_time, said.after.horizon
     steps = int(min(max(round(number * unit_time / observation.dt), 2), observation.samples // 4))
-    horizon = Horizon(steps, number, said["horizon_unit"], unit_time)
+    horizon = Horizon(steps, number, said.horizon_unit, unit_time)
     error = predict(fit, pieces, horizon, rates_of(fit, prepared.observations)).nrmse
-    return float(error) if np.isfinite(error) else None
+    return float(error) if np.isfinite(error) else math.nan
 
 
-def covered(interval: Row, truth: float, *, turn: bool = False) -> bool:
+def covered(interval: Interval, truth: float, *, turn: bool = False) -> bool:
     """Return whether an interval holds a truth; with `turn` it is an angle in rad."""
-    at = _nearest_turn(truth, interval["median"]) if turn else truth
-    return bool(interval["low"] <= at <= interval["high"])
+    at = _nearest_turn(truth, interval.median) if turn else truth
+    return bool(interval.low <= at <= interval.high)
 
 
 def _nearest_turn(angle: float, near: float) -> float:

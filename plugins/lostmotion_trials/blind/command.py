@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from lostmotion.cli import PluginName, examples
 from lostmotion.cli.options import on_a_trial
+
+if TYPE_CHECKING:
+    from lostmotion_trials.blind.results import Target
 
 
 @click.command(
@@ -63,7 +66,7 @@ def command(ctx: click.Context, /, out: Path, only: tuple[str, ...], **given: An
     with _bar(given["cases"], quiet=given["quiet"]) as say:
         options = {key: given[key] for key in ("cases", "jobs", "fresh")}
         content = run_proof(blind, out, plugins=plugins, say=say, **options)
-    for line in (*content["says"], *map(_line, content["targets"])):
+    for line in (*content.summary.says, *map(_line, content.summary.targets)):
         click.echo(line)
     click.echo(str(out / "report.html"))
 
@@ -88,10 +91,10 @@ def _bar(cases: int, *, quiet: bool) -> Iterator[Callable[[str, int, int], None]
         yield say
 
 
-def _line(target: Mapping[str, Any]) -> str:
+def _line(target: Target) -> str:
     """Return one target with what was reached."""
-    if not target["of"]:
-        return f"{target['state']:<9}  {target['what']}"
-    share = f"{target['hits']}/{target['of']} = {target['share']:.0%} [{target['low']:.0%}, {target['high']:.0%}]"
-    wanted = f"{target['at_least']:.0%} to {target['at_most']:.0%}"
-    return f"{target['state']:<9}  {target['what']}: {share}, wanted {wanted}"
+    found = target.rate
+    if not found.of:
+        return f"{target.state:<9}  {target.what}"
+    share = f"{found.hits}/{found.of} = {found.share:.0%} [{found.low:.0%}, {found.high:.0%}]"
+    return f"{target.state:<9}  {target.what}: {share}, wanted {target.at_least:.0%} to {target.at_most:.0%}"

@@ -6,21 +6,19 @@ that nobody can find a truth by trying. `seal.json` holds the digests of both, a
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
-from lostmotion.case import dump_case
+from lostmotion.codec import from_plain, to_plain
 from lostmotion.contracts import Array
 from lostmotion.errors import DataError
 from lostmotion.provenance import digest
-from lostmotion.storage import folder_for, save_json, save_table, whole
+from lostmotion.storage import folder_for, load_json, save_json
 from lostmotion_trials.blind.hiding import hidden_in
 from lostmotion_trials.blind.imperfect import (
     CYCLE,
@@ -34,7 +32,9 @@ from lostmotion_trials.blind.imperfect import (
     recorded_roughly,
 )
 from lostmotion_trials.blind.mechanisms import NAMES, SPRUNG, TABLE, Effect, Pilot, drawn
-from lostmotion_trials.blind.simulator import USUAL, Meddling, Rig, draw_rig, moved
+from lostmotion_trials.blind.sealed import ConcealedCase, Seal, SealedMachine, SealedTruth
+from lostmotion_trials.blind.simulator import USUAL, BlindMachine, Meddling, draw_rig, moved
+from lostmotion_trials.blind.writing import write_case
 from lostmotion_trials.integrators.hidden import Hidden
 
 CLEAN, SEVERAL = 0.25, 0.15
@@ -49,6 +49,7 @@ TOUCHES = (0.05, 0.98)
 RUNAWAY = 4.0
 """A softening spring may throw a machine out of its range: then another one is drawn."""
 TRIES = 2000
+AGAIN = "conceal into another folder, or begin with --fresh"
 PERFECT, IMPERFECT = "perfect", "imperfect"
 WORLDS = (PERFECT, IMPERFECT)
 
@@ -82,7 +83,7 @@ def label(number: int) -> str:
     return f"{number:03d}"
 
 
-def concealed(blind: Blind, out: Path, number: int) -> dict[str, Any]:
+def concealed(blind: Blind, out: Path, number: int) -> ConcealedCase:
     """Return the digests of case `number` after writing it, and its sealed truth, into the folder `out`."""
     rng = np.random.default_rng([blind.seed, number])
     salt = rng.bytes(16).hex()
@@ -94,52 +95,52 @@ def concealed(blind: Blind, out: Path, number: int) -> dict[str, Any]:
         draw, fill = partial(draw_machine, kind, rng, blind.most), partial(_rough, names, kind, rng)
     else:
         draw, fill = partial(draw_rig, rng, blind.most), partial(_perfect, names, rng)
-    rig, (effects, truth, world) = _machine(names, rng, draw, fill)
+    rig, (effects, motion, world) = _machine(names, rng, draw, fill)
     if world:
-        response, noise = recorded_roughly(rig, truth, world, rng)
-        excitation = rig.signal.value(rig.time) + USUAL * rig.signal.amplitude * rng.standard_normal(len(truth))
+        response, noise = recorded_roughly(rig, motion, world, rng)
+        excitation = rig.signal.value(rig.time) + USUAL * rig.signal.amplitude * rng.standard_normal(len(motion))
     else:
-        excitation, response, noise = _recorded(rig, truth, hidden_in(rig, effects)[1].step, variant, rng)
-    save_table(place / "recording.csv", {"time": rig.time, "excitation": excitation, "response": response}, {}, {})
-    with whole(place / "case.toml") as spare:
-        dump_case(_case(rig, number, world), spare)
-    sealed = folder_for(out / "sealed") / f"{label(number)}.json"
-    save_json(
-        sealed,
-        {
-            "schema": "lostmotion.sealed/1",
-            "case": label(number),
-            "salt": salt,
-            "variant": variant,
-            "effects": [asdict(effect) for effect in effects],
-            "machine": {**asdict(rig), "measurement_noise": noise},
-            **({"world": asdict(world)} if world else {}),
-        },
+        excitation, response, noise = _recorded(rig, motion, hidden_in(rig, effects)[1].step, variant, rng)
+    stated = world.stated if world else {}
+    write_case(rig, (excitation, response), place, title=f"Blind case {label(number)}", stated=stated)
+    truth = SealedTruth(
+        schema="lostmotion.sealed/1",
+        case=label(number),
+        salt=salt,
+        variant=variant,
+        effects=effects,
+        machine=SealedMachine(**vars(rig), measurement_noise=noise),
+        world=world,
     )
-    return {"case": label(number), "digests": _digests(out, label(number))}
+    save_json(folder_for(out / "sealed") / f"{label(number)}.json", to_plain(truth))
+    return ConcealedCase(label(number), _digests(out, label(number)))
 
 
-def publish(out: Path, concealed: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
+def publish(out: Path, concealed: Sequence[ConcealedCase]) -> Seal:
     """Return the content of `seal.json` after writing it; an earlier one must say the same of the same cases."""
-    path, new = out / "seal.json", {one["case"]: dict(one["digests"]) for one in concealed}
-    old = json.loads(path.read_text(encoding="utf-8"))["digests"] if path.exists() else {}
+    path, new = out / "seal.json", {one.case: one.digests for one in concealed}
+    old = _seal(out).digests if path.exists() else {}
     for case in sorted(set(old) & set(new)):
         if old[case] != new[case]:
-            raise DataError(f"case {case} is not the one of {path}: conceal into another folder, or begin with --fresh")
-    content = {"schema": "lostmotion.seal/1", "digest": "SHA-256", "digests": {**old, **new}}
-    save_json(path, content)
-    return content
+            raise DataError(f"case {case} is not the one of {path}: {AGAIN}")
+    seal = Seal("lostmotion.seal/1", "SHA-256", {**old, **new})
+    save_json(path, to_plain(seal))
+    return seal
 
 
-def unsealed(out: Path, number: int) -> dict[str, Any]:
+def unsealed(out: Path, number: int) -> SealedTruth:
     """Return the truth of a case, after checking that neither it nor the case has changed since it was sealed."""
     case = label(number)
-    sealed: Mapping[str, str] = json.loads((out / "seal.json").read_text(encoding="utf-8"))["digests"][case]
+    sealed = _seal(out).digests[case]
     for name, value in _digests(out, case).items():
         if sealed[name] != value:
             raise DataError(f"{name} of case {case} is not what seal.json vouches for: nothing is scored")
-    truth: dict[str, Any] = json.loads((out / "sealed" / f"{case}.json").read_text(encoding="utf-8"))
-    return truth
+    path = out / "sealed" / f"{case}.json"
+    return from_plain(SealedTruth, load_json(path, AGAIN), str(path))
+
+
+def _seal(out: Path) -> Seal:
+    return from_plain(Seal, load_json(out / "seal.json", AGAIN), str(out / "seal.json"))
 
 
 def _digests(out: Path, case: str) -> dict[str, str]:
@@ -177,9 +178,9 @@ Filled = tuple[tuple[Effect, ...], Array, "World | None"]
 def _machine(
     names: Sequence[str],
     rng: np.random.Generator,
-    draw: Callable[[], Rig],
+    draw: Callable[[], BlindMachine],
     fill: Callable[[Pilot], Filled],
-) -> tuple[Rig, Filled]:
+) -> tuple[BlindMachine, Filled]:
     """Return a machine that can have all of these mechanisms, and what it is filled with."""
     for _ in range(TRIES):
         rig = draw()
@@ -218,7 +219,7 @@ def _possible(name: str, kind: str) -> bool:
 
 
 def _recorded(
-    rig: Rig, truth: Array, step: float, variant: str, rng: np.random.Generator
+    rig: BlindMachine, truth: Array, step: float, variant: str, rng: np.random.Generator
 ) -> tuple[Array, Array, float]:
     """Return excitation and response (samples,) as the sensors show them, and the deviation of the latter's noise."""
     clean = rig.signal.value(rig.time)
@@ -240,18 +241,3 @@ def _remembering(white: Array, memory: float) -> Array:
     from scipy.signal import lfilter
 
     return np.asarray(lfilter([(1.0 - memory**2) ** 0.5], [1.0, -memory], white), dtype=float)
-
-
-def _case(rig: Rig, number: int, world: World | None) -> dict[str, Any]:
-    """Return what the owner of the machine believes; nothing of it is hidden, but it may be slightly wrong."""
-    stated = world.stated if world else {}
-    excitation, units = ("base_position", ("rad", "rad")) if rig.based else ("force", ("N", "m"))
-    recording = {
-        "file": "recording.csv",
-        "time": "time",
-        "excitation": {"column": "excitation", "quantity": excitation, "unit": units[0]},
-        "response": {"column": "response", "quantity": "position", "unit": units[1]},
-    }
-    known = {name: value * stated.get(name, 1.0) for name, value in rig.values.items() if name not in rig.estimated}
-    model = {"name": rig.model, "known": known, "estimate": dict(rig.priors)}
-    return {"title": f"Blind case {label(number)}", "recordings": [recording], "model": model}

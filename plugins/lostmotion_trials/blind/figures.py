@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
+from lostmotion.contracts import Array
 from lostmotion.report import style
+from lostmotion_trials.blind.results import ProofSummary, Rate, SizeBin
 
-Row = Mapping[str, Any]
 EDGE = "#555555"
 SMALLEST, LARGEST, WIDE = 0.5, 2000.0, 1.5
 """Gains beyond these are drawn at the rim; errors beyond this ratio need a logarithmic axis."""
@@ -34,19 +34,19 @@ CAPTIONS = {
 }
 
 
-def detection(facts: Mapping[str, Any]) -> Figure:
+def detection(told: ProofSummary) -> Figure:
     """Return the share of effects that were named, over their size, with what is possible at all."""
     figure = style.blank(3.6)
     axes = figure.subplots()
-    limit = facts["limit"]
-    axes.plot(limit["gain"], limit["told"], color=EDGE, linestyle=(0, (5, 3)), label="likelihood-ratio limit")
-    many = f"the same, one of {limit['candidates']} candidates"
-    axes.plot(limit["gain"], limit["one_of_many"], color=EDGE, linestyle=(0, (1, 2)), label=many)
-    bins = [row for row in facts["detection"] if row["of"]]
-    centres = np.array([_centre(row, facts["sizes"]) for row in bins])
-    _banded(axes, centres, bins)
-    sizes = np.clip(np.array(facts["sizes"], dtype=float).reshape(-1, 2), SMALLEST, None)
-    hit = np.array([one[1] for one in facts["sizes"]], dtype=bool)
+    limit = told.limit
+    axes.plot(limit.gain, limit.informed, color=EDGE, linestyle=(0, (5, 3)), label="likelihood-ratio limit")
+    many = f"the same, one of {limit.candidates} candidates"
+    axes.plot(limit.gain, limit.one_of_many, color=EDGE, linestyle=(0, (1, 2)), label=many)
+    bins = [row for row in told.detection if row.counts.rate.of]
+    centres = np.array([_centre(row, told.sizes) for row in bins])
+    _banded(axes, centres, [row.counts.rate for row in bins])
+    sizes = np.clip(np.array(told.sizes, dtype=float).reshape(-1, 2), SMALLEST, None)
+    hit = np.array([named for _, named in told.sizes], dtype=bool)
     for chosen, at, colour in ((hit, 1.06, style.AFTER), (~hit, -0.06, style.BEFORE)):
         axes.plot(np.minimum(sizes[chosen, 0], LARGEST), np.full(int(chosen.sum()), at), "|", color=colour, alpha=0.7)
     axes.plot([27.0, 150.0], [0.80, 0.95], "s", color=EDGE, markerfacecolor="none", markersize=7, label="targets")
@@ -60,29 +60,28 @@ def detection(facts: Mapping[str, Any]) -> Figure:
     return figure
 
 
-def _centre(row: Row, sizes: Any) -> float:
+def _centre(row: SizeBin, sizes: Sequence[tuple[float, float]]) -> float:
     """Return the middle of the gains in a bin, on a logarithmic axis."""
-    high = np.inf if row["to"] is None else row["to"]
-    own = [max(gain, SMALLEST) for gain, _ in sizes if row["from"] <= gain < high]
+    own = [max(gain, SMALLEST) for gain, _ in sizes if row.low <= gain and not gain >= row.high]
     return float(np.clip(np.exp(np.mean(np.log(own))), SMALLEST, LARGEST))
 
 
-def _banded(axes: Axes, places: Any, rows: list[Row]) -> None:
+def _banded(axes: Axes, places: Array, rows: Sequence[Rate]) -> None:
     """Draw shares with their bands."""
-    share, low, high = (np.array([row[key] for row in rows], dtype=float) for key in ("share", "low", "high"))
+    share, low, high = np.array([(row.share, row.low, row.high) for row in rows]).reshape(-1, 3).T
     axes.vlines(places, low, high, color=style.AFTER, linewidth=5, alpha=0.25)
     axes.plot(places, share, "o", color=style.AFTER, label="named, with 95 % band")
     for x, y, row in zip(places, share, rows, strict=True):
-        axes.annotate(f"{row['hits']}/{row['of']}", (x, y), (6, -3), textcoords="offset points", fontsize=8)
+        axes.annotate(f"{row.hits}/{row.of}", (x, y), (6, -3), textcoords="offset points", fontsize=8)
 
 
-def reliability(facts: Mapping[str, Any]) -> Figure:
+def reliability(told: ProofSummary) -> Figure:
     """Return how often a mechanism was at work, over the probability that was stated."""
     figure = style.blank(3.6)
     axes = figure.subplots()
-    rows = [row for row in facts["reliability"] if row["of"]]
+    rows = [row for row in told.reliability if row.rate.of]
     axes.plot([0.0, 1.0], [0.0, 1.0], color=EDGE, linewidth=0.8, linestyle=(0, (3, 2)))
-    _banded(axes, np.array([row["stated"] for row in rows]), rows)
+    _banded(axes, np.array([row.stated for row in rows]), [row.rate for row in rows])
     axes.set_xlim(-0.04, 1.12)
     axes.set_ylim(-0.04, 1.04)
     axes.set_xlabel("stated probability")
@@ -90,11 +89,11 @@ def reliability(facts: Mapping[str, Any]) -> Figure:
     return figure
 
 
-def heldout(facts: Mapping[str, Any]) -> Figure:
+def heldout(told: ProofSummary) -> Figure:
     """Return the errors of found models over those of the true ones, in order."""
     figure = style.blank(2.6)
     axes = figure.subplots()
-    ratios = np.array(facts["heldout"]["ratios"], dtype=float)
+    ratios = np.array(told.heldout.ratios)
     axes.axhspan(1.0 / 1.05, 1.05, color=style.SHADE, zorder=0)
     axes.plot(np.arange(1, len(ratios) + 1), ratios, "o", color=style.AFTER, markersize=3.5)
     if max(ratios.max(), 1.0 / ratios.min()) > WIDE:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from dataclasses import replace
 
 from lostmotion_trials.blind.mechanisms import Effect
-from lostmotion_trials.blind.simulator import Meddling, Rig
+from lostmotion_trials.blind.simulator import BlindMachine, Meddling
 from lostmotion_trials.integrators.hidden import BOUC_WEN, DAHL, LUGRE, Hidden
 
 Numbers = Mapping[str, float]
@@ -80,30 +80,30 @@ _INSIDE: Mapping[str, Callable[[Numbers, float, float], dict[str, float]]] = {
     },
     "drag that grows with position": lambda p, _place, _w: {"mixed": p["coefficient"]},
 }  # fmt: skip
-_OUTSIDE: Mapping[str, Callable[[Numbers, float], dict[str, Any]]] = {
-    "excitation_harmonic": lambda p, w: {"harmonic": (p["amplitude"], p["ratio"] * w, p["phase"])},
-    "excitation_delay": lambda p, _w: {"excitation_delay": p["delay"]},
-    "excitation_gain": lambda p, _w: {"excitation_gain": p["error"]},
-    "actuator_lag": lambda p, _w: {"actuator_time": p["time"]},
-    "sensor_lag": lambda p, _w: {"sensor_time": p["time"]},
-    "position_ripple": lambda p, _w: {"ripple": (p["size"], p["pitch"], p["phase"])},
-    "drive_saturation": lambda p, _w: {"limit": p["limit"]},
-    "drive_dead_zone": lambda p, _w: {"dead": p["width"]},
-    "sensor_delay": lambda p, _w: {"sensor_delay": p["delay"]},
-    "sensor_gain": lambda p, _w: {"sensor_gain": p["error"]},
-    "sensor_quantisation": lambda p, _w: {"step": p["step"]},
-    "random_force": lambda p, _w: {"rms": p["rms"]},
+_OUTSIDE: Mapping[str, Callable[[Meddling, Numbers, float], Meddling]] = {
+    "excitation_harmonic": lambda m, p, w: replace(m, harmonic=(p["amplitude"], p["ratio"] * w, p["phase"])),
+    "excitation_delay": lambda m, p, _w: replace(m, excitation_delay=p["delay"]),
+    "excitation_gain": lambda m, p, _w: replace(m, excitation_gain=p["error"]),
+    "actuator_lag": lambda m, p, _w: replace(m, actuator_time=p["time"]),
+    "sensor_lag": lambda m, p, _w: replace(m, sensor_time=p["time"]),
+    "position_ripple": lambda m, p, _w: replace(m, ripple=(p["size"], p["pitch"], p["phase"])),
+    "drive_saturation": lambda m, p, _w: replace(m, limit=p["limit"]),
+    "drive_dead_zone": lambda m, p, _w: replace(m, dead=p["width"]),
+    "sensor_delay": lambda m, p, _w: replace(m, sensor_delay=p["delay"]),
+    "sensor_gain": lambda m, p, _w: replace(m, sensor_gain=p["error"]),
+    "sensor_quantisation": lambda m, p, _w: replace(m, step=p["step"]),
+    "random_force": lambda m, p, _w: replace(m, rms=p["rms"]),
 }
 
 
-def hidden_in(rig: Rig, effects: Sequence[Effect]) -> tuple[Hidden, Meddling]:
+def hidden_in(rig: BlindMachine, effects: Sequence[Effect]) -> tuple[Hidden, Meddling]:
     """Return what the integrator is told of the effects: what acts on the body, and what meddles around it."""
     inside: dict[str, float] = {}
-    outside: dict[str, Any] = {}
+    outside = Meddling()
     for effect in effects:
         name, omega = effect.what or effect.mechanism, rig.signal.omega
         if name in _INSIDE:
             inside.update(_INSIDE[name](effect.parameters, float(effect.at == "base"), omega))
         else:
-            outside.update(_OUTSIDE[name](effect.parameters, omega))
-    return Hidden(**inside), Meddling(**outside)
+            outside = _OUTSIDE[name](outside, effect.parameters, omega)
+    return Hidden(**inside), outside

@@ -9,19 +9,20 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
 
+from lostmotion.codec import told
 from lostmotion.contracts import Array
 from lostmotion.settings import DEFAULT
 from lostmotion_trials.blind.mechanisms import NOISY, TABLE, UNKNOWN, Effect, Pilot
 from lostmotion_trials.blind.simulator import (
     ACROSS,
+    BlindDrive,
+    BlindMachine,
     Meddling,
-    Rig,
-    Signal,
     drawn_log,
     followed,
     foot_of,
@@ -50,38 +51,34 @@ Curve = tuple[tuple[float, float], ...]
 
 @dataclass(frozen=True)
 class Blemish:
-    """A small smooth force: the rms (N) of it, what it runs `over`, and the waves of its random function."""
+    """A small smooth force."""
 
-    over: str
-    rms: float
-    waves: Curve
+    over: str = told("what it runs over: position, velocity, phase or time")
+    rms: float = told("its root mean square", unit="N")
+    waves: Curve = told("cosine and sine of each wave of its random function")
 
 
 @dataclass(frozen=True)
 class World:
-    """The flaws of one rig.
+    """The flaws of one rig; of the noise all sizes are in deviations of it."""
 
-    `friction` is the random curve of the level of friction over the speed, `stated` what the case says of each known
-    value over the truth, `bend` the share of its largest reading by which the sensor is bent there (even, odd). Of the
-    noise `slow` is the share with a `memory` per sample, `hum` the amplitude at `hum_pace` (rad/s), `step` the
-    quantisation, all in deviations of the noise.
-    """
-
-    kind: str
-    smooth: tuple[Blemish, ...]
-    friction: Curve
-    flaws: Mapping[str, float]
-    stated: Mapping[str, float]
-    bend: tuple[float, float]
-    slow: float
-    memory: float
-    hum: float
-    hum_pace: float
-    step: float
-    curves: Mapping[str, list[float]] = field(default_factory=dict)
+    kind: str = told("kind of the drive")
+    smooth: tuple[Blemish, ...] = told("small smooth forces")
+    friction: Curve = told("waves of the random curve of the level of friction over the speed")
+    flaws: Mapping[str, float] = told("scales of the motion, the foot that gives way and the far mode, in SI units")
+    stated: Mapping[str, float] = told("what the case says of each known value, over the truth")
+    bend: tuple[float, float] = told("even and odd bend of the sensor at its largest reading, as a share of that")
+    slow: float = told("share of the noise that has a memory")
+    memory: float = told("memory of that noise per sample")
+    hum: float = told("amplitude of the hum")
+    hum_pace: float = told("angular frequency of the hum", unit="rad/s")
+    step: float = told("quantisation of the readings")
+    curves: Mapping[str, tuple[float, ...]] = told(
+        "tables that the integrator reads, by what they run over", default={}
+    )
 
 
-def draw_machine(kind: str, rng: np.random.Generator, most: int) -> Rig:
+def draw_machine(kind: str, rng: np.random.Generator, most: int) -> BlindMachine:
     """Return a machine of random size under a drive of a kind, with recordings of `most` samples at most."""
     gapped = 0.55 if kind == IMPACTS else 0.45
     joint = 0.0 if kind == IMPACTS else 0.3
@@ -100,23 +97,23 @@ def draw_machine(kind: str, rng: np.random.Generator, most: int) -> Rig:
     rate *= max(1.0, ACROSS * top / period)
     estimated = ("c", "k") if model == "linear_oscillator" else ("c", "x0")
     priors = {name: wide_prior(values[name], rng) for name in estimated}
-    return Rig(model, values, estimated, signal, rate, samples, drawn_log(rng, 0.002, 0.03), priors)
+    return BlindMachine(model, values, estimated, signal, rate, samples, drawn_log(rng, 0.002, 0.03), priors)
 
 
-def _signal(kind: str, size: float, omega: float, times: tuple[float, float], rng: np.random.Generator) -> Signal:
+def _signal(kind: str, size: float, omega: float, times: tuple[float, float], rng: np.random.Generator) -> BlindDrive:
     """Return a drive of a kind; `times` are the natural angular frequency (rad/s) and the duration (s)."""
     natural, duration = times
     turn = float(rng.uniform(0.0, 2.0 * math.pi))
     if kind == CYCLE:
-        return Signal(((size, omega, turn),))
+        return BlindDrive(((size, omega, turn),))
     if kind == SWEEP:
-        return Signal(((size, 0.5 * omega, turn),), float(rng.uniform(0.7, 1.5)) * omega / duration)
+        return BlindDrive(((size, 0.5 * omega, turn),), float(rng.uniform(0.7, 1.5)) * omega / duration)
     if kind == MULTISINE:
         base = 2.0 * math.pi * float(rng.integers(2, 5)) / duration
         lines = np.unique(np.round(np.linspace(0.3, 1.8, int(rng.integers(8, 17))) * omega / base))
         turns = rng.uniform(0.0, 2.0 * math.pi, len(lines))
         each = size * math.sqrt(2.0 / len(lines))
-        return Signal(tuple((each, float(n) * base, float(p)) for n, p in zip(lines, turns, strict=True) if n > 0))
+        return BlindDrive(tuple((each, float(n) * base, float(p)) for n, p in zip(lines, turns, strict=True) if n > 0))
     cycle = 2.0 * math.pi / natural
     events, at = [], 0.02 * duration
     spaced = max(0.1 * duration, 4.0 * cycle) if kind == IMPACTS else max(0.03 * duration, 2.0 * cycle)
@@ -125,10 +122,10 @@ def _signal(kind: str, size: float, omega: float, times: tuple[float, float], rn
         events.append((at, size * float(rng.uniform(0.5, 1.5)) * float(rng.choice([-1.0, 1.0])), long))
         at += spaced * float(rng.uniform(0.7, 1.5))
     if kind == IMPACTS:
-        return Signal((), hits=tuple((t, 3.0 * s, long) for t, s, long in events), pace=omega)
+        return BlindDrive((), hits=tuple((t, 3.0 * s, long) for t, s, long in events), pace=omega)
     levels = [s for _, s, _ in events]
     jumps = [new - old for new, old in zip(levels, [0.0, *levels[:-1]], strict=True)]
-    return Signal((), steps=tuple((t, j, long) for (t, _, long), j in zip(events, jumps, strict=True)), pace=omega)
+    return BlindDrive((), steps=tuple((t, j, long) for (t, _, long), j in zip(events, jumps, strict=True)), pace=omega)
 
 
 def draw_world(kind: str, pilot: Pilot, rng: np.random.Generator) -> World:
@@ -184,7 +181,7 @@ def _function(waves: Curve, angle: Array) -> Array:
     return np.asarray(sum(rows), dtype=float)
 
 
-def _tables(world: World, pilot: Pilot, rng: np.random.Generator) -> dict[str, list[float]]:
+def _tables(world: World, pilot: Pilot, rng: np.random.Generator) -> dict[str, tuple[float, ...]]:
     """Return the curves (CELLS + 1,) over position, velocity and speed that the integrator reads."""
     z = np.linspace(-REACH, REACH, CELLS + 1)
     shape = _function(world.friction, 0.5 * math.pi * np.abs(z))
@@ -197,7 +194,7 @@ def _tables(world: World, pilot: Pilot, rng: np.random.Generator) -> dict[str, l
             seen = moved[blemish.over] / world.flaws[blemish.over]
             tables[blemish.over] += _scaled(raw, z, seen, blemish.rms)
     friction = np.exp(level * shape / max(float(np.std(shape)), 1e-12))
-    return {"friction": friction.tolist(), **{k: v.tolist() for k, v in tables.items()}}
+    return {name: tuple(table.tolist()) for name, table in {"friction": friction, **tables}.items()}
 
 
 def _scaled(raw: Array, z: Array, seen: Array, rms: float) -> Array:
@@ -212,7 +209,7 @@ def _scaled(raw: Array, z: Array, seen: Array, rms: float) -> Array:
     return np.asarray(np.where(np.abs(z) < REACH, curve, np.interp(z, z[1:-1], curve[1:-1])), dtype=float)
 
 
-def moved_roughly(rig: Rig, hidden: tuple[Hidden, Meddling], world: World, rng: np.random.Generator) -> Array:
+def moved_roughly(rig: BlindMachine, hidden: tuple[Hidden, Meddling], world: World, rng: np.random.Generator) -> Array:
     """Return what the sensor shows (samples,) before its noise, after the machine has settled."""
     inside, meddling = hidden
     curves = np.array([world.curves[name] for name in ("position", "velocity", "friction")])
@@ -227,7 +224,7 @@ def moved_roughly(rig: Rig, hidden: tuple[Hidden, Meddling], world: World, rng: 
     return followed(rig, meddling, rng, fastest / FINE, follow, partial(_timed, world, rig))
 
 
-def _timed(world: World, rig: Rig, t: Array) -> Array:
+def _timed(world: World, rig: BlindMachine, t: Array) -> Array:
     """Return the smooth forces (samples,) over phase and time at the times `t` (s)."""
     total, duration = np.zeros(len(t)), rig.samples / rig.rate
     for blemish in world.smooth:
@@ -251,7 +248,7 @@ def _over_time(waves: Curve, share: Array) -> Array:
     return np.asarray(_function(waves, math.pi * share) - means[0] - slope * (share - 0.5 * FITTED))
 
 
-def recorded_roughly(rig: Rig, truth: Array, world: World, rng: np.random.Generator) -> tuple[Array, float]:
+def recorded_roughly(rig: BlindMachine, truth: Array, world: World, rng: np.random.Generator) -> tuple[Array, float]:
     """Return the response (samples,) as the acquisition shows it, and the deviation of its noise."""
     from scipy.signal import lfilter
 

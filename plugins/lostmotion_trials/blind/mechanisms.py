@@ -9,9 +9,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from lostmotion_trials.blind import plans
-from lostmotion_trials.blind.pilot import Draft, Effect, Pilot
+from lostmotion_trials.blind.pilot import Effect, EffectDraft, Pilot
 from lostmotion_trials.blind.plans import Plan
-from lostmotion_trials.blind.simulator import GAPPED, Rig
+from lostmotion_trials.blind.simulator import GAPPED, BlindMachine
 
 __all__ = ["GAIN", "NAMES", "NOISY", "SPRUNG", "TABLE", "UNKNOWN", "Effect", "Mechanism", "Pilot", "drawn"]
 
@@ -34,11 +34,11 @@ class Mechanism:
     tone: bool = False
     signed: bool = False
 
-    def fits(self, rig: Rig) -> bool:
+    def fits(self, rig: BlindMachine) -> bool:
         """Return whether the mechanism is something else there than what is estimated anyway."""
         return rig.model in self.models and bool(self.spots(rig)) and not (self.tone and rig.signal.sweep)
 
-    def spots(self, rig: Rig) -> tuple[str, ...]:
+    def spots(self, rig: BlindMachine) -> tuple[str, ...]:
         """Return the places where it can act."""
         own = {"own": "base" if rig.based else "ground"}
         return tuple(p for p in (own.get(a, a) for a in self.at) if not p or p in rig.places)
@@ -68,8 +68,8 @@ TABLE: Mapping[str, Mechanism] = {
     "excitation_gain": Mechanism(plans.more_drive, "more", ("",), SPRUNG, signed=True),
     "sensor_delay": Mechanism(plans.late_sensor, "late"),
     "sensor_gain": Mechanism(plans.more_sensor, "more", ("",), SPRUNG, signed=True),
-    "sensor_quantisation": Mechanism(lambda p, _a, _r: Draft(p.q, lambda s: {"step": s}), "round"),
-    "random_force": Mechanism(lambda p, _a, _r: Draft(p.q, lambda s: {"rms": s}), "chance"),
+    "sensor_quantisation": Mechanism(lambda p, _a, _r: EffectDraft(p.q, lambda s: {"step": s}), "round"),
+    "random_force": Mechanism(lambda p, _a, _r: EffectDraft(p.q, lambda s: {"rms": s}), "chance"),
     "backlash": Mechanism(plans.play, "gap", ("",), ("linear_oscillator",)),
     "end_stop": Mechanism(plans.stop, "gap", ("ground",), ("linear_oscillator", "robot_joint")),
     "hunt_crossley_contact": Mechanism(plans.crushed, "contact", ("own",), GAPPED),

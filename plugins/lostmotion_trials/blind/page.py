@@ -3,20 +3,31 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping
+import math
+from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
-from markupsafe import Markup
 from matplotlib.figure import Figure
 
+from lostmotion.codec import from_plain, to_plain
 from lostmotion.report import style
-from lostmotion.report.pages import template, written
+from lostmotion.report.pages import DrawnFigure, template, written
 from lostmotion.report.words import DASH, figures, percent, sentence, spoken, typeset
 from lostmotion.storage import load_json, require_files
 from lostmotion_trials.blind.figures import CAPTIONS, detection, heldout, reliability
+from lostmotion_trials.blind.results import (
+    FalseAlarm,
+    Miss,
+    Outcomes,
+    Proof,
+    ProofSummary,
+    Rate,
+    SizeBin,
+    SureCount,
+    Target,
+)
 
-Facts = Mapping[str, Any]
 AGAIN = "run `lostmotion prove` again"
 IMPERFECT = (
     "Beside what is hidden each machine has flaws that no term describes: small smooth forces, friction of a random"
@@ -33,15 +44,6 @@ DRIVES = {
 }
 
 
-class Drawn(NamedTuple):
-    """A figure as the template takes it."""
-
-    name: str
-    title: str
-    markup: Markup
-    caption: str
-
-
 class Listed(NamedTuple):
     """A table as the template takes it: each cell with whether it is out of what was wanted."""
 
@@ -54,33 +56,32 @@ class Listed(NamedTuple):
 def write_proof(folder: Path) -> Path:
     """Return the path of `report.html`, written from `proof.json` in the folder."""
     require_files(folder, ["proof.json"], "lostmotion prove")
-    facts = load_json(folder / "proof.json", AGAIN)
-    return written(folder / "report.html", lambda: render(facts), AGAIN)
+    path = folder / "proof.json"
+    proof = from_plain(Proof, load_json(path, AGAIN), str(path))
+    return written(folder / "report.html", lambda: render(proof), AGAIN)
 
 
-def render(facts: Facts) -> str:
+def render(proof: Proof) -> str:
     """Return the page as one self-contained HTML text."""
+    told = proof.summary
     with style.applied():
-        parts = _figures(facts)
-        drawn = [Drawn(name, title, style.embedded(figure, name), CAPTIONS[name]) for name, title, figure in parts]
-    states, rough = [row["state"] for row in facts["targets"]], _rough(facts)
+        parts = _figures(told)
+        drawn = [
+            DrawnFigure(name, title, style.embedded(figure, name), CAPTIONS[name]) for name, title, figure in parts
+        ]
+    states = [row.state for row in told.targets]
     return template("page.html.j2", __package__).render(
-        title=str(facts["title"]),
+        title=proof.title,
         badge=_badge(states),
         passes="missed" not in states and "met" in states,
-        answer=[typeset(str(part)) for part in facts["says"]],
-        world=IMPERFECT if rough else "",
+        answer=[typeset(part) for part in told.says],
+        world=IMPERFECT if told.sure else "",
         figures=drawn,
-        targets=_targets(facts),
-        tables=[table for table in _tables(facts) if table.rows],
-        lists=[(title, lines) for title, lines in _lists(facts) if lines],
-        provenance=json.dumps(facts["provenance"], indent=2, ensure_ascii=False),
+        targets=_targets(told.targets),
+        tables=[table for table in _tables(told) if table.rows],
+        lists=[(title, lines) for title, lines in _lists(told) if lines],
+        provenance=json.dumps(to_plain(proof.provenance), indent=2, ensure_ascii=False),
     )
-
-
-def _rough(facts: Facts) -> bool:
-    """Return whether machines had flaws that no term describes, so that no model is true and no effect has a gain."""
-    return bool(facts.get("sure"))
 
 
 def _badge(states: list[str]) -> str:
@@ -90,60 +91,63 @@ def _badge(states: list[str]) -> str:
     return "Targets met" if tried and set(tried) == {"met"} else "Not decided"
 
 
-def _figures(facts: Facts) -> Iterator[tuple[str, str, Figure]]:
+def _figures(told: ProofSummary) -> Iterator[tuple[str, str, Figure]]:
     """Yield name, heading and drawing of each figure that has something to show."""
-    if facts["sizes"]:
-        yield "detection", "How small may an effect be?", detection(facts)
-    if any(row["of"] for row in facts["reliability"]):
-        yield "reliability", "Are stated probabilities right?", reliability(facts)
-    if facts["heldout"]["ratios"]:
-        yield "heldout", "Is the found model as good as the true one?", heldout(facts)
+    if told.sizes:
+        yield "detection", "How small may an effect be?", detection(told)
+    if any(row.rate.of for row in told.reliability):
+        yield "reliability", "Are stated probabilities right?", reliability(told)
+    if told.heldout.ratios:
+        yield "heldout", "Is the found model as good as the true one?", heldout(told)
 
 
 def _plain(*cells: str) -> list[tuple[str, bool]]:
     return [(cell, False) for cell in cells]
 
 
-def _rate(row: Facts) -> list[str]:
+def _rate(row: Rate) -> list[str]:
     """Return a share as two cells: the counts, and the share with its band."""
-    if not row["of"]:
+    if not row.of:
         return ["0", DASH]
-    return [f"{row['hits']} of {row['of']}", f"{percent(row['share'])} [{percent(row['low'])}, {percent(row['high'])}]"]
+    return [f"{row.hits} of {row.of}", f"{percent(row.share)} [{percent(row.low)}, {percent(row.high)}]"]
 
 
-def _targets(facts: Facts) -> Listed:
-    rows = []
-    for row in facts["targets"]:
-        wanted = f"≥ {percent(row['at_least'])}" if row["at_most"] == 1.0 else _between(row)
-        rows.append([*_plain(sentence(row["what"]), wanted, *_rate(row)), (row["state"], row["state"] == "missed")])
+def _targets(targets: Sequence[Target]) -> Listed:
+    rows = [
+        [*_plain(sentence(row.what), _wanted(row), *_rate(row.rate)), (row.state, row.state == "missed")]
+        for row in targets
+    ]
     return Listed("", ["Target", "Wanted", "Found", "Share, 95 % band", ""], rows, "")
 
 
-def _between(row: Facts) -> str:
-    if row["at_least"] == 0.0:
-        return f"≤ {percent(row['at_most'])}"
-    return f"{percent(row['at_least'])} to {percent(row['at_most'])}"
+def _wanted(row: Target) -> str:
+    if row.at_most == 1.0:
+        return f"≥ {percent(row.at_least)}"
+    if row.at_least == 0.0:
+        return f"≤ {percent(row.at_most)}"
+    return f"{percent(row.at_least)} to {percent(row.at_most)}"
 
 
-def _tables(facts: Facts) -> Iterator[Listed]:
+def _tables(told: ProofSummary) -> Iterator[Listed]:
     """Yield the tables below the figures."""
-    yield _sure(facts)
+    yield _sure(told.sure)
     outcomes = ["Confused", "Noticed", "Misnamed", "Missed"]
     note = (
         "Confused: the diagnosis lists the truth among what it cannot tell from what it named. Noticed: called unknown,"
         " or a random force. Misnamed: something else was named; in brackets how often that fits as well, to within 3"
         " in log-likelihood. Without a term in the library an effect has no gain."
     )
-    rows = [_plain(_size(row), *_rate(row), *_outcomes(row)) for row in facts["detection"] if row["of"]]
+    bins = [row for row in told.detection if row.counts.rate.of]
+    rows = [_plain(_size(row), *_rate(row.counts.rate), *_outcomes(row.counts)) for row in bins]
     yield Listed("By size", ["Gain", "Named", "Share, 95 % band", *outcomes], rows, note)
-    yield _mechanisms(facts, outcomes, note)
-    rows = [_plain(row["noise"], *_rate(row)) for row in facts["alarms"] if row["of"]]
-    title = "False sure names on machines that hide nothing" if _rough(facts) else "False alarms on clean cases"
+    yield _mechanisms(told, outcomes, note)
+    rows = [_plain(row.noise, *_rate(row.rate)) for row in told.alarms if row.rate.of]
+    title = "False sure names on machines that hide nothing" if told.sure else "False alarms on clean cases"
     yield Listed(title, ["Measurement noise", "Cases", "Share, 95 % band"], rows, "")
     rows = [
-        _plain(_words(row["name"]), *_rate(row), percent(row["median_relative_error"]))
-        for row in facts["coverage"]
-        if row["of"]
+        _plain(_words(row.name), *_rate(row.rate), percent(row.median_relative_error))
+        for row in told.coverage
+        if row.rate.of
     ]
     head = ["Parameter", "Truths inside", "Share, 95 % band", "Median error"]
     yield Listed(
@@ -152,19 +156,19 @@ def _tables(facts: Facts) -> Iterator[Listed]:
         rows,
         "Of cases with white noise in which the parameter, and for those of the machine everything, was named exactly.",
     )
-    rows = [_plain(spoken(row["truth"]), spoken(row["answer"]), str(row["cases"])) for row in facts["confusion"]]
+    rows = [_plain(spoken(row.truth), spoken(row.answer), str(row.cases)) for row in told.confusion]
     yield Listed("What was taken for what", ["Truth", "Answer", "Times"], rows, "")
 
 
-def _sure(facts: Facts) -> Listed:
+def _sure(counts: Sequence[SureCount]) -> Listed:
     """Return what became of sure names in an imperfect world, by the kind of drive."""
     rows = [
         _plain(
-            DRIVES.get(row["kind"], row["kind"]),
-            str(row["machines"]),
-            *(", ".join(_rate(part)) for part in (row, row["named"], row["worse"])),
+            DRIVES.get(row.kind, row.kind),
+            str(row.machines),
+            *(", ".join(_rate(part)) for part in (row.rate, row.named, row.worse)),
         )
-        for row in facts.get("sure", ())
+        for row in counts
     ]
     head = ["Drive", "Machines", "Names that are there", "Hidden effect named", "Held-out error rose"]
     note = (
@@ -175,28 +179,25 @@ def _sure(facts: Facts) -> Listed:
     return Listed("Names stated with more than 0.95", head, rows, note)
 
 
-def _mechanisms(facts: Facts, outcomes: list[str], note: str) -> Listed:
+def _mechanisms(told: ProofSummary, outcomes: list[str], note: str) -> Listed:
     """Return what became of each mechanism; in an imperfect world none has a gain or a true model."""
-    head, counts = ["Named", "Share, 95 % band"], [(row, [*_rate(row), *_outcomes(row)]) for row in facts["mechanisms"]]
-    if _rough(facts):
-        rows = [_plain(spoken(row["mechanism"]), *cells) for row, cells in counts]
+    head = ["Named", "Share, 95 % band"]
+    counts = [(row, [*_rate(row.counts.rate), *_outcomes(row.counts)]) for row in told.mechanisms]
+    if told.sure:
+        rows = [_plain(spoken(row.mechanism), *cells) for row, cells in counts]
         return Listed("By mechanism", ["Mechanism", *head, *outcomes], rows, note.partition("; in brackets")[0] + ".")
-    rows = [
-        _plain(spoken(row["mechanism"]), figures(row["median_gain"]), *cells, row["oracle"]) for row, cells in counts
-    ]
+    rows = [_plain(spoken(row.mechanism), figures(row.median_gain), *cells, row.oracle) for row, cells in counts]
     return Listed("By mechanism", ["Mechanism", "Median gain", *head, *outcomes, "True model"], rows, "")
 
 
-def _size(row: Facts) -> str:
-    return (
-        f"{figures(row['from'])} to {figures(row['to'])}" if row["to"] is not None else f"over {figures(row['from'])}"
-    )
+def _size(row: SizeBin) -> str:
+    return f"{figures(row.low)} to {figures(row.high)}" if math.isfinite(row.high) else f"over {figures(row.low)}"
 
 
-def _outcomes(row: Facts) -> list[str]:
-    counts = {name: str(count) for name, count in row["outcomes"].items() if name != "hit"}
-    if row["misnamed_alike"]:
-        counts["misnamed"] += f" ({row['misnamed_alike']})"
+def _outcomes(row: Outcomes) -> list[str]:
+    counts = {name: str(count) for name, count in row.outcomes.items() if name != "hit"}
+    if row.misnamed_alike:
+        counts["misnamed"] += f" ({row.misnamed_alike})"
     return list(counts.values())
 
 
@@ -205,25 +206,24 @@ def _words(name: str) -> str:
     return f"{spoken(mechanism)}, {parameter}" if dot else name
 
 
-def _lists(facts: Facts) -> Iterator[tuple[str, list[str]]]:
+def _lists(told: ProofSummary) -> Iterator[tuple[str, list[str]]]:
     """Yield the lists of single cases at the end of the page."""
-    rough = _rough(facts)
-    yield "Every effect that was not named", [_missed(one, rough=rough) for one in facts["misses"]]
-    yield "Everything that was named and is not there", [_alarm(one) for one in facts["false_alarms"]]
-    yield "Cases without a diagnosis", [f"{one['case']}: {sentence(one['says'])}" for one in facts["failed"]]
-    yield "Cases without a true model", [f"{one['case']}: {sentence(one['says'])}" for one in facts["unmeasured"]]
+    yield "Every effect that was not named", [_missed(one, rough=bool(told.sure)) for one in told.misses]
+    yield "Everything that was named and is not there", [_alarm(one) for one in told.false_alarms]
+    yield "Cases without a diagnosis", [f"{one.case}: {sentence(one.says)}" for one in told.failed]
+    yield "Cases without a true model", [f"{one.case}: {sentence(one.says)}" for one in told.unmeasured]
 
 
-def _missed(one: Facts, *, rough: bool) -> str:
-    what = one["what"] or spoken(one["mechanism"])
-    at = f" at the {one['at']}" if one["at"] else ""
-    gain = one["status"] if one["gain"] is None else f"gain {figures(one['gain'])}"
+def _missed(one: Miss, *, rough: bool) -> str:
+    what = one.what or spoken(one.mechanism)
+    at = f" at the {one.at}" if one.at else ""
+    gain = one.status if math.isnan(one.gain) else f"gain {figures(one.gain)}"
     size = "" if rough else f" ({gain})"
-    named = ", ".join(map(spoken, one["named"])) or "nothing"
-    margin = "" if one["margin"] is None or not one["named"] else f", which fits worse by {figures(one['margin'], 2)}"
-    return f"{one['folder']}: {what}{at}{size}, {one['outcome']}; named was {named}{margin}."
+    named = ", ".join(map(spoken, one.named)) or "nothing"
+    margin = "" if math.isnan(one.margin) or not one.named else f", which fits worse by {figures(one.margin, 2)}"
+    return f"{one.folder}: {what}{at}{size}, {one.outcome}; named was {named}{margin}."
 
 
-def _alarm(one: Facts) -> str:
-    truth = ", ".join(map(spoken, one["truth"])) or "nothing"
-    return f"{one['folder']}: {', '.join(map(spoken, one['named']))}; hidden was {truth}."
+def _alarm(one: FalseAlarm) -> str:
+    truth = ", ".join(map(spoken, one.truth)) or "nothing"
+    return f"{one.folder}: {', '.join(map(spoken, one.named))}; hidden was {truth}."

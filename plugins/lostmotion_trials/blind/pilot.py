@@ -13,28 +13,26 @@ from functools import cached_property
 
 import numpy as np
 
+from lostmotion.codec import told
 from lostmotion.contracts import Array
-from lostmotion_trials.blind.simulator import USUAL, Rig
+from lostmotion_trials.blind.simulator import USUAL, BlindMachine
 
 
 @dataclass(frozen=True)
 class Effect:
-    """One hidden mechanism: its name in a diagnosis, place ("" where any will do) and parameters in SI units.
+    """One hidden mechanism; `what` tells those apart that no library has, and which a diagnosis should call unknown."""
 
-    `what` tells mechanisms apart that no library has, and which a diagnosis should call "unknown".
-    """
-
-    mechanism: str
-    at: str
-    parameters: Mapping[str, float]
-    what: str = ""
+    mechanism: str = told("its name in a diagnosis")
+    at: str = told("the place at which it acts; empty where any will do")
+    parameters: Mapping[str, float] = told("its parameters, in SI units")
+    what: str = told("what it is, where no library has it", default="")
 
 
 @dataclass(frozen=True)
 class Pilot:
     """The motion of a machine with nothing hidden: position `q` (samples,) in m or rad, before the noise."""
 
-    rig: Rig
+    rig: BlindMachine
     q: Array
 
     @cached_property
@@ -90,7 +88,7 @@ class Pilot:
         still = body.k + body.k0 * float(np.mean(np.abs(self.touching)))
         return np.asarray(np.hypot(still - body.m * omega**2, body.c * omega) + 0.1 * (still + body.m * omega**2))
 
-    def gain(self, draft: Draft) -> float:
+    def gain(self, draft: EffectDraft) -> float:
         """Return the gain in log-likelihood to expect of a mechanism of unit size, beyond what is simpler."""
         felt = draft.felt
         x, v = self.motion(self.own)
@@ -104,7 +102,7 @@ class Pilot:
 
 
 @dataclass(frozen=True)
-class Draft:
+class EffectDraft:
     """A mechanism of unit size: its force `felt` (samples,), or error if `shown`, and its parameters at a size.
 
     `beside` are forces of what is simpler and would be named in its place.

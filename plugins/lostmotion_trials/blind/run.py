@@ -3,24 +3,28 @@
 from __future__ import annotations
 
 import shutil
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
 from functools import lru_cache, partial
 from pathlib import Path
-from typing import Any
+from typing import TypeVar
 
+from lostmotion.codec import to_plain
 from lostmotion.errors import LostMotionError, PlaceError
 from lostmotion.provenance import digest, provenance
 from lostmotion.registry import Registry
 from lostmotion.storage import folder_for, save_json
+from lostmotion.workflow.answer import read_answer
 from lostmotion.workflow.campaign import Campaign, Trial
 from lostmotion.workflow.diagnose import run_diagnosis
 from lostmotion_trials.blind.commitment import Blind, concealed, label, publish
 from lostmotion_trials.blind.judging import judged
 from lostmotion_trials.blind.page import write_proof
+from lostmotion_trials.blind.results import DiagnosedCase, JudgedCase, Proof
 from lostmotion_trials.blind.score import summary
+from lostmotion_trials.blind.sealed import ConcealedCase
 
-STEPS = ("conceal", "diagnose", "score")
+T = TypeVar("T")
 Say = Callable[[str, int, int], None]
 """Told which step is being made, how many of its trials are done, and how many there are."""
 
@@ -32,21 +36,21 @@ class Diagnoser:
     cases: Path
     plugins: tuple[str, ...] = ()
 
-    def __call__(self, number: int) -> dict[str, Any]:
+    def __call__(self, number: int) -> DiagnosedCase:
         """Return whether a case was diagnosed, after writing the diagnosis beside it."""
         place = self.cases / label(number)
         shutil.rmtree(place / "diagnosis", ignore_errors=True)
         try:
-            content = run_diagnosis(
+            run_diagnosis(
                 place / "case.toml", place / "diagnosis", _registry(self.plugins), seed=number, jobs=1, propose=False
             )
         except PlaceError:
             raise
         except (LostMotionError, ArithmeticError, ValueError) as err:
             shutil.rmtree(place / "diagnosis", ignore_errors=True)
-            return {"case": label(number), "status": "failed", "says": " ".join(str(err).split())}
+            return DiagnosedCase(label(number), "failed", " ".join(str(err).split()))
         (place / "diagnosis" / "arrays.nc").unlink()
-        return {"case": label(number), "status": "ok", "says": " ".join(content["says"])}
+        return DiagnosedCase(label(number), "ok", " ".join(read_answer(place / "diagnosis").says))
 
 
 @dataclass(frozen=True)
@@ -56,7 +60,7 @@ class Scorer:
     out: Path
     plugins: tuple[str, ...] = ()
 
-    def __call__(self, number: int) -> dict[str, Any]:
+    def __call__(self, number: int) -> JudgedCase:
         """Return what became of a case."""
         return judged(self.out, _registry(self.plugins), number)
 
@@ -74,7 +78,7 @@ def run_proof(
     plugins: tuple[str, ...] = (),
     say: Say = lambda _step, _done, _of: None,
     fresh: bool = False,
-) -> dict[str, Any]:
+) -> Proof:
     """Return the content of `proof.json` after writing it and `report.html` into `out`, beside cases and truths.
 
     Each of the three steps is a campaign of processes of its own in `out`/steps; one that was killed goes on.
@@ -84,28 +88,24 @@ def run_proof(
     if fresh:
         (out / "seal.json").unlink(missing_ok=True)
     settings = {key: value for key, value in asdict(blind).items() if key != "seed"}
-    library = {"terms": _registry(plugins).names("term")}
+    library = {**settings, "terms": _registry(plugins).names("term")}
     inputs = {Path(file).name: digest(Path(file)) for file in plugins}
     origin = partial(provenance, seed=blind.seed, inputs=inputs)
-    makers: dict[str, tuple[Trial, dict[str, Any]]] = {
-        "conceal": (partial(concealed, blind, out), origin("prove conceal", settings)),
-        "diagnose": (Diagnoser(out / "cases", plugins), origin("prove diagnose", {**settings, **library})),
-        "score": (Scorer(out, plugins), origin("prove score", {**settings, **library})),
-    }
-    rows: dict[str, list[Any]] = {}
-    for step in STEPS:
-        trial, identity = makers[step]
-        campaign = Campaign(trial, cases, identity, apart=True)
-        rows[step] = campaign.run(out / "steps" / step, jobs, partial(say, step), fresh=fresh)
-        if step == "conceal":
-            publish(out, rows[step])
-    content = {
-        "schema": "lostmotion.proof/1",
-        "title": _title(blind),
-        **summary(rows["score"], [r for r in rows["diagnose"] if r["status"] != "ok"]),
-        "provenance": origin("prove", {**settings, **library, "cases": cases}),
-    }
-    save_json(out / "proof.json", content)
+
+    def made(step: str, trial: Trial[T], kind: type[T], given: Mapping[str, object]) -> list[T]:
+        campaign = Campaign(trial, kind, cases, origin(f"prove {step}", given), apart=True)
+        return campaign.run(out / "steps" / step, jobs, partial(say, step), fresh=fresh)
+
+    publish(out, made("conceal", partial(concealed, blind, out), ConcealedCase, settings))
+    diagnosed = made("diagnose", Diagnoser(out / "cases", plugins), DiagnosedCase, library)
+    scored = made("score", Scorer(out, plugins), JudgedCase, library)
+    content = Proof(
+        schema="lostmotion.proof/1",
+        title=_title(blind),
+        summary=summary(scored, [row for row in diagnosed if row.status != "ok"]),
+        provenance=origin("prove", {**library, "cases": cases}),
+    )
+    save_json(out / "proof.json", to_plain(content))
     write_proof(out)
     return content
 

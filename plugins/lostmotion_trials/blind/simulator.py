@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
-from typing import Any
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.interpolate import CubicSpline
 from scipy.signal import lfilter
 
+from lostmotion.codec import told
 from lostmotion.contracts import Array
 from lostmotion.errors import DataError
 from lostmotion_trials.integrators.hidden import Body, Hidden, move
@@ -35,18 +35,14 @@ LAG_STEPS = 20
 
 
 @dataclass(frozen=True)
-class Signal:
-    """A drive of `tones` (amplitude, angular frequency in rad/s, phase), the first the strongest.
+class BlindDrive:
+    """A drive: tones, the first the strongest, that may rise in frequency; steps that stay; hits of one hump each."""
 
-    With `sweep` (rad/s^2) its frequency rises from the beginning of the recording on. `steps` and `hits` have (time in
-    s, size, length in s) each: a step stays, a hit is one hump. Without tones `pace` (rad/s) says what is slow or fast.
-    """
-
-    tones: tuple[tuple[float, float, float], ...]
-    sweep: float = 0.0
-    steps: tuple[tuple[float, float, float], ...] = ()
-    hits: tuple[tuple[float, float, float], ...] = ()
-    pace: float = 0.0
+    tones: tuple[tuple[float, float, float], ...] = told("amplitude, angular frequency (rad/s) and phase of each tone")
+    sweep: float = told("rise of the frequency from the beginning of the recording on", unit="rad/s^2", default=0.0)
+    steps: tuple[tuple[float, float, float], ...] = told("time (s), size and length (s) of each step", default=())
+    hits: tuple[tuple[float, float, float], ...] = told("time (s), size and length (s) of each hit", default=())
+    pace: float = told("angular frequency that says what is slow or fast without tones", unit="rad/s", default=0.0)
 
     @property
     def omega(self) -> float:
@@ -116,7 +112,7 @@ class Meddling:
     sensor_time: float = 0.0
     ripple: tuple[float, float, float] = (0.0, 1.0, 0.0)
 
-    def drive(self, signal: Signal, t: Array) -> tuple[Array, Array]:
+    def drive(self, signal: BlindDrive, t: Array) -> tuple[Array, Array]:
         """Return the true drive and its slope at the times `t` (s) where the recording will show `signal`.
 
         An actuator that lags is not part of it.
@@ -148,21 +144,27 @@ def _behind(seen: Array, rate: float, time: float) -> Array:
 
 
 @dataclass(frozen=True)
-class Rig:
-    """A machine, its drive and how it is recorded: `rate` in Hz, `noise` over the deviation of its own motion.
+class WidePrior:
+    """A wide prior over the logarithm of a parameter."""
 
-    `known` and `priors` are what the case will say of the parameters; `values` are the true ones, in SI units.
-    """
+    low: float = told("lower end of its range, in SI units")
+    high: float = told("upper end of its range, in SI units")
+    scale: str = told("`log`: its logarithm is uniform", default="log")
 
-    model: str
-    values: Mapping[str, float]
-    estimated: tuple[str, ...]
-    signal: Signal
-    rate: float
-    samples: int
-    noise: float
-    priors: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
-    channel: str = "position"
+
+@dataclass(frozen=True)
+class BlindMachine:
+    """A machine, its drive and how it is recorded."""
+
+    model: str = told("model of the machine")
+    values: Mapping[str, float] = told("true parameters, in SI units")
+    estimated: tuple[str, ...] = told("parameters that the case estimates")
+    signal: BlindDrive = told("what drives it")
+    rate: float = told("samples in a second", unit="Hz")
+    samples: int = told("samples of the recording")
+    noise: float = told("measurement noise over the deviation of its own motion")
+    priors: Mapping[str, WidePrior] = told("what the case says of the parameters that it estimates", default={})
+    channel: str = told("what the sensor shows: position, velocity or acceleration", default="position")
 
     @property
     def body(self) -> Body:
@@ -186,7 +188,7 @@ class Rig:
         return np.asarray(np.arange(self.samples) / self.rate)
 
 
-def moved(rig: Rig, hidden: Hidden, meddling: Meddling, rng: np.random.Generator) -> Array:
+def moved(rig: BlindMachine, hidden: Hidden, meddling: Meddling, rng: np.random.Generator) -> Array:
     """Return what a sensor without noise shows (samples,), after the machine has settled."""
     state = np.zeros(6)
     state[0] = foot_of(rig)
@@ -198,12 +200,12 @@ def moved(rig: Rig, hidden: Hidden, meddling: Meddling, rng: np.random.Generator
     return followed(rig, meddling, rng, pace_of(rig) / FINE, follow)
 
 
-def pace_of(rig: Rig) -> float:
+def pace_of(rig: BlindMachine) -> float:
     """Return an upper bound of the rates (1/s) at which a machine moves."""
     return math.sqrt((rig.body.k + rig.body.k0) / rig.body.m) + rig.body.c / rig.body.m + rig.signal.omega
 
 
-def foot_of(rig: Rig) -> float:
+def foot_of(rig: BlindMachine) -> float:
     """Return the position at which a machine begins, before it settles."""
     return float(rig.signal.value(np.array([-rig.signal.settling(rig.rate) / rig.rate]))[0]) if rig.based else 0.0
 
@@ -215,7 +217,7 @@ sensor shows at samples."""
 
 
 def followed(
-    rig: Rig,
+    rig: BlindMachine,
     meddling: Meddling,
     rng: np.random.Generator,
     pace: float,
@@ -256,7 +258,7 @@ def followed(
     return (1.0 + meddling.sensor_gain) * meddling.shown(whole, rig.rate)[settle:]
 
 
-def draw_rig(rng: np.random.Generator, most: int) -> Rig:
+def draw_rig(rng: np.random.Generator, most: int) -> BlindMachine:
     """Return a machine of random size under a random drive, with recordings of `most` samples at most."""
     model = str(
         rng.choice(["lin_backlash", "robot_joint", "linear_oscillator", "rigid_drive"], p=[0.5, 0.3, 0.15, 0.05])
@@ -270,10 +272,10 @@ def draw_rig(rng: np.random.Generator, most: int) -> Rig:
     period = max(drawn_log(rng, 20.0, 200.0), ACROSS / ratio, ACROSS * top / signal.omega)
     rate = period * signal.omega / (2.0 * math.pi)
     if rng.random() < 0.15:
-        signal = Signal(signal.tones[:1], float(rng.uniform(0.3, 1.0)) * signal.omega * rate / samples)
+        signal = BlindDrive(signal.tones[:1], float(rng.uniform(0.3, 1.0)) * signal.omega * rate / samples)
     estimated = {"linear_oscillator": ("c", "k"), "rigid_drive": ("m", "c")}.get(model, ("c", "x0"))
     priors = {name: wide_prior(values[name], rng) for name in estimated}
-    return Rig(model, values, estimated, signal, rate, samples, drawn_log(rng, 0.003, 0.1), priors)
+    return BlindMachine(model, values, estimated, signal, rate, samples, drawn_log(rng, 0.003, 0.1), priors)
 
 
 def drawn_log(rng: np.random.Generator, low: float, high: float) -> float:
@@ -303,20 +305,20 @@ def sized(model: str, mass: float, natural: float, rng: np.random.Generator) -> 
     return {"m": mass, "c": 10.0 * damping}, stiff * length
 
 
-def _signal(amplitude: float, omega: float, rng: np.random.Generator, *, single: bool) -> Signal:
+def _signal(amplitude: float, omega: float, rng: np.random.Generator, *, single: bool) -> BlindDrive:
     """Return one tone, or several that do not repeat; a machine without a gap needs several to tell anything."""
     tones = [(amplitude, omega, float(rng.uniform(0.0, 2.0 * math.pi)))]
     if not single or rng.random() < 0.3:
         for low, high in ((0.3, 0.7), (1.4, 2.2)):
             share, pace, phase = rng.uniform(0.2, 0.6), rng.uniform(low, high), rng.uniform(0.0, 2.0 * math.pi)
             tones.append((float(share) * amplitude, float(pace) * omega, float(phase)))
-    return Signal(tuple(tones))
+    return BlindDrive(tuple(tones))
 
 
-def wide_prior(value: float, rng: np.random.Generator) -> dict[str, Any]:
+def wide_prior(value: float, rng: np.random.Generator) -> WidePrior:
     """Return a wide prior that holds a value, anywhere but near its ends."""
     below, above = 10.0 ** rng.uniform(0.4, 1.2, 2)
-    return {"low": _figures(value / below), "high": _figures(value * above), "scale": "log"}
+    return WidePrior(_figures(value / below), _figures(value * above))
 
 
 def _figures(value: float) -> float:

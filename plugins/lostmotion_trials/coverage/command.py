@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
-from lostmotion.cli import PluginName, examples
-from lostmotion.cli.options import on_a_case
+from lostmotion.cli import examples
+from lostmotion.cli.options import on_a_case, with_maps, with_terms
 from lostmotion.cli.progress import counted
+
+if TYPE_CHECKING:
+    from lostmotion_trials.coverage.results import ParameterCheck
 
 
 @click.command(
@@ -48,14 +52,7 @@ from lostmotion.cli.progress import counted
     multiple=True,
     help="Physics that acts in every machine, whether it is fitted or not.",
 )
-@click.option(
-    "--term",
-    "terms",
-    metavar="NAME[@PLACE]",
-    type=PluginName("term"),
-    multiple=True,
-    help="A term to add to the model that is fitted.",
-)
+@with_terms
 @click.option(
     "--route",
     type=click.Choice(["trajectory", "quantifiers"]),
@@ -63,14 +60,7 @@ from lostmotion.cli.progress import counted
     show_default=True,
     help="To the posterior.",
 )
-@click.option(
-    "--map",
-    "maps",
-    metavar="FILE.nc|FILE.zarr",
-    multiple=True,
-    type=click.Path(path_type=Path),
-    help="A map for the route by quantifiers, of `lostmotion map`; made in DIR if not given.",
-)
+@with_maps
 @click.option("--machines", default=200, show_default=True, type=click.IntRange(1), help="How many machines to draw.")
 @click.option("--ess", default=300.0, show_default=True, type=click.FloatRange(100), help="Effective draws of each.")
 @click.option("--max-steps", default=2000, show_default=True, type=click.IntRange(10), help="Steps at the most.")
@@ -89,10 +79,10 @@ def command(ctx: click.Context, /, case: Path, out: Path, drives: tuple[str, ...
     """
     from lostmotion.stages.identify import SamplingPlan
     from lostmotion_trials.coverage.design import Design
-    from lostmotion_trials.coverage.machines import Bench
+    from lostmotion_trials.coverage.machines import Stand
     from lostmotion_trials.coverage.run import run_calibration
 
-    bench = Bench(drives, given["duration"], given["rate"], given["noise"], given["excitation_noise"])
+    bench = Stand(drives, given["duration"], given["rate"], given["noise"], given["excitation_noise"])
     plan = SamplingPlan(ess=given["ess"], max_steps=given["max_steps"])
     plugins = tuple(str(Path(file).absolute()) for file in ctx.find_root().params.get("plugin") or ())
     maps = tuple(path.absolute() for path in given["maps"])
@@ -101,20 +91,19 @@ def command(ctx: click.Context, /, case: Path, out: Path, drives: tuple[str, ...
     with counted("calibrate", given["machines"], "machines", quiet=given["quiet"]) as say:
         options = {key: given[key] for key in ("machines", "jobs", "fresh")}
         content = run_calibration(design, out, say=say, **options)
-    for line in (*_table(content), *content["says"]):
+    for line in (*_table(content.summary.parameters), *content.summary.says):
         click.echo(line)
     click.echo(str(out / "report.html"))
 
 
-def _table(content: Mapping[str, Any]) -> list[str]:
+def _table(rows: Mapping[str, ParameterCheck]) -> list[str]:
     """Return one line for each parameter: the tests of its ranks, and how many truths its intervals hold."""
-    rows = content["parameters"]
     width = max(map(len, rows), default=0)
     return [f"{name:<{width}}  {_line(row)}" for name, row in rows.items()]
 
 
-def _line(row: Mapping[str, Any]) -> str:
-    covered = ", ".join(f"{share} % {one['inside']}/{one['of']}" for share, one in row["coverage"].items())
-    chi2 = "" if row["chi2_p"] is None else f"chi2 p {row['chi2_p']:.3f}, "
-    tested = f"{chi2}ecdf p {row['ecdf_p']:.3f}" if row["drawn"] else "not drawn"
-    return f"{tested}  inside {covered}  rms z {row['rms_z']:.2f}"
+def _line(row: ParameterCheck) -> str:
+    covered = ", ".join(f"{share} % {one.inside}/{one.of}" for share, one in row.coverage.items())
+    chi2 = "" if math.isnan(row.chi2_p) else f"chi2 p {row.chi2_p:.3f}, "
+    tested = f"{chi2}ecdf p {row.ecdf_p:.3f}" if row.drawn else "not drawn"
+    return f"{tested}  inside {covered}  rms z {row.rms_z:.2f}"

@@ -19,7 +19,7 @@ from lostmotion.provenance import digest
 from lostmotion.registry import Registry
 from lostmotion.stages.identify import SamplingPlan
 from lostmotion.workflow.simulate import assembly_of
-from lostmotion_trials.coverage.machines import Bench, Seen, moved_by, recorded
+from lostmotion_trials.coverage.machines import SeenMachine, Stand, moved_by, recorded
 
 ROUTES = ("trajectory", "quantifiers")
 TRIES = 1000
@@ -36,7 +36,7 @@ class Design:
     """
 
     case: Path
-    bench: Bench
+    bench: Stand
     hide: tuple[str, ...] = ()
     terms: tuple[str, ...] = ()
     route: str = "trajectory"
@@ -58,7 +58,7 @@ class Design:
         return {"case": case.digest, **{file.name: digest(file) for file in files}}
 
 
-class Machine(NamedTuple):
+class DrawnMachine(NamedTuple):
     """A machine: its parameters in each recording, the offsets of the sensor, and what of it is to be found again.
 
     `truth` has the names of the results. What is in `drawn` comes from the priors; the rest is as it is.
@@ -89,7 +89,7 @@ class Workshop:
         """What moves the machines, in words."""
         return moved_by(self.system)
 
-    def draw(self, rng: np.random.Generator) -> Machine:
+    def draw(self, rng: np.random.Generator) -> DrawnMachine:
         """Return a machine drawn from the priors of the case."""
         truth = dict(self.hidden)
         fulls = [self._known() for _ in self.design.labels]
@@ -105,7 +105,7 @@ class Workshop:
         offsets = self._offsets(rng)
         truth |= offsets
         drawn = frozenset(truth) - frozenset(self.hidden)
-        return Machine(tuple(fulls), tuple(offsets.values()) or (0.0,) * len(fulls), truth, drawn)
+        return DrawnMachine(tuple(fulls), tuple(offsets.values()) or (0.0,) * len(fulls), truth, drawn)
 
     def _known(self) -> Array:
         """Return the parameters that are the same in every machine; what is drawn stands at its middle."""
@@ -128,7 +128,7 @@ class Workshop:
         names = [f"offset[{label}]" for label in labels] if len(labels) > 1 else ["offset"]
         return {name: prior.quantile(rng.uniform()) for name in names}
 
-    def record(self, machine: Machine, rng: np.random.Generator) -> list[Seen]:
+    def record(self, machine: DrawnMachine, rng: np.random.Generator) -> list[SeenMachine]:
         """Return what the sensors show of a machine under each drive."""
         bench, streams = self.design.bench, rng.spawn(len(self.design.labels))
         both = zip(machine.fulls, bench.drives, streams, strict=True)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -13,6 +13,7 @@ from matplotlib.ticker import MaxNLocator
 from lostmotion.report import style
 from lostmotion.report.words import readable, with_unit
 from lostmotion.results import Array
+from lostmotion_trials.coverage.results import BarBand, CurveBand, ParameterCheck
 
 ACROSS = 3
 DECADE = 4.0
@@ -40,7 +41,7 @@ class Found(NamedTuple):
     """A parameter in words, what is said of it, and its columns (machines,): truth, low, median, high, sd."""
 
     words: str
-    row: Mapping[str, Any]
+    row: ParameterCheck
     columns: Mapping[str, Array]
 
 
@@ -57,20 +58,20 @@ def _panels(found: Sequence[Found], height: float, across: int = ACROSS) -> tupl
     return figure, panels[: len(found)]
 
 
-def histograms(found: Sequence[Found], band: Mapping[str, float]) -> Figure:
+def histograms(found: Sequence[Found], band: BarBand) -> Figure:
     """Return one histogram of ranks for each parameter, with the band of a single bar."""
     figure, panels = _panels(found, 2.2)
     for axes, one in zip(panels, found, strict=True):
-        counts = np.array(one.row["histogram"])
+        counts = np.array(one.row.histogram)
         edges = np.linspace(0.0, 100.0, len(counts) + 1)
-        axes.axhspan(band["low"], band["high"], color=style.SHADE, zorder=0)
-        axes.axhline(band["expected"], color="#555555", linewidth=0.8, linestyle=(0, (3, 2)))
+        axes.axhspan(band.low, band.high, color=style.SHADE, zorder=0)
+        axes.axhline(band.expected, color="#555555", linewidth=0.8, linestyle=(0, (3, 2)))
         axes.stairs(counts, edges, fill=True, color=style.AFTER, alpha=0.25)
-        for end in (band["low"], band["high"]):
+        for end in (band.low, band.high):
             axes.axhline(end, color=style.QUIET, linewidth=0.7)
         axes.stairs(counts, edges, color=style.AFTER, linewidth=1.1)
         axes.set_xlim(0, 100)
-        axes.set_ylim(0, 1.08 * max(counts.max(), band["high"]))
+        axes.set_ylim(0, 1.08 * max(counts.max(), band.high))
         style.few_ticks(axes, 5, 4)
         axes.yaxis.set_major_locator(MaxNLocator(4, integer=True))
         axes.set_xlabel("rank of the truth")
@@ -78,13 +79,13 @@ def histograms(found: Sequence[Found], band: Mapping[str, float]) -> Figure:
     return figure
 
 
-def ecdf(found: Sequence[Found], band: Mapping[str, Sequence[float]]) -> Figure:
+def ecdf(found: Sequence[Found], band: CurveBand) -> Figure:
     """Return the differences of the empirical distribution functions of ranks to the uniform one, in their band."""
     figure, panels = _panels(found, 2.4)
-    at, middle, low, high = (np.array(band[key]) for key in ("at", "middle", "low", "high"))
+    at, middle, low, high = map(np.array, (band.at, band.middle, band.low, band.high))
     for axes, one in zip(panels, found, strict=True):
-        machines = sum(one.row["histogram"])
-        curves = [_closed(x, middle, machines) for x in (low, high, np.array(one.row["ecdf"]))]
+        machines = sum(one.row.histogram)
+        curves = [_closed(x, middle, machines) for x in (low, high, np.array(one.row.ecdf))]
         places = np.concatenate([[0.0], at, [1.0]])
         axes.fill_between(places, curves[0], curves[1], color=style.SHADE, zorder=0, step="mid")
         axes.axhline(0.0, color="#555555", linewidth=0.8, linestyle=(0, (3, 2)))
@@ -113,7 +114,7 @@ def intervals(found: Sequence[Found]) -> Figure:
 def _draw_intervals(axes: Axes, one: Found) -> None:
     kept = np.isfinite(one.columns["median"])
     truth, low, median, high, sd = (one.columns[k][kept] for k in ("truth", "low", "median", "high", "sd"))
-    scale = readable(float(np.median(np.abs(truth))), str(one.row["unit"]))
+    scale = readable(float(np.median(np.abs(truth))), one.row.unit)
     down, middle, up = ((x - truth) / sd for x in (low, median, high))
     missed = (down > 0.0) | (up < 0.0)
     place = scale.factor * truth if np.ptp(truth) else np.arange(len(truth), dtype=float)

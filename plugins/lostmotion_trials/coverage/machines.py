@@ -38,7 +38,7 @@ OWN = "the right-hand side of the model itself, in steps ten times finer than th
 
 
 @dataclass(frozen=True)
-class Bench:
+class Stand:
     """How a machine is recorded: one recording to each drive, of `duration` s at `rate` Hz, after as long a run-up.
 
     `noise` is a share of the standard deviation of the response, `excitation_noise` one of the amplitude of the drive,
@@ -71,7 +71,7 @@ class Bench:
 
 
 @dataclass(frozen=True)
-class Seen:
+class SeenMachine:
     """One recording (samples,): excitation and response with their noise, and the deviation of that of the response."""
 
     excitation: Array
@@ -80,7 +80,7 @@ class Seen:
 
 
 @dataclass(frozen=True)
-class _Run:
+class _DrivenRun:
     """A drive over run-up and recording, as a function of the time (s) from the beginning of the run-up."""
 
     drive: Signal
@@ -94,7 +94,7 @@ class _Run:
             yield np.arange(first * fine, last * fine + 1) / (fine * self.rate)
 
 
-def recorded(system: System, full: Array, bench: Bench, drive: str, rng: np.random.Generator) -> Seen:
+def recorded(system: System, full: Array, bench: Stand, drive: str, rng: np.random.Generator) -> SeenMachine:
     """Return what the sensors show of a machine with the parameters `full` under one drive.
 
     It has settled from a random start; what is seen of the response is its position.
@@ -103,7 +103,7 @@ def recorded(system: System, full: Array, bench: Bench, drive: str, rng: np.rand
     signal = signal_of(drive, duration=2.0 * bench.duration, rng=of_drive)
     if drive.partition(":")[0] in TRANSIENT:
         signal = _delayed(signal, bench.samples / bench.rate)
-    run = _Run(signal, bench.rate, 2 * bench.samples)
+    run = _DrivenRun(signal, bench.rate, 2 * bench.samples)
     response = _mover(system)(system, full, run, of_start.uniform(-1.0, 1.0, 2))[bench.samples :]
     if not np.isfinite(response).all():
         raise DataError(f"the simulated motion of {system.model.name} left all bounds")
@@ -111,7 +111,7 @@ def recorded(system: System, full: Array, bench: Bench, drive: str, rng: np.rand
     loud = bench.excitation_noise * math.sqrt(2.0) * float(np.std(excitation))
     noise = bench.noise * float(np.std(response))
     own, other = of_noise.standard_normal((2, bench.samples))
-    return Seen(excitation + loud * other, response + noise * own, noise)
+    return SeenMachine(excitation + loud * other, response + noise * own, noise)
 
 
 def moved_by(system: System) -> str:
@@ -128,7 +128,7 @@ def _delayed(signal: Signal, begin: float) -> Signal:
     )
 
 
-_Mover = Callable[[System, Array, _Run, Array], Array]
+_Mover = Callable[[System, Array, _DrivenRun, Array], Array]
 """Makes the position (samples,) from parameters, the run, and two numbers from -1 to 1 that say where it starts."""
 
 
@@ -154,7 +154,7 @@ def _numbers(p: Mapping[str, float], rate: float) -> tuple[int, tuple[float, ...
     return fine, (1.0 / (fine * rate), *own), p["x0"] * math.sqrt(contact)
 
 
-def _lin(system: System, full: Array, run: _Run, start: Array) -> Array:
+def _lin(system: System, full: Array, run: _DrivenRun, start: Array) -> Array:
     """Return the motion of the oscillator with backlash."""
     p = _values(system, full)
     fine, numbers, quick = _numbers(p, run.rate)
@@ -167,7 +167,7 @@ def _lin(system: System, full: Array, run: _Run, start: Array) -> Array:
     return np.concatenate(seen)
 
 
-def _joint(system: System, full: Array, run: _Run, start: Array) -> Array:
+def _joint(system: System, full: Array, run: _DrivenRun, start: Array) -> Array:
     """Return the motion of the link behind a joint with backlash; it is computed relative to the base."""
     p = _values(system, full)
     fine, numbers, quick = _numbers(p, run.rate)
@@ -186,7 +186,7 @@ def _joint(system: System, full: Array, run: _Run, start: Array) -> Array:
 _LEAPFROG: Mapping[str, _Mover] = {"lin_backlash": _lin, "robot_joint": _joint}
 
 
-def _own(system: System, full: Array, run: _Run, start: Array) -> Array:
+def _own(system: System, full: Array, run: _DrivenRun, start: Array) -> Array:
     """Return the motion by the model's own right-hand side, from rest at a random place in its gap if it has one."""
     model, dt = system.model, 1.0 / run.rate
     known = {"force": run.drive.value, "base_position": run.drive.value, "base_velocity": run.drive.slope}

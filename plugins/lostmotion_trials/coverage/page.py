@@ -7,51 +7,48 @@ import json
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, NamedTuple
 
 import numpy as np
-from markupsafe import Markup
 from matplotlib.figure import Figure
 
+from lostmotion.codec import from_plain, to_plain
+from lostmotion.contracts import Array
 from lostmotion.errors import DataError
 from lostmotion.report import style
-from lostmotion.report.pages import template, written
+from lostmotion.report.pages import DrawnFigure, template, written
 from lostmotion.report.posteriors import words_of
 from lostmotion.report.words import DASH, figures, pretty, readable, sentence, spoken
 from lostmotion.storage import load_json, require_files
 from lostmotion_trials.coverage.figures import CAPTIONS, Found, ecdf, histograms, intervals
+from lostmotion_trials.coverage.results import (
+    CalibrationResult,
+    CalibrationSummary,
+    Coverage,
+    HardMachine,
+    ParameterCheck,
+)
 
 FILES = ("calibration.json", "machines.csv")
 AGAIN = "run `lostmotion calibrate` again"
-
-
-class Drawn(NamedTuple):
-    """A figure as the template takes it."""
-
-    name: str
-    title: str
-    markup: Markup
-    caption: str
 
 
 @dataclass(frozen=True)
 class Calibration:
     """What a calibration wrote: the facts of its JSON, and its machines, columns by name."""
 
-    facts: Mapping[str, Any]
-    columns: Mapping[str, np.ndarray[Any, np.dtype[np.float64]]]
+    facts: CalibrationResult
+    columns: Mapping[str, Array]
 
     @property
-    def rows(self) -> Mapping[str, Mapping[str, Any]]:
-        """What is said of each parameter."""
-        rows: Mapping[str, Mapping[str, Any]] = self.facts["parameters"]
-        return rows
+    def summary(self) -> CalibrationSummary:
+        """What all machines say together."""
+        return self.facts.summary
 
     def found(self, *, drawn: bool) -> list[Found]:
         """Return the parameters that were drawn from a prior, or all of them, with their machines."""
-        return [self._found(name, row) for name, row in self.rows.items() if row["drawn"] or not drawn]
+        return [self._found(name, row) for name, row in self.summary.parameters.items() if row.drawn or not drawn]
 
-    def _found(self, name: str, row: Mapping[str, Any]) -> Found:
+    def _found(self, name: str, row: ParameterCheck) -> Found:
         columns = {key: self.columns[f"{name}.{key}"] for key in ("truth", "low", "median", "high", "sd")}
         return Found(_words(name), row, columns)
 
@@ -71,7 +68,8 @@ def write_calibration(folder: Path) -> Path:
 def read_calibration(folder: Path) -> Calibration:
     """Return what `lostmotion calibrate` wrote into a folder."""
     require_files(folder, FILES, "lostmotion calibrate CASE.toml")
-    facts = load_json(folder / "calibration.json", AGAIN)
+    path = folder / "calibration.json"
+    facts = from_plain(CalibrationResult, load_json(path, AGAIN), str(path))
     try:
         with (folder / "machines.csv").open(encoding="utf-8", newline="") as stream:
             head, *lines = csv.reader(stream)
@@ -81,95 +79,89 @@ def read_calibration(folder: Path) -> Calibration:
         raise DataError(f"{folder / 'machines.csv'} cannot be read, or is damaged ({err}): {AGAIN}") from err
 
 
-def _numbers(cells: tuple[str, ...]) -> np.ndarray[Any, np.dtype[np.float64]]:
+def _numbers(cells: tuple[str, ...]) -> Array:
     return np.array([float(cell) if cell else np.nan for cell in cells])
 
 
 def render(calibration: Calibration) -> str:
     """Return the page as one self-contained HTML text."""
-    facts = calibration.facts
+    facts, summary = calibration.facts, calibration.summary
     with style.applied():
         drawn = [
-            Drawn(name, title, style.embedded(figure, name), said)
+            DrawnFigure(name, title, style.embedded(figure, name), said)
             for name, title, figure, said in _figures(calibration)
         ]
     return template("page.html.j2", __package__).render(
-        title=str(facts["title"]),
-        model=str(facts["model"]),
-        passes=bool(facts["passes"]),
-        badge=_badge(facts),
-        answer=[str(part) for part in facts["says"]],
-        facts=_facts(calibration),
-        head=_head(calibration),
-        rows=[_row(name, row) for name, row in calibration.rows.items()],
+        title=facts.title,
+        model=facts.model,
+        passes=summary.passes,
+        badge=_badge(summary),
+        answer=summary.says,
+        facts=_facts(facts),
+        head=_head(summary),
+        rows=[_row(name, row) for name, row in summary.parameters.items()],
         figures=drawn,
-        hardest=[_hard(one) for one in facts["hardest"]],
-        lost=list(_lost(facts)),
-        provenance=json.dumps(facts["provenance"], indent=2, ensure_ascii=False),
+        hardest=[_hard(one) for one in summary.hardest],
+        lost=list(_lost(summary)),
+        provenance=json.dumps(to_plain(facts.provenance), indent=2, ensure_ascii=False),
     )
 
 
-def _badge(facts: Mapping[str, Any]) -> str:
+def _badge(summary: CalibrationSummary) -> str:
     """Return the verdict in two words; of few machines nothing better can be said than that no fault was found."""
-    if not facts["passes"]:
+    if not summary.passes:
         return "Not calibrated"
-    return "No fault found" if facts["few"] else "Calibrated"
+    return "No fault found" if summary.few else "Calibrated"
 
 
 def _figures(calibration: Calibration) -> Iterator[tuple[str, str, Figure, str]]:
     """Yield name, heading, drawing and caption of each figure that has something to show."""
-    drawn, bands = calibration.found(drawn=True), calibration.facts["bands"]
-    if drawn:
-        yield "ranks", "Are the ranks uniform?", histograms(drawn, bands["histogram"]), CAPTIONS["ranks"]
-        yield "ecdf", "Do they stay in their band?", ecdf(drawn, bands["ecdf"]), CAPTIONS["ecdf"]
+    drawn, bands = calibration.found(drawn=True), calibration.summary.bands
+    if drawn and bands.histogram and bands.ecdf:
+        yield "ranks", "Are the ranks uniform?", histograms(drawn, bands.histogram), CAPTIONS["ranks"]
+        yield "ecdf", "Do they stay in their band?", ecdf(drawn, bands.ecdf), CAPTIONS["ecdf"]
     if everything := calibration.found(drawn=False):
         yield "intervals", "Where do intervals miss?", intervals(everything), CAPTIONS["intervals"]
 
 
-def _facts(calibration: Calibration) -> list[str]:
-    facts = calibration.facts
-    hidden = ", ".join(f"{_words(name)} = {figures(value)}" for name, value in facts["hidden"].items())
+def _facts(facts: CalibrationResult) -> list[str]:
+    hidden = ", ".join(f"{_words(name)} = {figures(value)}" for name, value in facts.hidden.items())
     told = [
-        f"{facts['machines']} machines, by the {facts['route']} route.",
-        f"Machines are moved by {facts['moved_by']}.",
+        f"{facts.summary.machines} machines, by the {facts.route} route.",
+        f"Machines are moved by {facts.moved_by}.",
         f"Hidden in every machine: {hidden}." if hidden else "",
     ]
     return [line for line in told if line]
 
 
-def _shares(calibration: Calibration) -> list[str]:
-    return list(next(iter(calibration.rows.values()))["coverage"]) if calibration.rows else []
-
-
-def _head(calibration: Calibration) -> list[str]:
-    wide = [f"In {share} %" for share in _shares(calibration)]
+def _head(summary: CalibrationSummary) -> list[str]:
+    shares = next((list(row.coverage) for row in summary.parameters.values()), [])
+    wide = [f"In {share} %" for share in shares]
     return ["Parameter", "Of", *wide, "χ² p", "ECDF p", "z mean", "z rms", "Relative sd"]
 
 
-def _row(name: str, row: Mapping[str, Any]) -> list[tuple[str, bool]]:
+def _row(name: str, row: ParameterCheck) -> list[tuple[str, bool]]:
     """Return the cells of a parameter, each with whether it is out of its limits."""
-    covered = [_covered(one, drawn=row["drawn"]) for one in row["coverage"].values()]
-    tests = [(figures(row[key], 2), False) for key in ("chi2_p", "ecdf_p")]
-    numbers = [(figures(row[key], 3), False) for key in ("mean_z", "rms_z", "median_relative_sd")]
-    count = str(next(iter(row["coverage"].values()))["of"])
+    covered = [_covered(one, drawn=row.drawn) for one in row.coverage.values()]
+    tests = [(figures(p, 2), False) for p in (row.chi2_p, row.ecdf_p)]
+    numbers = [(figures(x, 3), False) for x in (row.mean_z, row.rms_z, row.median_relative_sd)]
+    count = str(next(iter(row.coverage.values())).of)
     return [(_words(name), False), (count, False), *covered, *tests, *numbers]
 
 
-def _covered(one: Mapping[str, int], *, drawn: bool) -> tuple[str, bool]:
+def _covered(one: Coverage, *, drawn: bool) -> tuple[str, bool]:
     """Return how many truths an interval holds, with the limits of that number."""
-    text = f"{one['inside']} ({one['low']}–{one['high']})"
-    return text, drawn and not one["low"] <= one["inside"] <= one["high"]
+    text = f"{one.inside} ({one.low}–{one.high})"
+    return text, drawn and not one.low <= one.inside <= one.high
 
 
-def _hard(one: Mapping[str, Any]) -> list[str]:
-    scale = readable(one["truth"], one["unit"])
-    truth, median = (
-        f"{figures(scale.factor * one[key], 6)} {pretty(scale.unit)}".rstrip() for key in ("truth", "median")
-    )
-    return [str(one["machine"]), _words(one["parameter"]), truth, median, figures(one["z"]) or DASH]
+def _hard(one: HardMachine) -> list[str]:
+    scale = readable(one.truth, one.unit)
+    truth, median = (f"{figures(scale.factor * x, 6)} {pretty(scale.unit)}".rstrip() for x in (one.truth, one.median))
+    return [str(one.machine), _words(one.parameter), truth, median, figures(one.z) or DASH]
 
 
-def _lost(facts: Mapping[str, Any]) -> Iterator[str]:
-    for word in ("unconverged", "failed"):
-        for one in facts[word]:
-            yield f"Machine {one['machine']}, {word}: {sentence(str(one['says']))}"
+def _lost(summary: CalibrationSummary) -> Iterator[str]:
+    for word, machines in summary.lost.items():
+        for one in machines:
+            yield f"Machine {one.machine}, {word}: {sentence(one.says)}"

@@ -26,7 +26,7 @@ STEPS = 40
 
 
 @dataclass(frozen=True)
-class Band:
+class RankBand:
     """Counts from `low` to `high`, both included, at the places `at`; `middle` is what is expected there."""
 
     at: Array
@@ -93,7 +93,7 @@ def ecdf_test(ranks: Ranks, draws: int = DRAWS) -> float:
     return float(np.clip(_leaves(tails, found), 0.0, 1.0))
 
 
-def ecdf_band(machines: int, level: float = 0.01, draws: int = DRAWS) -> Band:
+def ecdf_band(machines: int, level: float = 0.01, draws: int = DRAWS) -> RankBand:
     """Return the band that the counts of `ecdf` leave anywhere with a probability of `level` at the most."""
     tails = _tails(machines, draws)
     low, high = level / (10.0 * draws), 1.0
@@ -102,7 +102,7 @@ def ecdf_band(machines: int, level: float = 0.01, draws: int = DRAWS) -> Band:
         low, high = (middle, high) if _leaves(tails, middle) <= level else (low, middle)
     first, last = _allowed(tails, low)
     at = np.arange(1, draws + 1) / (draws + 1)
-    return Band(at, machines * at, first.astype(float), last.astype(float))
+    return RankBand(at, machines * at, first.astype(float), last.astype(float))
 
 
 def _tails(machines: int, draws: int) -> Array:

@@ -8,16 +8,33 @@ from collections.abc import Mapping, Sequence
 from dataclasses import asdict, replace
 from functools import partial
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
+from lostmotion.codec import to_plain
+from lostmotion.contracts import Array
 from lostmotion.provenance import provenance
 from lostmotion.storage import folder_for, save_json, whole
 from lostmotion.workflow.campaign import Campaign, Say
 from lostmotion_trials.coverage import ranks
 from lostmotion_trials.coverage.design import Design, workshop
 from lostmotion_trials.coverage.page import write_calibration
+from lostmotion_trials.coverage.results import (
+    FAILED,
+    OK,
+    UNCONVERGED,
+    BarBand,
+    CalibrationResult,
+    CalibrationSummary,
+    Coverage,
+    CurveBand,
+    HardMachine,
+    LostMachine,
+    MachineTrial,
+    ParameterCheck,
+    RankBands,
+    Sought,
+)
 from lostmotion_trials.coverage.sentences import FEW, says_of
 from lostmotion_trials.coverage.trials import maps_for, trial
 
@@ -30,12 +47,10 @@ LOST = 0.05
 HARDEST = 8
 COLUMNS = ("truth", "low", "median", "high", "sd", "rank", "z")
 
-Row = Mapping[str, Any]
-
 
 def run_calibration(
     design: Design, out: Path, *, machines: int, jobs: int, say: Say = lambda _done, _of: None, fresh: bool = False
-) -> dict[str, Any]:
+) -> CalibrationResult:
     """Return the content of `calibration.json` after writing it, `machines.csv` and `report.html` into `out`.
 
     The trials are kept in `out`/trials, and a campaign that was killed goes on with those that are missing.
@@ -44,135 +59,124 @@ def run_calibration(
     if design.route == "quantifiers" and not design.maps:
         design = replace(design, maps=maps_for(shop, folder_for(out), jobs))
     origin = provenance("calibrate", _settings(design), design.seed, design.inputs)
-    rows = Campaign(partial(trial, design), machines, origin).run(out, jobs, say, fresh=fresh)
-    content = {
-        "schema": "lostmotion.calibration/1",
-        "title": shop.case.title,
-        "model": " + ".join([shop.case.model, *sorted(design.terms)]),
-        "route": design.route,
-        "moved_by": shop.moved_by,
-        "hidden": dict(shop.hidden),
-        **summary(rows),
-        "provenance": {**origin, "settings": {**origin["settings"], "machines": machines}},
-    }
-    save_json(out / "calibration.json", content)
+    rows = Campaign(partial(trial, design), MachineTrial, machines, origin).run(out, jobs, say, fresh=fresh)
+    content = CalibrationResult(
+        schema="lostmotion.calibration/1",
+        title=shop.case.title,
+        model=" + ".join([shop.case.model, *sorted(design.terms)]),
+        route=design.route,
+        moved_by=shop.moved_by,
+        hidden=shop.hidden,
+        summary=summary(rows),
+        provenance={**origin, "settings": {**origin["settings"], "machines": machines}},
+    )
+    save_json(out / "calibration.json", to_plain(content))
     _save_csv(out / "machines.csv", rows)
     write_calibration(out)
     return content
 
 
-def _settings(design: Design) -> dict[str, Any]:
+def _settings(design: Design) -> dict[str, object]:
     given = asdict(design)
     return {**given.pop("bench"), **given.pop("plan"), **{k: v for k, v in given.items() if k not in ("case", "seed")}}
 
 
-def summary(rows: Sequence[Row]) -> dict[str, Any]:
+def summary(rows: Sequence[MachineTrial]) -> CalibrationSummary:
     """Return what the trials say together: ranks, coverage, and whether all of it is as it should be."""
-    good = [row for row in rows if row["status"] == "ok"]
-    names = list(dict.fromkeys(name for row in good for name in row["parameters"]))
-    found = {name: parameter([row["parameters"][name] for row in good]) for name in names}
-    told: dict[str, Any] = {
-        "machines": len(rows),
-        **{status: _listed(rows, status) for status in ("unconverged", "failed")},
-        "parameters": found,
-        "bands": _bands(len(good)),
-        "hardest": _hardest(good),
-    }
-    wrong = [name for name, row in found.items() if row["drawn"] and not sound(row, _level(found))]
-    passes = _complete(told) and not wrong
-    return {
-        **told,
-        "level": LEVEL,
-        "passes": passes,
-        "few": len(good) < FEW,
-        "says": says_of(told, wrong, passes=passes),
-    }
+    good = [row for row in rows if row.status == OK]
+    names = list(dict.fromkeys(name for row in good for name in row.parameters))
+    found = {name: parameter([row.parameters[name] for row in good]) for name in names}
+    wrong = [name for name, row in found.items() if row.drawn and not sound(row, _level(found))]
+    made = CalibrationSummary(
+        machines=len(rows),
+        unconverged=_listed(rows, UNCONVERGED),
+        failed=_listed(rows, FAILED),
+        parameters=found,
+        bands=_bands(len(good)),
+        hardest=_hardest(good),
+        level=LEVEL,
+        passes=bool(found) and len(rows) - len(good) <= LOST * len(rows) and not wrong,
+        few=len(good) < FEW,
+    )
+    return replace(made, says=says_of(made, wrong))
 
 
-def parameter(places: Sequence[Row]) -> dict[str, Any]:
+def parameter(sought: Sequence[Sought]) -> ParameterCheck:
     """Return what is said of one parameter: tests of its ranks where it was drawn from a prior, and its coverage."""
-    drawn = bool(places[0]["drawn"])
-    chi2_p = ranks.chi_square(np.array([one["rank"] for one in places])) if drawn else math.nan
-    found = np.array([one["rank"] for one in places], dtype=np.int64)
-    z, below = (np.array([one[key] for one in places], dtype=float) for key in ("z", "below"))
-    spread = np.array([one["sd"] / abs(one["median"]) for one in places if one["median"]])
-    return {
-        "unit": places[0]["unit"],
-        "drawn": drawn,
-        "chi2_p": None if math.isnan(chi2_p) else chi2_p,
-        "ecdf_p": ranks.ecdf_test(found) if drawn else None,
-        "coverage": {str(share): _coverage(below, share) for share in SHARES},
-        "mean_z": float(np.mean(z)),
-        "rms_z": float(np.sqrt(np.mean(z**2))),
-        "median_relative_sd": float(np.median(spread)) if spread.size else None,
-        "histogram": ranks.counts_of(found, ranks.bins_for(len(found))).tolist(),
-        "ecdf": ranks.ecdf(found).tolist(),
-    }
+    drawn, places = sought[0].drawn, [one.standing for one in sought if one.standing]
+    found = np.array([one.rank for one in places], dtype=np.int64)
+    z, below = np.array([one.z for one in places]), np.array([one.below for one in places])
+    spread = np.array([one.sd / abs(one.median) for one in places if one.median])
+    return ParameterCheck(
+        unit=places[0].unit,
+        drawn=drawn,
+        chi2_p=ranks.chi_square(found) if drawn else math.nan,
+        ecdf_p=ranks.ecdf_test(found) if drawn else math.nan,
+        coverage={str(share): _coverage(below, share) for share in SHARES},
+        mean_z=float(np.mean(z)),
+        rms_z=float(np.sqrt(np.mean(z**2))),
+        median_relative_sd=float(np.median(spread)) if spread.size else math.nan,
+        histogram=tuple(ranks.counts_of(found, ranks.bins_for(len(found))).tolist()),
+        ecdf=tuple(ranks.ecdf(found).tolist()),
+    )
 
 
-def _coverage(below: Any, share: int) -> dict[str, int]:
+def _coverage(below: Array, share: int) -> Coverage:
     """Return how many truths lie in the central interval of so many per cent, and the limits of that number."""
     tail = 0.5 * (1.0 - 0.01 * share)
     low, high = ranks.coverage_limits(len(below), 0.01 * share)
     inside = int(np.sum((below >= tail) & (below <= 1.0 - tail)))
-    return {"inside": inside, "of": len(below), "low": low, "high": high}
+    return Coverage(inside, len(below), low, high)
 
 
-def _listed(rows: Sequence[Row], status: str) -> list[dict[str, Any]]:
-    return [{"machine": row["machine"], "says": row["says"]} for row in rows if row["status"] == status]
+def _listed(rows: Sequence[MachineTrial], status: str) -> tuple[LostMachine, ...]:
+    return tuple(LostMachine(row.machine, row.says) for row in rows if row.status == status)
 
 
-def _bands(machines: int) -> dict[str, Any]:
+def _bands(machines: int) -> RankBands:
     """Return what uniform ranks leave with a probability of 1 %: single bins of the histogram, and the whole ECDF."""
     if not machines:
-        return {}
+        return RankBands()
     bins = ranks.bins_for(machines)
     low, high = ranks.histogram_band(machines, bins)
     band = ranks.ecdf_band(machines)
-    return {
-        "histogram": {"bins": bins, "expected": machines / bins, "low": low, "high": high},
-        "ecdf": {name: getattr(band, name).tolist() for name in ("at", "middle", "low", "high")},
-    }
+    columns = (tuple(column.tolist()) for column in (band.at, band.middle, band.low, band.high))
+    return RankBands(BarBand(bins, machines / bins, low, high), CurveBand(*columns))
 
 
-def _hardest(good: Sequence[Row]) -> list[dict[str, Any]]:
+def _hardest(good: Sequence[MachineTrial]) -> tuple[HardMachine, ...]:
     """Return the machines whose truth lies farthest out, in standard deviations of the posterior."""
     places = [
-        {"machine": row["machine"], "parameter": name, **{k: one[k] for k in ("z", "truth", "median", "sd", "unit")}}
+        HardMachine(row.machine, name, at.z, one.truth, at.median, at.sd, at.unit)
         for row in good
-        for name, one in row["parameters"].items()
-        if one["drawn"]
+        for name, one in row.parameters.items()
+        if one.drawn and (at := one.standing)
     ]
-    return sorted(places, key=lambda one: -abs(one["z"]))[:HARDEST]
+    return tuple(sorted(places, key=lambda one: -abs(one.z))[:HARDEST])
 
 
-def _level(found: Mapping[str, Row]) -> float:
+def _level(found: Mapping[str, ParameterCheck]) -> float:
     """Return the level of each test, so that all together have that of one."""
-    return LEVEL / max(1, sum(bool(row["drawn"]) for row in found.values()))
+    return LEVEL / max(1, sum(row.drawn for row in found.values()))
 
 
-def _complete(told: Row) -> bool:
-    """Return whether there is something to judge, and hardly a machine was lost."""
-    lost = len(told["unconverged"]) + len(told["failed"])
-    return bool(told["parameters"]) and lost <= LOST * told["machines"]
-
-
-def sound(row: Row, level: float) -> bool:
+def sound(row: ParameterCheck, level: float) -> bool:
     """Return whether the ranks of one parameter stay in their band and its intervals cover within their limits.
 
     Of perfect campaigns with two parameters 4.6 % are refused (20,000 simulated), mostly for the limits of coverage.
     """
-    covered = all(one["low"] <= one["inside"] <= one["high"] for one in row["coverage"].values())
-    return row["ecdf_p"] >= level and covered
+    covered = all(one.low <= one.inside <= one.high for one in row.coverage.values())
+    return row.ecdf_p >= level and covered
 
 
-def _save_csv(path: Path, rows: Sequence[Row]) -> None:
+def _save_csv(path: Path, rows: Sequence[MachineTrial]) -> None:
     """Write one line for each machine; what a machine does not have stays empty."""
-    names = list(dict.fromkeys(name for row in rows for name in row["parameters"]))
+    names = list(dict.fromkeys(name for row in rows for name in row.parameters))
     head = ["machine", "status", *(f"{name}.{column}" for name in names for column in COLUMNS)]
     with whole(path) as spare, spare.open("w", encoding="utf-8", newline="") as stream:
         writer = csv.writer(stream, lineterminator="\n")
         writer.writerow(head)
         for row in rows:
-            cells = [row["parameters"].get(name, {}).get(column, "") for name in names for column in COLUMNS]
-            writer.writerow([row["machine"], row["status"], *cells])
+            plain = to_plain(row.parameters)
+            cells = [plain.get(name, {}).get(column, "") for name in names for column in COLUMNS]
+            writer.writerow([row.machine, row.status, *cells])

@@ -9,7 +9,6 @@ import tempfile
 import tomllib
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -24,67 +23,58 @@ from lostmotion.workflow.drives import Options, pairs
 from lostmotion.workflow.levels import Survey, inversion_of, quantifier_task
 from lostmotion.workflow.prepare import case_of, prepare
 from lostmotion.workflow.trajectory import chosen_terms, sampled
-from lostmotion_trials.coverage.design import Design, Machine, Workshop, workshop
-from lostmotion_trials.coverage.machines import Seen
+from lostmotion_trials.coverage.design import Design, DrawnMachine, Workshop, workshop
+from lostmotion_trials.coverage.machines import SeenMachine
 from lostmotion_trials.coverage.ranks import rank_of
+from lostmotion_trials.coverage.results import FAILED, OK, UNCONVERGED, MachineTrial, Sought, Standing
 
 REPLACED = ("recordings", "levels", "truth", "plugins")
 """What of the case a machine brings itself, or what the registry holds already."""
 
 
-def trial(design: Design, number: int) -> dict[str, Any]:
-    """Return what became of machine `number`: "ok", "unconverged" or "failed", its truth, and where that lies."""
+def trial(design: Design, number: int) -> MachineTrial:
+    """Return what became of machine `number`: its truth, and where that lies."""
     shop = workshop(design)
     of_truth, of_motion, of_fit = np.random.default_rng([design.seed, number]).spawn(3)
     machine = shop.draw(of_truth)
-    unknown = {name: {"truth": value, "drawn": name in machine.drawn} for name, value in machine.truth.items()}
+    unknown = {name: Sought(value, name in machine.drawn) for name, value in machine.truth.items()}
     try:
         result, also = WAYS[design.route](shop, machine, of_motion, int(of_fit.integers(2**32)))
     except PlaceError:
         raise
     except (LostMotionError, ArithmeticError, ValueError) as err:
-        return {"machine": number, "status": "failed", "says": " ".join(str(err).split()), "parameters": unknown}
+        return MachineTrial(number, FAILED, " ".join(str(err).split()), unknown)
     if not result.converged:
-        says = "; ".join(result.lacks)
-        return {"machine": number, "status": "unconverged", "says": says, "parameters": unknown}
-    rows = _judged(result, {**machine.truth, **also}, machine.drawn)
-    reached = {"ess": float(result.quality.ess.min()), "rhat": float(result.quality.rhat.max())}
-    return {"machine": number, "status": "ok", "says": "", "parameters": rows, **reached}
+        return MachineTrial(number, UNCONVERGED, "; ".join(result.lacks), unknown)
+    found = _judged(result, {**machine.truth, **also}, machine.drawn)
+    return MachineTrial(number, OK, "", found, float(result.quality.ess.min()), float(result.quality.rhat.max()))
 
 
-def _judged(result: SampledPosterior, truth: Mapping[str, float], drawn: frozenset[str]) -> dict[str, dict[str, Any]]:
+def _judged(result: SampledPosterior, truth: Mapping[str, float], drawn: frozenset[str]) -> dict[str, Sought]:
     """Return for each parameter whose truth is known where that lies among the draws."""
     if lost := drawn - set(result.keys):
         raise ValueError(f"the posterior has no parameter {sorted(lost)[0]}, which was drawn")
-    rows = {}
-    for i, (key, unit) in enumerate(zip(result.keys, result.units, strict=True)):
-        if key in truth:
-            place = _place(truth[key], result.chain[:, :, i])
-            rows[key] = {"truth": truth[key], "drawn": key in drawn, "unit": unit, **place}
-    return rows
-
-
-def _place(truth: float, chain: Array) -> dict[str, float | int]:
-    """Return where a truth lies among the draws of a chain (walkers, steps)."""
-    low, median, high = np.quantile(chain, [0.025, 0.5, 0.975]).tolist()
-    mean, sd = float(chain.mean()), float(chain.std())
     return {
-        "low": low,
-        "median": median,
-        "high": high,
-        "sd": sd,
-        "z": (truth - mean) / sd,
-        "below": float(np.mean(chain < truth)),
-        "rank": rank_of(truth, chain),
+        key: Sought(truth[key], key in drawn, _standing(truth[key], result.chain[:, :, i], unit))
+        for i, (key, unit) in enumerate(zip(result.keys, result.units, strict=True))
+        if key in truth
     }
 
 
-Route = Callable[[Workshop, Machine, np.random.Generator, int], tuple[SampledPosterior, dict[str, float]]]
+def _standing(truth: float, chain: Array, unit: str) -> Standing:
+    """Return where a truth lies among the draws of a chain (walkers, steps)."""
+    low, median, high = np.quantile(chain, [0.025, 0.5, 0.975]).tolist()
+    mean, sd = float(chain.mean()), float(chain.std())
+    below = float(np.mean(chain < truth))
+    return Standing(unit, low, median, high, sd, (truth - mean) / sd, below, rank_of(truth, chain))
+
+
+Route = Callable[[Workshop, DrawnMachine, np.random.Generator, int], tuple[SampledPosterior, dict[str, float]]]
 """Makes the posterior of a machine from a generator for its motion and a seed for the fit; and further truths."""
 
 
 def by_trajectory(
-    shop: Workshop, machine: Machine, rng: np.random.Generator, seed: int
+    shop: Workshop, machine: DrawnMachine, rng: np.random.Generator, seed: int
 ) -> tuple[SampledPosterior, dict[str, float]]:
     """Return the posterior from the recordings themselves, and the true measurement noise of each."""
     seen = shop.record(machine, rng)
@@ -98,7 +88,7 @@ def by_trajectory(
 
 
 def by_quantifiers(
-    shop: Workshop, machine: Machine, rng: np.random.Generator, seed: int
+    shop: Workshop, machine: DrawnMachine, rng: np.random.Generator, seed: int
 ) -> tuple[SampledPosterior, dict[str, float]]:
     """Return the posterior from what the recordings are read as, one level of the drive each."""
     seen, design = shop.record(machine, rng), shop.design
@@ -129,7 +119,7 @@ def _harmonic(drive: str) -> tuple[float, float]:
     return options.number("amplitude"), options.omega()
 
 
-def _write(shop: Workshop, machine: Machine, seen: list[Seen], folder: Path) -> Path:
+def _write(shop: Workshop, machine: DrawnMachine, seen: list[SeenMachine], folder: Path) -> Path:
     """Return the case of a machine, written with its recordings into a folder."""
     design, model = shop.design, shop.system.model
     quantity = model.inputs[0]

@@ -45,11 +45,11 @@ def command(
     Another integrator than that of the models makes the recording; encoders add noise. The case is written into
     DIR/case, and diagnosed as yours would be. Exit status 0 when exactly what was hidden was found, 1 otherwise.
     """
-    from lostmotion_trials.demo.run import Setting, run_demo
+    from lostmotion_trials.demo.run import DemoSetting, run_demo
 
     begin = time.perf_counter()
     with progress("demo", quiet=quiet) as say:
-        told = run_demo(out, registry_of(ctx), Setting(seed, clean, quick, jobs), say=say)
+        told = run_demo(out, registry_of(ctx), DemoSetting(seed, clean, quick, jobs), say=say)
     report = out / "report.html"
     click.echo("\n".join(told.lines))
     click.echo(f"took       {time.perf_counter() - begin:.0f} s")

@@ -10,7 +10,6 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -38,11 +37,19 @@ DIGITS = 6
 
 
 @dataclass(frozen=True)
+class NominalJoint:
+    """What the owner of the joint believes, in SI units: known values, and ends of log-uniform priors of the rest."""
+
+    known: Mapping[str, float]
+    estimate: Mapping[str, tuple[float, float]]
+
+
+@dataclass(frozen=True)
 class Concealed:
     """A recording and the truth behind it.
 
     `time` (s), `base_position` and `position` (deg, as the encoders show them), each (samples,); `stuck` is the share
-    of time in which the friction holds. `truth` is in SI units; `nominal` is the `[model]` table of the case.
+    of time in which the friction holds. `truth` is in SI units; `nominal` is what the owner of the joint believes.
     """
 
     time: Array
@@ -50,7 +57,7 @@ class Concealed:
     position: Array
     stuck: float
     truth: Mapping[str, float]
-    nominal: Mapping[str, Any]
+    nominal: NominalJoint
 
 
 def conceal_joint(
@@ -100,7 +107,29 @@ def write_case(concealed: Concealed, folder: Path) -> Path:
     save_table(folder / "recording.csv", columns, {"time": "s", "base": "deg", "link": "deg"}, {})
     path = folder / "case.toml"
     with whole(path) as spare:
-        dump_case(_case(concealed), spare)
+        dump_case(
+            {
+                "title": f"Robot link at {FREQUENCY} Hz behind a joint with backlash",
+                "recordings": [
+                    {
+                        "file": "recording.csv",
+                        "time": "time",
+                        "excitation": {"column": "base", "quantity": "base_position", "unit": "deg"},
+                        "response": {"column": "link", "quantity": "position", "unit": "deg"},
+                    }
+                ],
+                "model": {
+                    "name": "robot_joint",
+                    "known": concealed.nominal.known,
+                    "estimate": {
+                        name: {"low": low, "high": high, "scale": "log"}
+                        for name, (low, high) in concealed.nominal.estimate.items()
+                    },
+                },
+                "truth": concealed.truth,
+            },
+            spare,
+        )
     return path
 
 
@@ -111,24 +140,6 @@ def _encoded(angle: Array, coarse: float, noise: float, rng: np.random.Generator
     return np.round(shown, DIGITS)
 
 
-def _nominal() -> dict[str, Any]:
+def _nominal() -> NominalJoint:
     """Return the model that its owner believes in: the inertia, the stiffness and the weight come from drawings."""
-    return {
-        "name": "robot_joint",
-        "known": {key: JOINT[key] for key in ("m", "k0", "mgl")},
-        "estimate": {
-            "c": {"low": 0.01, "high": 2.0, "scale": "log"},
-            "x0": {"low": 0.002, "high": 0.1, "scale": "log"},
-        },
-    }
-
-
-def _case(concealed: Concealed) -> dict[str, Any]:
-    recording = {
-        "file": "recording.csv",
-        "time": "time",
-        "excitation": {"column": "base", "quantity": "base_position", "unit": "deg"},
-        "response": {"column": "link", "quantity": "position", "unit": "deg"},
-    }
-    title = f"Robot link at {FREQUENCY} Hz behind a joint with backlash"
-    return {"title": title, "recordings": [recording], "model": concealed.nominal, "truth": concealed.truth}
+    return NominalJoint({key: JOINT[key] for key in ("m", "k0", "mgl")}, {"c": (0.01, 2.0), "x0": (0.002, 0.1)})

@@ -2,21 +2,20 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from numpy.typing import NDArray
 
 from lostmotion.contracts import Array
-from lostmotion_trials.paper.cases import CASES, Case
+from lostmotion_trials.paper.cases import CASES, PaperCase
+from lostmotion_trials.paper.drawings import Basin, BasinsDrawing, Visits, VisitsDrawing
 from lostmotion_trials.paper.lab import LONGEST, Lab, period_of
-from lostmotion_trials.paper.outcome import Outcome, listed
+from lostmotion_trials.paper.outcome import PaperOutcome, listed
 
 APART = 1e-3
 """Share of x0 beyond which two orbits are not the same."""
 
 
-def landed(lab: Lab, case: Case, places: tuple[Array, Array], periods: int) -> tuple[NDArray[np.int64], list[int]]:
+def landed(lab: Lab, case: PaperCase, places: tuple[Array, Array], periods: int) -> tuple[NDArray[np.int64], list[int]]:
     """Return which attractor each start (up, across) ends on, and their periods: 0 for chaos.
 
     `places` are positions in x0 and velocities in x0 omega_0.
@@ -52,10 +51,10 @@ def _merged(kinds: Array) -> NDArray[np.int64]:
     return np.array([int(np.argmax(np.abs(kinds - kind).max(axis=1) < 3.0 * APART)) for kind in kinds], dtype=np.int64)
 
 
-def basins(lab: Lab) -> Outcome:
+def basins(lab: Lab) -> PaperOutcome:
     """Return the basins of Case 2 and Case 3."""
     cells, periods = lab.pick((241, 240), (61, 120))
-    data: dict[str, Any] = {}
+    found: list[Basin] = []
     numbers: dict[str, float] = {}
     words: list[str] = []
     for k, (wide, high) in ((2, (8.0, 8.0)), (3, (8.0, 8.0))):
@@ -63,26 +62,26 @@ def basins(lab: Lab) -> Outcome:
         index, back = landed(lab, CASES[k], places, max(periods, 3 * LONGEST))
         shares = [float(np.mean(index == j)) for j in range(len(back))]
         labels = [_label(p, s) for p, s in zip(back, shares, strict=True)]
-        data[f"case{k}"] = {"across": places[0], "up": places[1], "index": index, "labels": labels}
+        found.append(Basin(*places, index, labels))
         numbers[f"case{k}_attractors"] = float(len(back))
         numbers[f"case{k}_chaos"] = sum(s for p, s in zip(back, shares, strict=True) if not p)
         words.append(f"Case {k} ends on {listed(labels)}")
     says = f"{'; '.join(words)}. An exponent is not a function of the parameters alone."
-    return Outcome("beyond the paper", says, numbers, data)
+    return PaperOutcome("beyond the paper", says, numbers, BasinsDrawing(tuple(found)))
 
 
 def _label(period: int, share: float) -> str:
     return f"{f'period {period}' if period else 'chaos'} ({100 * share:.1f} %)"
 
 
-def section(lab: Lab) -> Outcome:
+def section(lab: Lab) -> PaperOutcome:
     """Return Poincare sections of Cases 1 and 3 as counts on a fine grid."""
     points, cells = lab.pick((4_000_000, 900), (200_000, 300))
-    data: dict[str, Any] = {}
+    found: list[Visits] = []
     numbers: dict[str, float] = {}
     for k in (1, 3):
         counts, edges = _counted(lab, CASES[k], points, cells)
-        data[f"case{k}"] = {"counts": counts, "x": edges[0], "v": edges[1], "points": points}
+        found.append(Visits(counts, *edges, points))
         visited = np.sort(counts[counts > 0])[::-1]
         numbers[f"case{k}_densest"] = float(visited[: max(len(visited) // 100, 1)].sum() / visited.sum())
     says = (
@@ -90,10 +89,10 @@ def section(lab: Lab) -> Outcome:
         f"{100 * numbers['case1_densest']:.0f} % of the visits in Case 1 and {100 * numbers['case3_densest']:.0f} % in "
         "Case 3, which a plot of single points hides."
     )
-    return Outcome("beyond the paper", says, numbers, data)
+    return PaperOutcome("beyond the paper", says, numbers, VisitsDrawing(tuple(found)))
 
 
-def _counted(lab: Lab, case: Case, points: int, cells: int) -> tuple[Array, tuple[Array, Array]]:
+def _counted(lab: Lab, case: PaperCase, points: int, cells: int) -> tuple[Array, tuple[Array, Array]]:
     """Return how often each cell is visited by the chaotic motion of a case, at phase 0."""
     flow = case.flow(lab)
     starts = lab.starts(flow, 16)

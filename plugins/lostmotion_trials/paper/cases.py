@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 
-from lostmotion_trials.paper.lab import Lab, Sampled
+from lostmotion_trials.paper.lab import Lab, SampledFlow
 
 
 @dataclass(frozen=True)
-class Case:
+class PaperCase:
     """An oscillator m x'' + c x' + k1 x + F(x) = A cos(omega t) in SI units."""
 
     m: float
@@ -45,22 +45,22 @@ class Case:
         """What turns an exponent in 1/s into bit per unit of normalised time."""
         return 1.0 / (self.natural * math.log(2.0))
 
-    def at(self, *, alpha: float | None = None, damping: float | None = None) -> Case:
+    def at(self, *, alpha: float | None = None, damping: float | None = None) -> PaperCase:
         """Return the case with another alpha (by its force), another 2 zeta (by its damper), or both."""
         force = self.amplitude if alpha is None else alpha * self.k0 * self.x0
         c = self.c if damping is None else damping * math.sqrt(self.k0 * self.m)
         return replace(self, amplitude=force, c=c)
 
-    def flow(self, lab: Lab) -> Sampled:
+    def flow(self, lab: Lab) -> SampledFlow:
         """Return the flow of the case."""
         values = {"m": self.m, "c": self.c, "k1": self.k1, "k0": self.k0, "x0": self.x0}
         return lab.flow("lin_backlash", values, (self.amplitude, self.omega))
 
 
 CASES = {
-    1: Case(1.0, 0.0, 40000.0, 8.0, 0.005, 100.0, 40.0),
-    2: Case(1.0, 1000.0, 31000.0, 8.0, 0.005, 240.0, 40.0),
-    3: Case(3.0, 0.0, 2250.0, 8.0, 0.02, 108.0, 0.3602 * math.sqrt(750.0)),
+    1: PaperCase(1.0, 0.0, 40000.0, 8.0, 0.005, 100.0, 40.0),
+    2: PaperCase(1.0, 1000.0, 31000.0, 8.0, 0.005, 240.0, 40.0),
+    3: PaperCase(3.0, 0.0, 2250.0, 8.0, 0.02, 108.0, 0.3602 * math.sqrt(750.0)),
 }
 """The frequency of Case 3 is 1.57 Hz to all digits that are given: omega/omega_0 is rounded, since the exponent changes
 with the fifth digit there (`PRINTED` is 1.57 Hz exactly)."""

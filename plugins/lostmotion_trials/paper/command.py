@@ -40,6 +40,6 @@ def command(ctx: click.Context, /, names: tuple[str, ...], out: Path, quiet: boo
     lab = laboratory(registry_of(ctx), **asked)  # type: ignore[arg-type]
     with progress("reproduce", quiet=quiet) as say:
         content = reproduce(names, out, lab, say)
-    for name, entry in content["items"].items():
-        click.echo(f"{name:<12} {entry['verdict']}")
+    for name, item in content.items.items():
+        click.echo(f"{name:<12} {item.verdict}")
     click.echo(str(out / "index.html"))

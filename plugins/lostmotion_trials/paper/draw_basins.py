@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Callable, Mapping
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -11,20 +11,21 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from lostmotion.report import style
-from lostmotion_trials.paper.style import Data, letter, panels
+from lostmotion_trials.paper.drawings import Basin, BasinsDrawing, VisitsDrawing
+from lostmotion_trials.paper.style import letter, panels
 
 BASINS = ("#0b3954", "#e0a458", "#5f9ea0", "#b23a48", "#c9d6df", "#6a4c93", "#8ab17d", "#f4e285")
 CHAOS = "#1a1a1a"
 
 
-def _basin(axes: Axes, data: Any) -> None:
-    labels = data["labels"]
+def _basin(axes: Axes, data: Basin) -> None:
+    labels = data.labels
     most = len(BASINS)
     chaos = [name.startswith("chaos") for name in labels[:most]]
     colours = [CHAOS if is_chaos else BASINS[k % most] for k, is_chaos in enumerate(chaos)]
-    index = np.minimum(data["index"], len(colours) - 1)
+    index = np.minimum(data.index, len(colours) - 1)
     axes.pcolormesh(
-        data["across"], data["up"], index, cmap=ListedColormap(colours), vmin=-0.5, vmax=len(colours) - 0.5,
+        data.across, data.up, index, cmap=ListedColormap(colours), vmin=-0.5, vmax=len(colours) - 0.5,
         shading="nearest", rasterized=True,
     )  # fmt: skip
     axes.grid(visible=False)
@@ -34,24 +35,23 @@ def _basin(axes: Axes, data: Any) -> None:
     axes.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, -0.13), ncols=2, fontsize=8.5)
 
 
-def basins(data: Data) -> Figure:
+def basins(data: BasinsDrawing) -> Figure:
     """Return the basins of Cases 2 and 3."""
     figure, axes = panels(1, 2, 5.6)
-    _basin(axes[0], data["case2"])
-    _basin(axes[1], data["case3"])
+    for panel, one in zip(axes, data.cases, strict=True):
+        _basin(panel, one)
     letter(axes, ("Case 2, A = 240 N", "Case 3, A = 108 N"))
     return figure
 
 
-def section(data: Data) -> Figure:
+def section(data: VisitsDrawing) -> Figure:
     """Return the sections of Cases 1 and 3, brighter where the motion comes more often."""
     figure, axes = panels(1, 2, 4.6)
-    for panel, key in zip(axes, ("case1", "case3"), strict=True):
-        one = data[key]
+    for panel, one in zip(axes, data.cases, strict=True):
         panel.set_facecolor("#0d0d12")
-        shown = np.where(one["counts"] > 0, one["counts"], np.nan).T
+        shown = np.where(one.counts > 0, one.counts, np.nan).T
         drawn = panel.pcolormesh(
-            one["x"], one["v"], shown, cmap="inferno", norm=LogNorm(0.5, float(np.nanmax(shown))), rasterized=True
+            one.x, one.v, shown, cmap="inferno", norm=LogNorm(0.5, float(np.nanmax(shown))), rasterized=True
         )
         panel.grid(visible=False)
         panel.set_xlabel("x/x₀ at phase 0 of the drive")
@@ -59,8 +59,8 @@ def section(data: Data) -> Figure:
         bar = figure.colorbar(drawn, ax=panel, pad=0.02)
         bar.set_label("visits of a cell")
         style.log_ticks(bar.ax.yaxis)
-    letter(axes, [f"Case {k}, {data[f'case{k}']['points']:,} periods" for k in (1, 3)])
+    letter(axes, [f"Case {k}, {one.periods:,} periods" for k, one in zip((1, 3), data.cases, strict=True)])
     return figure
 
 
-FIGURES = {"basins": basins, "section": section}
+FIGURES: Mapping[str, Callable[..., Figure]] = {"basins": basins, "section": section}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
@@ -11,7 +12,14 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 from lostmotion.contracts import Array
 from lostmotion.report import style
-from lostmotion_trials.paper.style import CALM_TO_CHAOS, COLOURS, Data, dots, letter, panels, shades
+from lostmotion_trials.paper.drawings import (
+    BranchesDrawing,
+    DiagramsDrawing,
+    LineDrawing,
+    PlaneDrawing,
+    SharedPlaneDrawing,
+)
+from lostmotion_trials.paper.style import CALM_TO_CHAOS, COLOURS, dots, letter, panels, shades
 
 ACROSS = "1/α = k₀x₀/A"
 EXPONENT = "largest exponent (bit per unit of ω₀t)"
@@ -29,19 +37,19 @@ def _exponents(axes: Axes, inverse: Array, exponents: Array) -> None:
     axes.set_xlim(float(inverse[0]), float(inverse[-1]))
 
 
-def fig6(data: Data) -> Figure:
+def fig6(data: LineDrawing) -> Figure:
     """Return the exponent of every start over 1/alpha, and how many of them are chaotic."""
     figure, axes = panels(2, 1, 5.6, sharex=True, height_ratios=[3, 1])
-    for low, high in data["known"]:
+    for low, high in data.known:
         axes[0].axvspan(low, high, color=style.SHADE, lw=0)
-    _exponents(axes[0], data["inverse"], data["exponents"])
-    axes[0].plot(data["inverse"], np.maximum(data["exponents"].max(axis=1), 0.0), color=style.AFTER, lw=1.0,
+    _exponents(axes[0], data.inverse, data.exponents)
+    axes[0].plot(data.inverse, np.maximum(data.exponents.max(axis=1), 0.0), color=style.AFTER, lw=1.0,
                  label="highest of all starts, or zero")  # fmt: skip
     axes[0].set_ylabel(EXPONENT)
     axes[0].legend(loc="upper right", ncols=3, markerscale=2.5)
     low, high = axes[0].get_ylim()
     axes[0].set_ylim(low, high + 0.12 * (high - low))
-    axes[1].fill_between(data["inverse"], data["share"], step="mid", color=style.BEFORE, alpha=0.75, lw=0)
+    axes[1].fill_between(data.inverse, data.share, step="mid", color=style.BEFORE, alpha=0.75, lw=0)
     axes[1].set_ylim(0.0, 1.03)
     axes[1].set_ylabel("share of starts\nin chaos")
     axes[1].set_xlabel(ACROSS)
@@ -58,27 +66,27 @@ def _diagram(axes: Axes, inverse: Array, places: Array, size: float) -> None:
     axes.set_xlim(float(inverse[0]), float(inverse[-1]))
 
 
-def fig7(data: Data) -> Figure:
+def fig7(data: DiagramsDrawing) -> Figure:
     """Return the bifurcation diagrams, and the share of chaos over damping."""
     figure, axes = panels(4, 2, 10.4)
-    for panel, places in zip(axes, data["places"], strict=False):
-        _diagram(panel, data["inverse"], places, 0.7)
+    for panel, places in zip(axes, data.places, strict=False):
+        _diagram(panel, data.inverse, places, 0.7)
         panel.set_ylabel("x/x₀ once a period")
         panel.set_xlabel(ACROSS)
     last = axes[-1]
-    last.semilogx(data["dampings"], 100 * data["shares"], color=style.BEFORE, marker="o")
+    last.semilogx(data.dampings, 100 * data.shares, color=style.BEFORE, marker="o")
     last.set_ylim(0.0, None)
     last.set_ylabel("motions in chaos (%)")
     last.set_xlabel("2ζ = c/√(k₀m)")
-    last.xaxis.set_major_locator(FixedLocator(list(data["dampings"])))
+    last.xaxis.set_major_locator(FixedLocator(list(data.dampings)))
     last.xaxis.set_minor_locator(NullLocator())
     last.xaxis.set_major_formatter(FuncFormatter(lambda x, _: f"{x:g}"))
-    letter(axes, [*(f"2ζ = {d:g}" for d in data["dampings"]), "chaos over damping"])
+    letter(axes, [*(f"2ζ = {d:g}" for d in data.dampings), "chaos over damping"])
     return figure
 
 
-def _plane(figure: Figure, axes: Axes, data: Data, values: Array, **options: Any) -> None:
-    drawn = axes.pcolormesh(data["inverse"], data["zeta"], values, shading="nearest", rasterized=True, **options)
+def _plane(figure: Figure, axes: Axes, data: PlaneDrawing, values: Array, **options: Any) -> None:
+    drawn = axes.pcolormesh(data.inverse, data.zeta, values, shading="nearest", rasterized=True, **options)
     axes.set_xlabel(ACROSS)
     axes.set_ylabel("damping ratio ζ")
     axes.grid(visible=False)
@@ -87,35 +95,41 @@ def _plane(figure: Figure, axes: Axes, data: Data, values: Array, **options: Any
     )
 
 
-def fig10(data: Data) -> Figure:
+def fig10(data: SharedPlaneDrawing) -> Figure:
     """Return the exponent and the share of chaotic starts over 1/alpha and zeta."""
     figure, axes = panels(2, 1, 7.6)
-    _plane(figure, axes[0], data, data["exponent"], cmap=CALM_TO_CHAOS, norm=shades(data["exponent"]))
-    axes[0].contour(data["inverse"], data["zeta"], data["exponent"], levels=[0.0], colors="#1a1a1a", linewidths=0.5)
-    _plane(figure, axes[1], data, data["share"], cmap="cividis", vmin=0.0, vmax=1.0)
+    _plane(figure, axes[0], data, data.exponent, cmap=CALM_TO_CHAOS, norm=shades(data.exponent))
+    axes[0].contour(data.inverse, data.zeta, data.exponent, levels=[0.0], colors="#1a1a1a", linewidths=0.5)
+    _plane(figure, axes[1], data, data.share, cmap="cividis", vmin=0.0, vmax=1.0)
     letter(axes, ("highest exponent of all starts; the line is where it is zero", "share of starts that end in chaos"))
     return figure
 
 
-def bifurcation(data: Data) -> Figure:
+def bifurcation(data: BranchesDrawing) -> Figure:
     """Return the bifurcation diagram with the exponents beneath."""
     figure, axes = panels(2, 1, 7.2, sharex=True, height_ratios=[2, 1])
-    _diagram(axes[0], data["inverse"], data["places"], 0.6)
+    _diagram(axes[0], data.inverse, data.places, 0.6)
     axes[0].set_ylabel("x/x₀ once a period")
-    _exponents(axes[1], data["inverse"], data["exponents"])
+    _exponents(axes[1], data.inverse, data.exponents)
     axes[1].set_ylabel("exponent\n(bit per unit of ω₀t)")
     axes[1].set_xlabel(ACROSS)
     letter(axes, ("Case 1, 2ζ = 0.04: one colour for each start", "the exponents of the same motions"))
     return figure
 
 
-def plane_map(data: Data) -> Figure:
+def plane_map(data: PlaneDrawing) -> Figure:
     """Return the map of the largest exponent, damping on a logarithmic axis."""
     figure, axes = panels(1, 1, 5.6)
-    _plane(figure, axes[0], data, data["exponent"], cmap=CALM_TO_CHAOS, norm=shades(data["exponent"]))
+    _plane(figure, axes[0], data, data.exponent, cmap=CALM_TO_CHAOS, norm=shades(data.exponent))
     axes[0].set_yscale("log")
     style.log_ticks(axes[0].yaxis)
     return figure
 
 
-FIGURES = {"fig6": fig6, "fig7": fig7, "fig10": fig10, "bifurcation": bifurcation, "map": plane_map}
+FIGURES: Mapping[str, Callable[..., Figure]] = {
+    "fig6": fig6,
+    "fig7": fig7,
+    "fig10": fig10,
+    "bifurcation": bifurcation,
+    "map": plane_map,
+}

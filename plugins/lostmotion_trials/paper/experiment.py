@@ -13,9 +13,27 @@ from lostmotion.results import Estimate
 from lostmotion.signals import spectrum, without_harmonics
 from lostmotion.stages.quantify import quantify
 from lostmotion_trials.paper.chain import Slopes, cleaned, first_minimum, size, slopes, unfolded
-from lostmotion_trials.paper.joint import DAMPING, HALF, LEVELS, PAPER, RATIO, SUSPECT, Recording, motions, recording
+from lostmotion_trials.paper.drawings import (
+    CaoDrawing,
+    CleanedCaoDrawing,
+    DelayDrawing,
+    InformationDrawing,
+    JointDrawing,
+    SlopesDrawing,
+)
+from lostmotion_trials.paper.joint import (
+    DAMPING,
+    HALF,
+    LEVELS,
+    PAPER,
+    RATIO,
+    SUSPECT,
+    JointRecording,
+    motions,
+    recording,
+)
 from lostmotion_trials.paper.lab import Lab
-from lostmotion_trials.paper.outcome import Outcome, Rows, judged
+from lostmotion_trials.paper.outcome import PaperOutcome, PaperTable, judged
 
 FIRST = 2.68
 """The level (degrees) of Figs. 17 to 19."""
@@ -28,7 +46,7 @@ CHAOTIC = 0.1
 STAND_IN = "on a simulated joint: the recordings were never published"
 
 
-def fig17(lab: Lab) -> Outcome:
+def fig17(lab: Lab) -> PaperOutcome:
     """Return output and input at 2.68 degrees, and what is left of the output without harmonics."""
     made = recording(lab, FIRST)
     x, dt = made.link - made.link.mean(), float(made.time[1])
@@ -40,13 +58,12 @@ def fig17(lab: Lab) -> Outcome:
         f"At 2.68 degrees {100 * share:.0f} % of the output (rms) is left when the drive and its harmonics are "
         f"removed, against {100 * floor:.1f} % of encoder noise: it is aperiodic, as the paper shows, {STAND_IN}."
     )
-    data = {"time": made.time, "base": made.base, "link": made.link, "left": left, "frequency": whole.frequency,
-            "density": whole.density, "rest": rest.density}  # fmt: skip
+    data = JointDrawing(made.time, made.base, made.link, left, whole.frequency, whole.density, rest.density)
     numbers = {"aperiodic_share": share, "noise_share": floor, "removed_share": size(removed) / size(x)}
-    return Outcome(judged(share > 3.0 * floor), says, numbers, data)
+    return PaperOutcome(judged(share > 3.0 * floor), says, numbers, data)
 
 
-def fig18(lab: Lab) -> Outcome:
+def fig18(lab: Lab) -> PaperOutcome:
     """Return the mutual information at 2.68 degrees."""
     made = recording(lab, FIRST)
     lag = first_minimum(made.series.embedding.curves, RIPPLE * made.period)
@@ -55,19 +72,19 @@ def fig18(lab: Lab) -> Outcome:
         f"{STAND_IN}."
     )
     curves = made.series.embedding.curves
-    data = {"lag": curves["lag"], "ami": curves["ami"], "first": lag}
-    return Outcome(judged(abs(lag - 0.174) < 0.03), says, {"lag_s": lag}, data)
+    data = InformationDrawing(curves["lag"], curves["ami"], lag)
+    return PaperOutcome(judged(abs(lag - 0.174) < 0.03), says, {"lag_s": lag}, data)
 
 
-def fig19(lab: Lab) -> Outcome:
+def fig19(lab: Lab) -> PaperOutcome:
     """Return Cao's numbers at 2.68 degrees."""
     embedding = recording(lab, FIRST).series.embedding
     says = f"E1 levels off at dimension {embedding.dim} (paper: 5), {STAND_IN}."
-    data = {"dim": embedding.curves["dim"], "e1": embedding.curves["e1"], "e2": embedding.curves["e2"]}
-    return Outcome(judged(abs(embedding.dim - 5) <= 1), says, {"dim": float(embedding.dim)}, data)
+    data = CaoDrawing(embedding.curves["dim"], embedding.curves["e1"], embedding.curves["e2"])
+    return PaperOutcome(judged(abs(embedding.dim - 5) <= 1), says, {"dim": float(embedding.dim)}, data)
 
 
-def fig20(lab: Lab) -> Outcome:
+def fig20(lab: Lab) -> PaperOutcome:
     """Return delay plots of the output at the eight levels."""
     made = [recording(lab, level) for level in LEVELS]
     found = [motions(lab, level) for level in LEVELS]
@@ -80,13 +97,14 @@ def fig20(lab: Lab) -> Outcome:
     )
     titles = [f"{m.level:.2f}°: {'chaotic' if c else f'period {f.periods[0]}'}"
               for m, c, f in zip(made, chaotic, found, strict=True)]  # fmt: skip
-    data = {"links": [m.link for m in made], "lags": [m.series.embedding.lag for m in made],
-            "seconds": [m.series.embedding.lag * m.series.dt for m in made], "titles": titles}  # fmt: skip
+    lags = [m.series.embedding.lag for m in made]
+    seconds = [lag * m.series.dt for lag, m in zip(lags, made, strict=True)]
+    data = DelayDrawing([m.link for m in made], lags, seconds, titles)
     numbers = {f"chaotic_share_{m.level:g}": float(f.chaotic.mean()) for m, f in zip(made, found, strict=True)}
-    return Outcome(judged(*right), says, numbers, data)
+    return PaperOutcome(judged(*right), says, numbers, data)
 
 
-def fig21(lab: Lab) -> Outcome:
+def fig21(lab: Lab) -> PaperOutcome:
     """Return slopes of the correlation sum over dimension at the four chaotic levels, with those of surrogates."""
     draws = lab.pick(20, 4)
     found: list[Slopes] = []
@@ -104,17 +122,17 @@ def fig21(lab: Lab) -> Outcome:
     )
     numbers = {f"d2_{level:g}": v.value for level, v in zip(SUSPECT, values, strict=True)}
     numbers |= {f"apart_{level:g}": float(np.median(f.apart[2:])) for level, f in zip(SUSPECT, found, strict=True)}
-    data = {"slopes": [vars(f) for f in found], "titles": [f"{level:.2f}°" for level in SUSPECT], "draws": draws}
-    return Outcome(judged(*differs, any(math.isfinite(v.value) for v in values)), says, numbers, data)
+    data = SlopesDrawing(found, [f"{level:.2f}°" for level in SUSPECT])
+    return PaperOutcome(judged(*differs, any(math.isfinite(v.value) for v in values)), says, numbers, data)
 
 
-def _dimension(lab: Lab, made: Recording) -> Estimate:
+def _dimension(lab: Lab, made: JointRecording) -> Estimate:
     """Return the correlation dimension of a recording behind noise reduction."""
     method = lab.make("quantifier", "correlation_dimension", pairs=lab.pick(100_000_000, 10_000_000))
     return quantify(clean_of(lab, made), method, rng=lab.rng(f"dimension {made.level}"))
 
 
-def noise_of(lab: Lab, made: Recording) -> float:
+def noise_of(lab: Lab, made: JointRecording) -> float:
     """Return the noise (degrees) that is measured in a recording, not the one that was put in."""
 
     def make() -> float:
@@ -124,7 +142,7 @@ def noise_of(lab: Lab, made: Recording) -> float:
     return lab.once(f"noise {made.level}", make)
 
 
-def clean_of(lab: Lab, made: Recording) -> Series:
+def clean_of(lab: Lab, made: JointRecording) -> Series:
     """Return a recording behind noise reduction, embedded anew."""
 
     def make() -> Series:
@@ -134,7 +152,7 @@ def clean_of(lab: Lab, made: Recording) -> Series:
     return lab.once(f"clean {made.level}", make)
 
 
-def fig22(lab: Lab) -> Outcome:
+def fig22(lab: Lab) -> PaperOutcome:
     """Return the delay plot of a recording before and after noise reduction."""
     made = recording(lab, CLEANED)
     after, true = clean_of(lab, made), made.true - made.link.mean()
@@ -143,12 +161,13 @@ def fig22(lab: Lab) -> Outcome:
         f"At 3.41 degrees (so the text; the caption says 2.68) noise reduction takes the error from {before:.3f} to "
         f"{left:.3f} degrees, by a factor of {before / left:.1f}; here the truth is known, {STAND_IN}."
     )
-    data = {"before": made.series.x, "after": after.x, "lag": made.series.embedding.lag,
-            "seconds": made.series.embedding.lag * made.series.dt}  # fmt: skip
-    return Outcome(judged(left < 0.8 * before), says, {"error_before_deg": before, "error_after_deg": left}, data)
+    lag = made.series.embedding.lag
+    titles = ("as recorded", "behind noise reduction")
+    data = DelayDrawing((made.series.x, after.x), (lag, lag), (lag * made.series.dt,) * 2, titles)
+    return PaperOutcome(judged(left < 0.8 * before), says, {"error_before_deg": before, "error_after_deg": left}, data)
 
 
-def fig23(lab: Lab) -> Outcome:
+def fig23(lab: Lab) -> PaperOutcome:
     """Return Cao's E1 before and after noise reduction, at the same delay."""
     made = recording(lab, CLEANED)
     before = made.series.embedding
@@ -159,12 +178,11 @@ def fig23(lab: Lab) -> Outcome:
         f"dimensions 2 to 4 goes up by {rises:.2f}, {STAND_IN}."
     )
     numbers = {"dim_before": float(before.dim), "dim_after": float(after.dim), "e1_rise": rises}
-    data = {"dim": before.curves["dim"], "before": before.curves["e1"], "dim_after": after.curves["dim"],
-            "after": after.curves["e1"]}  # fmt: skip
-    return Outcome(judged(after.dim <= before.dim, rises > 0.0, after.dim < before.dim), says, numbers, data)
+    data = CleanedCaoDrawing(*(curves[key] for curves in (before.curves, after.curves) for key in ("dim", "e1")))
+    return PaperOutcome(judged(after.dim <= before.dim, rises > 0.0, after.dim < before.dim), says, numbers, data)
 
 
-def table2(lab: Lab) -> Outcome:
+def table2(lab: Lab) -> PaperOutcome:
     """Return the exponents at the eight levels: of the recordings, of the model, and those of the paper."""
     heads = ("level (deg)", "paper (bit/s)", "recording (bit/s)", "95 % interval", "status", "model (bit/s)",
              "share of starts in chaos", "period of the rest")  # fmt: skip
@@ -190,10 +208,10 @@ def table2(lab: Lab) -> Outcome:
         "parameters."
     )
     kinds = all((numbers[f"share_{level:g}"] > 0.5) == (level in SUSPECT) for level in LEVELS)
-    return Outcome(judged(kinds, all(right), all(near)), says, numbers, table=Rows(heads, tuple(rows)))
+    return PaperOutcome(judged(kinds, all(right), all(near)), says, numbers, table=PaperTable(heads, tuple(rows)))
 
 
-def _exponent(lab: Lab, made: Recording) -> Estimate:
+def _exponent(lab: Lab, made: JointRecording) -> Estimate:
     """Return the largest exponent of a recording in bit/s."""
     series = replace(made.series, period=made.period)
     found = quantify(series, lab.make("quantifier", "lyapunov_kantz"), rng=lab.rng(f"exponent {made.level}"))

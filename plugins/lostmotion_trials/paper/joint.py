@@ -9,7 +9,7 @@ import numpy as np
 
 from lostmotion.contracts import Array, Series
 from lostmotion_trials.paper.chain import unfolded
-from lostmotion_trials.paper.lab import Followed, Lab, Sampled
+from lostmotion_trials.paper.lab import FollowedMotions, Lab, SampledFlow
 
 FREQUENCY = 1.54
 LEVELS = (1.34, 2.07, 2.68, 3.41, 3.65, 3.78, 4.87, 5.73)
@@ -31,7 +31,7 @@ NOISE, STEP = 0.03, 360.0 / 65536.0
 
 
 @dataclass(frozen=True, eq=False)
-class Recording:
+class JointRecording:
     """What the two encoders read at one level, in degrees, and the motion without noise; the series is embedded."""
 
     level: float
@@ -43,7 +43,7 @@ class Recording:
     period: float
 
 
-def joint(lab: Lab, level: float) -> Sampled:
+def joint(lab: Lab, level: float) -> SampledFlow:
     """Return the flow of the joint (angles in rad) at an input of so many degrees."""
     omega = 2.0 * math.pi * FREQUENCY
     natural = omega / RATIO
@@ -51,10 +51,10 @@ def joint(lab: Lab, level: float) -> Sampled:
     return lab.flow("robot_joint", values, (math.radians(level), omega))
 
 
-def motions(lab: Lab, level: float) -> Followed:
+def motions(lab: Lab, level: float) -> FollowedMotions:
     """Return the motions of the joint at a level from several starts, followed once for all figures."""
 
-    def make() -> Followed:
+    def make() -> FollowedMotions:
         flow = joint(lab, level)
         starts = lab.starts(flow, lab.pick(24, 6))
         return lab.follow(flow, starts, periods=lab.pick(3000, 600), transient=300)
@@ -62,12 +62,12 @@ def motions(lab: Lab, level: float) -> Followed:
     return lab.once(f"joint {level}", make)
 
 
-def recording(lab: Lab, level: float) -> Recording:
+def recording(lab: Lab, level: float) -> JointRecording:
     """Return the recording at a level: encoder noise added to both angles, and both read in whole steps."""
     return lab.once(f"recording {level}", lambda: _recorded(lab, level))
 
 
-def _recorded(lab: Lab, level: float) -> Recording:
+def _recorded(lab: Lab, level: float) -> JointRecording:
     flow, rng = joint(lab, level), lab.rng(f"encoder {level}")
     looks, periods = lab.pick((80, 400), (60, 160))
     true = np.degrees(flow.sample(motions(lab, level).states[0, -1], periods=periods, looks=looks)[:-1, 0])
@@ -75,4 +75,4 @@ def _recorded(lab: Lab, level: float) -> Recording:
     base = level * np.cos(2.0 * math.pi * FREQUENCY * time)
     link, read = (STEP * np.round((x + NOISE * rng.standard_normal(len(x))) / STEP) for x in (true, base))
     series = unfolded(lab, link, float(time[1]), flow.period)
-    return Recording(level, time, read, link, true, series, flow.period)
+    return JointRecording(level, time, read, link, true, series, flow.period)

@@ -25,7 +25,7 @@ WARM = 40
 WIDE = 1.5
 
 
-class Sampled(Flow, Protocol):
+class SampledFlow(Flow, Protocol):
     """A flow that can be looked at within a period."""
 
     def sample(self, start: Array, *, periods: int, looks: int) -> Array:
@@ -33,7 +33,7 @@ class Sampled(Flow, Protocol):
 
 
 @dataclass(frozen=True, eq=False)
-class Followed:
+class FollowedMotions:
     """Motions from some starts: exponents (starts,) in 1/s, period in drive periods (0: none), last states.
 
     `states` (starts, periods, n) are those at phase 0 behind the transient.
@@ -63,7 +63,7 @@ class Lab:
     quick: bool = False
     seed: int = 0
     jobs: int = 2
-    kept: dict[str, Any] = field(default_factory=dict)
+    kept: dict[str, object] = field(default_factory=dict)
 
     def pick(self, full: T, quick: T) -> T:
         """Return the one or the other effort."""
@@ -83,19 +83,19 @@ class Lab:
         """Return a method by its name."""
         return self.registry.make(kind, name, **options)
 
-    def flow(self, model: str, values: Mapping[str, float], drive: tuple[float, float]) -> Sampled:
+    def flow(self, model: str, values: Mapping[str, float], drive: tuple[float, float]) -> SampledFlow:
         """Return the flow of a model under a harmonic drive (amplitude, omega)."""
         made = self.once(f"model {model}", lambda: self.make("model", model))
-        return cast("Sampled", flow_of(made, values, drive=drive))
+        return cast("SampledFlow", flow_of(made, values, drive=drive))
 
-    def starts(self, flow: Sampled, many: int) -> Array:
+    def starts(self, flow: SampledFlow, many: int) -> Array:
         """Return starts (many, n): rest, and others drawn evenly from a box around the motion that begins at rest."""
         seen = flow.sample(flow.start, periods=WARM, looks=16)
         reach = WIDE * np.abs(seen).max(axis=0)
         drawn = self.rng("starts").uniform(-1.0, 1.0, (max(many - 1, 0), len(reach))) * reach
         return np.concatenate([flow.start[None], drawn])[:many]
 
-    def follow(self, flow: Sampled, starts: Array, *, periods: int, transient: int = 200) -> Followed:
+    def follow(self, flow: SampledFlow, starts: Array, *, periods: int, transient: int = 200) -> FollowedMotions:
         """Return the motions from `starts` (k, n), each followed for `periods` behind a transient."""
         exponents, back = np.full(len(starts), np.nan), np.zeros(len(starts), dtype=np.int64)
         states = np.full((len(starts), periods, starts.shape[1]), np.nan)
@@ -104,7 +104,7 @@ class Lab:
             exponents[k] = orbit.growth[transient:, 0].mean() / flow.period
             states[k] = orbit.states[transient + 1 :]
             back[k] = period_of(states[k])
-        return Followed(exponents, back, states)
+        return FollowedMotions(exponents, back, states)
 
     def spread(self, work: Callable[[int], None], many: int) -> None:
         """Call `work(k)` for k = 0 ... many - 1 on all cores."""

@@ -10,8 +10,15 @@ import numpy as np
 from lostmotion.contracts import Array, Series
 from lostmotion_trials.paper.cases import CASES
 from lostmotion_trials.paper.chain import Slopes, cleaned, first_minimum, size, slopes, unfolded
-from lostmotion_trials.paper.lab import Lab, Sampled
-from lostmotion_trials.paper.outcome import Outcome, judged
+from lostmotion_trials.paper.drawings import (
+    CleanedMapsDrawing,
+    NoisyCaoDrawing,
+    NoisyInformationDrawing,
+    NoisyMapsDrawing,
+    SlopesDrawing,
+)
+from lostmotion_trials.paper.lab import Lab, SampledFlow
+from lostmotion_trials.paper.outcome import PaperOutcome, judged
 from lostmotion_trials.paper.portraits import shared
 
 LEVELS = (0.0, 0.01, 0.05, 0.1)
@@ -33,7 +40,7 @@ class Noisy:
     series: tuple[Series, ...]
 
 
-def _begun(lab: Lab) -> tuple[Sampled, Array]:
+def _begun(lab: Lab) -> tuple[SampledFlow, Array]:
     """Return the flow of Case 3 and a state on its chaotic attractor."""
     found = shared(lab, 3)
     return CASES[3].flow(lab), found.states[int(np.argmax(found.chaotic)), -1]
@@ -57,7 +64,7 @@ def long(lab: Lab) -> Noisy:
     return lab.once("long", lambda: _made(lab, lab.pick(2500, 500), PERIOD_LOOKS))
 
 
-def fig11(lab: Lab) -> Outcome:
+def fig11(lab: Lab) -> PaperOutcome:
     """Return the motion of Case 3 and its mutual information at four noise levels."""
     made = recorded(lab)
     curves = [s.embedding.curves for s in made.series]
@@ -69,12 +76,12 @@ def fig11(lab: Lab) -> Outcome:
         "paper says. The minimum is broad: where it is lowest depends on bins and sampling."
     )
     shown = np.arange(len(made.true)) * made.dt < 12.0
-    data = {"time": np.flatnonzero(shown) * made.dt, "x": made.true[shown], "names": NAMES,
-            "lags": [c["lag"] for c in curves], "amis": [c["ami"] for c in curves]}  # fmt: skip
+    both = [c["lag"] for c in curves], [c["ami"] for c in curves]
+    data = NoisyInformationDrawing(made.dt * np.flatnonzero(shown).astype(float), made.true[shown], NAMES, *both)
     numbers = {f"lag_{100 * level:g}": lag for level, lag in zip(LEVELS, lags, strict=True)}
     lower = bool(np.all(np.diff(heights) < 0.0))
     same = max(lags) - min(lags) < 0.015
-    return Outcome(judged(abs(lags[0] - PAPER_LAG) < 0.012, same, lower), says, numbers, data)
+    return PaperOutcome(judged(abs(lags[0] - PAPER_LAG) < 0.012, same, lower), says, numbers, data)
 
 
 def _map(lab: Lab, x: Array, dt: float) -> Array:
@@ -83,7 +90,7 @@ def _map(lab: Lab, x: Array, dt: float) -> Array:
     return np.column_stack([x[:-lag:PERIOD_LOOKS], x[lag::PERIOD_LOOKS]])
 
 
-def fig12(lab: Lab) -> Outcome:
+def fig12(lab: Lab) -> PaperOutcome:
     """Return Poincare maps at four noise levels."""
     made = long(lab)
     maps = [_map(lab, s.x, made.dt) for s in made.series]
@@ -92,12 +99,11 @@ def fig12(lab: Lab) -> Outcome:
         f"The clean map is a thin fractal curve, {width:.2f} standard deviations of the motion wide; one per cent of "
         f"noise blurs it and ten per cent, {0.1 / width:.1f} times its width, hides it, as the paper shows."
     )
-    return Outcome(
-        judged(0.0 < width < 0.1, width > 0.01), says, {"width_over_std": width}, {"noisy": maps, "names": NAMES}
-    )
+    numbers = {"width_over_std": width}
+    return PaperOutcome(judged(0.0 < width < 0.1, width > 0.01), says, numbers, NoisyMapsDrawing(NAMES, maps))
 
 
-def fig13(lab: Lab) -> Outcome:
+def fig13(lab: Lab) -> PaperOutcome:
     """Return Cao's E1 at four noise levels."""
     dims = [s.embedding.dim for s in recorded(lab).series]
     says = (
@@ -105,13 +111,13 @@ def fig13(lab: Lab) -> Outcome:
         "(paper: 3 without, 6 with 10 %): more noise, more dimensions."
     )
     curves = [s.embedding.curves for s in recorded(lab).series]
-    data = {"names": NAMES, "dims": [c["dim"] for c in curves], "e1": [c["e1"] for c in curves]}
+    data = NoisyCaoDrawing(NAMES, [c["dim"] for c in curves], [c["e1"] for c in curves])
     numbers = {f"dim_{100 * level:g}": float(d) for level, d in zip(LEVELS, dims, strict=True)}
     rising = bool(np.all(np.diff(dims) >= 0) and dims[-1] > dims[0])
-    return Outcome(judged(rising, abs(dims[0] - 3) <= 1, abs(dims[-1] - 6) <= 2), says, numbers, data)
+    return PaperOutcome(judged(rising, abs(dims[0] - 3) <= 1, abs(dims[-1] - 6) <= 2), says, numbers, data)
 
 
-def fig14(lab: Lab) -> Outcome:
+def fig14(lab: Lab) -> PaperOutcome:
     """Return slopes of the correlation sum over dimension, with those of surrogates, at four noise levels."""
     found: list[Slopes] = [
         slopes(lab, s, lab.pick(20, 4), f"surrogates {k}") for k, s in enumerate(recorded(lab).series)
@@ -125,7 +131,7 @@ def fig14(lab: Lab) -> Outcome:
     )
     numbers = {f"apart_{100 * level:g}": float(np.median(f.apart[2:])) for level, f in zip(LEVELS, found, strict=True)}
     numbers |= {f"slope_{100 * level:g}": float(f.recorded[4]) for level, f in zip(LEVELS, found, strict=True)}
-    return Outcome(judged(*differs), says, numbers, {"slopes": [vars(f) for f in found], "names": NAMES})
+    return PaperOutcome(judged(*differs), says, numbers, SlopesDrawing(found, NAMES))
 
 
 def _reduced(lab: Lab) -> tuple[list[Array], list[float]]:
@@ -141,14 +147,13 @@ def _reduced(lab: Lab) -> tuple[list[Array], list[float]]:
     return lab.once("reduced", make)
 
 
-def _data(lab: Lab) -> dict[str, object]:
+def _maps(lab: Lab, window: Array | None = None) -> CleanedMapsDrawing:
     made, (clean, _) = long(lab), _reduced(lab)
-    maps = {key: [_map(lab, x, made.dt) for x in xs] for key, xs in
-            (("noisy", [s.x for s in made.series]), ("cleaned", clean))}  # fmt: skip
-    return {**maps, "names": NAMES}
+    noisy, cleaned = ([_map(lab, x, made.dt) for x in xs] for xs in ([s.x for s in made.series], clean))
+    return CleanedMapsDrawing(NAMES, noisy, cleaned, window)
 
 
-def fig15(lab: Lab) -> Outcome:
+def fig15(lab: Lab) -> PaperOutcome:
     """Return Poincare maps behind simple non-linear noise reduction."""
     _, left = _reduced(lab)
     says = (
@@ -156,23 +161,22 @@ def fig15(lab: Lab) -> Outcome:
         "(its level being known here): it does well below 10 %, as the paper says."
     )
     numbers = {f"left_{100 * level:g}": x for level, x in zip(LEVELS[1:], left[1:], strict=True)}
-    return Outcome(judged(left[1] < 0.6, left[2] < 0.6), says, numbers, _data(lab))
+    return PaperOutcome(judged(left[1] < 0.6, left[2] < 0.6), says, numbers, _maps(lab))
 
 
-def fig16(lab: Lab) -> Outcome:
+def fig16(lab: Lab) -> PaperOutcome:
     """Return a part of the maps, enlarged: a window around the middle of the clean map."""
-    data = _data(lab)
-    clean, (reduced, left) = _map(lab, long(lab).true, long(lab).dt), _reduced(lab)
+    clean, (reduced, _) = _map(lab, long(lab).true, long(lab).dt), _reduced(lab)
     low, high = clean.min(axis=0), clean.max(axis=0)
     room = 0.6 * (high - low)
-    data["window"] = np.column_stack([low - room, high + room])
+    window = np.column_stack([low - room, high + room])
     off = [_off(_map(lab, x, long(lab).dt), clean) / float(np.linalg.norm(high - low)) for x in reduced]
     says = (
         f"Enlarged, the distance of a cleaned point from the clean curve is {100 * off[1]:.1f} % of its length at 1 % "
         f"of noise, {100 * off[2]:.1f} % at 5 % and {100 * off[3]:.1f} % at 10 % (medians)."
     )
     numbers = {f"off_{100 * level:g}": x for level, x in zip(LEVELS[1:], off[1:], strict=True)}
-    return Outcome(judged(off[1] < 0.02, off[2] < 0.1), says, numbers, {**data, "off": off, "left": left})
+    return PaperOutcome(judged(off[1] < 0.02, off[2] < 0.1), says, numbers, _maps(lab, window))
 
 
 def _off(points: Array, curve: Array) -> float:

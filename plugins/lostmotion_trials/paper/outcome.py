@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any, Literal
+from typing import Literal
+
+from lostmotion.codec import told
+from lostmotion_trials.paper.drawings import Drawing
 
 Verdict = Literal["reproduced", "reproduced in part", "not reproduced", "beyond the paper"]
 
 
 @dataclass(frozen=True)
-class Rows:
+class PaperTable:
     """A table: its column heads, with units, and rows of text or numbers."""
 
     heads: tuple[str, ...]
@@ -18,7 +21,7 @@ class Rows:
 
 
 @dataclass(frozen=True, eq=False)
-class Outcome:
+class PaperOutcome:
     """The outcome of one figure or table.
 
     `data` is what its drawing takes, `numbers` are the key figures by name, `says` is one sentence: what was found,
@@ -28,8 +31,25 @@ class Outcome:
     verdict: Verdict
     says: str
     numbers: Mapping[str, float] = field(default_factory=dict)
-    data: Mapping[str, Any] = field(default_factory=dict)
-    table: Rows | None = None
+    data: Drawing | None = None
+    table: PaperTable | None = None
+
+
+@dataclass(frozen=True)
+class ReproducedItem:
+    """What became of one figure or table."""
+
+    verdict: str = told("reproduced, reproduced in part, not reproduced, or beyond the paper")
+    says: str = told("what was found, against what the paper says")
+    numbers: Mapping[str, float] = told("key figures, by name")
+
+
+@dataclass(frozen=True)
+class Reproduction:
+    """What `reproduce.json` holds."""
+
+    items: Mapping[str, ReproducedItem] = told("figures and tables, by name")
+    provenance: Mapping[str, object] = told("versions, settings and seed that made it")
 
 
 def judged(*claims: bool) -> Verdict:

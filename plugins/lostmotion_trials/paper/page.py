@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -18,8 +18,9 @@ from lostmotion_trials.paper import draw_curves as paper_curves
 from lostmotion_trials.paper import draw_portraits as paper_portraits
 from lostmotion_trials.paper import draw_sweeps as paper_sweeps
 from lostmotion_trials.paper import style as paper_style
+from lostmotion_trials.paper.drawings import Drawing
 
-DRAWINGS: dict[str, Callable[[paper_style.Data], Figure]] = {
+DRAWINGS: Mapping[str, Callable[..., Figure]] = {
     **paper_portraits.FIGURES,
     **paper_sweeps.FIGURES,
     **paper_basins.FIGURES,
@@ -28,7 +29,7 @@ DRAWINGS: dict[str, Callable[[paper_style.Data], Figure]] = {
 
 
 @dataclass(frozen=True)
-class Entry:
+class PageEntry:
     """One figure or table on the page."""
 
     name: str
@@ -51,7 +52,7 @@ class Entry:
         return next((name for name in self.files if name.endswith(".png")), "")
 
 
-def drawn(name: str, data: paper_style.Data, folder: Path) -> tuple[str, ...]:
+def drawn(name: str, data: Drawing, folder: Path) -> tuple[str, ...]:
     """Return the names of the files into which the figure `name` was drawn."""
     with style.applied():
         return tuple(paper_style.files(DRAWINGS[name](data), folder, name))
@@ -73,7 +74,7 @@ def tabled(name: str, heads: tuple[str, ...], rows: tuple[tuple[str, ...], ...],
     return f"{name}.csv", f"{name}.md"
 
 
-def write_index(folder: Path, entries: list[Entry], effort: str) -> Path:
+def write_index(folder: Path, entries: list[PageEntry], effort: str) -> Path:
     """Return the path of `index.html`, which stands beside the pictures that it shows."""
     page = folder / "index.html"
     counts = {e.verdict: sum(x.verdict == e.verdict for x in entries) for e in entries}

@@ -8,9 +8,10 @@ from dataclasses import replace
 import numpy as np
 
 from lostmotion.contracts import Array
-from lostmotion_trials.paper.cases import CASES, PRINTED, Case
-from lostmotion_trials.paper.lab import Followed, Lab, Sampled
-from lostmotion_trials.paper.outcome import Outcome, Rows, Verdict, judged
+from lostmotion_trials.paper.cases import CASES, PRINTED, PaperCase
+from lostmotion_trials.paper.drawings import ForceDrawing, PhaseDrawing, SectionsDrawing, UnfoldedDrawing
+from lostmotion_trials.paper.lab import FollowedMotions, Lab, SampledFlow
+from lostmotion_trials.paper.outcome import PaperOutcome, PaperTable, Verdict, judged
 
 LOOKS = 600
 DELAY = 0.102
@@ -21,7 +22,7 @@ SECTION_DELAY = 0.01
 """The delay (s) of Fig. 9."""
 
 
-def motions(lab: Lab, case: Case) -> Followed:
+def motions(lab: Lab, case: PaperCase) -> FollowedMotions:
     """Return motions of a case from many starts."""
     flow = case.flow(lab)
     return lab.follow(
@@ -29,22 +30,22 @@ def motions(lab: Lab, case: Case) -> Followed:
     )
 
 
-def shared(lab: Lab, number: int) -> Followed:
+def shared(lab: Lab, number: int) -> FollowedMotions:
     """Return the motions of one of the three cases, followed once for all figures."""
     return lab.once(f"case {number}", lambda: motions(lab, CASES[number]))
 
 
-def shown(found: Followed) -> int:
+def shown(found: FollowedMotions) -> int:
     """Return which of the motions to draw: the first chaotic one, or the first."""
     return int(np.argmax(found.chaotic))
 
 
-def portrait(lab: Lab, case: Case, found: Followed, periods: int) -> Array:
+def portrait(lab: Lab, case: PaperCase, found: FollowedMotions, periods: int) -> Array:
     """Return states (periods * LOOKS + 1, 2) of the motion that is shown, behind its transient."""
     return case.flow(lab).sample(found.states[shown(found), -1], periods=periods, looks=LOOKS)
 
 
-def told(found: Followed, bit: float, unit: str) -> str:
+def told(found: FollowedMotions, bit: float, unit: str) -> str:
     """Return in words how many starts end in chaos, and with which exponents."""
     many, chaotic = len(found.exponents), found.chaotic
     values = bit * found.exponents[chaotic]
@@ -54,15 +55,15 @@ def told(found: Followed, bit: float, unit: str) -> str:
     return f"chaotic from {int(chaotic.sum())} of {many} starts ({spread})"
 
 
-def spelled(found: Followed) -> str:
+def spelled(found: FollowedMotions) -> str:
     """Return the periods that occur, as text: 1, 3."""
     return ", ".join(str(p) if p else "none" for p in np.unique(found.periods))
 
 
-def fig3(lab: Lab) -> Outcome:
+def fig3(lab: Lab) -> PaperOutcome:
     """Return phase plots of Cases 1 and 2."""
     first, second = shared(lab, 1), shared(lab, 2)
-    data = {f"case{k}": portrait(lab, CASES[k], f, lab.pick(150, 60)) for k, f in ((1, first), (2, second))}
+    states = [portrait(lab, CASES[k], f, lab.pick(150, 60)) for k, f in ((1, first), (2, second))]
     holds = bool(first.chaotic.all()), bool(second.chaotic.any())
     bit = 1.0 / math.log(2.0)
     says = (
@@ -75,16 +76,16 @@ def fig3(lab: Lab) -> Outcome:
         "case2_chaotic_share": float(second.chaotic.mean()),
     }
     titles = (f"Case 1, A = 100 N: {kind(first)}", f"Case 2, A = 240 N: {kind(second)}")
-    return Outcome(judged(*holds), says, numbers, {**data, "titles": titles})
+    return PaperOutcome(judged(*holds), says, numbers, PhaseDrawing(states, titles))
 
 
-def kind(found: Followed) -> str:
+def kind(found: FollowedMotions) -> str:
     """Return what kind of motion is shown."""
     one = shown(found)
     return "chaotic" if found.chaotic[one] else f"period {found.periods[one]}"
 
 
-def fig4(lab: Lab) -> Outcome:
+def fig4(lab: Lab) -> PaperOutcome:
     """Return the phase plot of Case 3, and the same in delay coordinates."""
     found, case = shared(lab, 3), CASES[3]
     states = portrait(lab, case, found, lab.pick(150, 60))
@@ -101,30 +102,30 @@ def fig4(lab: Lab) -> Outcome:
     numbers = {"chaotic_share": float(found.chaotic.mean()), "bit_per_s": float(found.bits[found.chaotic].mean())}
     numbers["periodic_bit_per_s"] = float(found.bits[calm].mean()) if calm.any() else math.nan
     numbers["printed_bit_per_s"] = float(printed.bits[printed.chaotic].mean()) if printed.chaotic.any() else math.nan
-    return Outcome(judged(bool(found.chaotic.any())), says, numbers, {"states": states, "lag": lag})
+    return PaperOutcome(judged(bool(found.chaotic.any())), says, numbers, UnfoldedDrawing(states, lag))
 
 
-def fig5(lab: Lab) -> Outcome:
+def fig5(lab: Lab) -> PaperOutcome:
     """Return the normalised force of the backlash, as the model has it: from its acceleration at rest."""
     model = lab.make("model", "lin_backlash")
     p = np.linspace(-3.0, 3.0, 121)
     force, out = np.empty(len(p)), np.zeros(2)
     for k, place in enumerate(p):
-        model.rhs(0.0, np.array([place, 0.0]), np.zeros(1), np.array([1.0, 0.0, 0.0, 1.0, 1.0]), out)
+        model.rhs(0.0, np.array([place, 0.0]), np.zeros(len(model.inputs)), np.array([1.0, 0.0, 0.0, 1.0, 1.0]), out)
         force[k] = -out[1]
     wanted = np.sign(p) * np.maximum(np.abs(p) - 1.0, 0.0)
     off = float(np.abs(force - wanted).max())
     digits = "" if off == 0.0 else f" to {off:.1g}"
     says = f"The force of the model, read from its acceleration at rest, is that of eq. (3){digits}."
-    return Outcome(judged(off < 1e-12), says, {"largest_difference": off}, {"p": p, "force": force})
+    return PaperOutcome(judged(off < 1e-12), says, {"largest_difference": off}, ForceDrawing(p, force))
 
 
-def four(lab: Lab) -> dict[float, Followed]:
+def four(lab: Lab) -> dict[float, FollowedMotions]:
     """Return the motions of Case 1 at the four places of Figs. 8 and 9."""
     return lab.once("four places", lambda: {x: motions(lab, CASES[1].at(alpha=1.0 / x)) for x in PLACES})
 
 
-def fig8(lab: Lab) -> Outcome:
+def fig8(lab: Lab) -> PaperOutcome:
     """Return phase plots at the four places."""
     found = four(lab)
     cases = {x: CASES[1].at(alpha=1.0 / x) for x in PLACES}
@@ -134,10 +135,10 @@ def fig8(lab: Lab) -> Outcome:
     numbers = {f"chaotic_share_{x:g}": float(found[x].chaotic.mean()) for x in PLACES}
     numbers |= {f"bit_per_time_{x:g}": float(CASES[1].bit * found[x].exponents.mean()) for x in PLACES}
     numbers |= {f"highest_bit_per_time_{x:g}": float(CASES[1].bit * found[x].exponents.max()) for x in PLACES}
-    return Outcome(verdict, says, numbers, {"states": states, "titles": titles})
+    return PaperOutcome(verdict, says, numbers, PhaseDrawing(states, titles))
 
 
-def _four_told(found: dict[float, Followed]) -> tuple[Verdict, str]:
+def _four_told(found: dict[float, FollowedMotions]) -> tuple[Verdict, str]:
     bit = CASES[1].bit
     words = [f"{x:g}: {told(found[x], bit, 'bit/time')}" for x in PLACES]
     verdict = judged(
@@ -152,7 +153,7 @@ def _four_told(found: dict[float, Followed]) -> tuple[Verdict, str]:
     return verdict, says
 
 
-def fig9(lab: Lab) -> Outcome:
+def fig9(lab: Lab) -> PaperOutcome:
     """Return Poincare maps at the four places: x at one phase of the drive against x a delay later."""
     found = four(lab)
     points = [_section(lab, CASES[1].at(alpha=1.0 / x), found[x]) for x in PLACES]
@@ -165,33 +166,33 @@ def fig9(lab: Lab) -> Outcome:
     )
     titles = [f"1/alpha = {x:g}: {kind(found[x])}" for x in PLACES]
     numbers = {f"points_{x:g}": float(counts[x]) for x in PLACES}
-    data = {"points": points, "titles": titles, "transient": _transient(lab, CASES[1].at(alpha=1.0 / PLACES[-1]))}
-    return Outcome(verdict, says, numbers, data)
+    data = SectionsDrawing(points, titles, _transient(lab, CASES[1].at(alpha=1.0 / PLACES[-1])))
+    return PaperOutcome(verdict, says, numbers, data)
 
 
 def _points(count: int) -> str:
     return "one point" if count == 1 else f"{count} points"
 
 
-def _section(lab: Lab, case: Case, found: Followed) -> Array:
+def _section(lab: Lab, case: PaperCase, found: FollowedMotions) -> Array:
     """Return x and x a delay later (periods, 2) in m, once a period."""
     return _delayed(case.flow(lab), found.states[shown(found), -1], lab.pick(6000, 1500))
 
 
-def _delayed(flow: Sampled, start: Array, periods: int) -> Array:
+def _delayed(flow: SampledFlow, start: Array, periods: int) -> Array:
     looks = 400
     lag = round(SECTION_DELAY / flow.period * looks)
     x = flow.sample(start, periods=periods, looks=looks)[:, 0]
     return np.column_stack([x[:-lag:looks], x[lag::looks]])
 
 
-def _transient(lab: Lab, case: Case) -> Array:
+def _transient(lab: Lab, case: PaperCase) -> Array:
     """Return the map of the first periods from some starts, before they settle."""
     flow = case.flow(lab)
     return np.concatenate([_delayed(flow, start, 150)[20:] for start in lab.starts(flow, lab.pick(24, 8))[1:]])
 
 
-def table1(lab: Lab) -> Outcome:
+def table1(lab: Lab) -> PaperOutcome:
     """Return the parameters of the three cases with what follows from them and what they do."""
     heads = ("case", "m (kg)", "k1 (N/m)", "k0 (N/m)", "c (N s/m)", "x0 (m)", "A (N)", "2 zeta", "alpha",
              "omega/omega_0", "share of starts in chaos", "exponent (bit/s)")  # fmt: skip
@@ -215,4 +216,4 @@ def table1(lab: Lab) -> Outcome:
             else ", and Case 2 settles on periodic orbits from every start (it is chaotic at 230 N)."
         )
     )
-    return Outcome(judged(*(k in good for k in CASES)), says, numbers, table=Rows(heads, tuple(rows)))
+    return PaperOutcome(judged(*(k in good for k in CASES)), says, numbers, table=PaperTable(heads, tuple(rows)))

@@ -5,15 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from importlib import import_module
 from pathlib import Path
-from typing import Any, NamedTuple, cast
+from typing import NamedTuple, cast
 
+from lostmotion.codec import to_plain
 from lostmotion.errors import DataError, nearest
 from lostmotion.provenance import provenance
 from lostmotion.registry import Registry
 from lostmotion.storage import folder_for, save_json
 from lostmotion_trials.paper.lab import Lab
-from lostmotion_trials.paper.outcome import Outcome
-from lostmotion_trials.paper.page import Entry, cells, drawn, tabled, write_index
+from lostmotion_trials.paper.outcome import PaperOutcome, ReproducedItem, Reproduction
+from lostmotion_trials.paper.page import PageEntry, cells, drawn, tabled, write_index
 
 Say = Callable[[str], None]
 
@@ -67,37 +68,37 @@ def chosen(names: Sequence[str]) -> list[str]:
     return list(ITEMS) if not names or "all" in names else [name for name in ITEMS if name in names]
 
 
-def outcome_of(name: str, lab: Lab) -> Outcome:
+def outcome_of(name: str, lab: Lab) -> PaperOutcome:
     """Return the outcome of one figure or table."""
     item = ITEMS[name]
     module = import_module(f"lostmotion_trials.paper.{item.module}")
-    return cast("Outcome", getattr(module, item.function or name)(lab))
+    return cast("PaperOutcome", getattr(module, item.function or name)(lab))
 
 
-def reproduce(names: Sequence[str], out: Path, lab: Lab, say: Say = lambda _step: None) -> dict[str, Any]:
+def reproduce(names: Sequence[str], out: Path, lab: Lab, say: Say = lambda _step: None) -> Reproduction:
     """Return the content of `reproduce.json` after writing it, the figures, the tables and `index.html` into `out`."""
     wanted, folder = chosen(names), folder_for(out)
-    entries, content = [], {}
+    entries, items = [], {}
     for name in wanted:
         say(ITEMS[name].label)
         found = outcome_of(name, lab)
         entries.append(_written(name, found, folder))
-        content[name] = {"verdict": found.verdict, "says": found.says, "numbers": dict(found.numbers)}
+        items[name] = ReproducedItem(found.verdict, found.says, found.numbers)
     effort = "Drawn with --quick: short runs and coarse sweeps." if lab.quick else "Drawn with full effort."
     write_index(folder, entries, effort)
     settings = {"names": wanted, "quick": lab.quick}
-    result = {"items": content, "provenance": provenance("reproduce", settings, lab.seed, {})}
-    save_json(folder / "reproduce.json", result)
+    result = Reproduction(items, provenance("reproduce", settings, lab.seed, {}))
+    save_json(folder / "reproduce.json", to_plain(result))
     return result
 
 
-def _written(name: str, found: Outcome, folder: Path) -> Entry:
+def _written(name: str, found: PaperOutcome, folder: Path) -> PageEntry:
     """Return the entry of a figure or table whose files are written."""
     item = ITEMS[name]
     files = drawn(name, found.data, folder) if found.data else ()
     heads, rows = (found.table.heads, cells(found.table.rows)) if found.table else ((), ())
     files += tabled(name, heads, rows, folder) if rows else ()
-    return Entry(name, item.label, item.title, found.verdict, found.says, files, heads, rows)
+    return PageEntry(name, item.label, item.title, found.verdict, found.says, files, heads, rows)
 
 
 def laboratory(registry: Registry, *, quick: bool, seed: int, jobs: int) -> Lab:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Mapping
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -18,7 +18,6 @@ from lostmotion.contracts import Array
 from lostmotion.report import style
 from lostmotion.storage import save_bytes
 
-Data = Mapping[str, Any]
 DPI = 300
 COLOURS = ("#1a1a1a", "#0072b2", "#009e73", "#d55e00", "#cc79a7", "#8c6d00")
 """Okabe and Ito, the lightest left out."""
@@ -47,7 +46,7 @@ def panels(rows: int, columns: int, height: float, **options: Any) -> tuple[Figu
     return figure, [axes for row in made for axes in row]
 
 
-def letter(axes: list[Axes], titles: tuple[str, ...] | list[str]) -> None:
+def letter(axes: list[Axes], titles: Sequence[str]) -> None:
     """Give each panel its letter and title."""
     for k, (panel, title) in enumerate(zip(axes, titles, strict=True)):
         panel.set_title(f"({chr(97 + k)}) {title}")

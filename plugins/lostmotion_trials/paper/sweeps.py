@@ -9,8 +9,15 @@ from numpy.typing import NDArray
 
 from lostmotion.contracts import Array
 from lostmotion_trials.paper.cases import CASES
+from lostmotion_trials.paper.drawings import (
+    BranchesDrawing,
+    DiagramsDrawing,
+    LineDrawing,
+    PlaneDrawing,
+    SharedPlaneDrawing,
+)
 from lostmotion_trials.paper.lab import Lab
-from lostmotion_trials.paper.outcome import Outcome, judged, listed
+from lostmotion_trials.paper.outcome import PaperOutcome, judged, listed
 
 LOW, HIGH = 1.0, 10.0
 """The range of 1/alpha in Fig. 6."""
@@ -25,7 +32,7 @@ SOME = 0.25
 
 
 @dataclass(frozen=True)
-class Effort:
+class SweepEffort:
     """From how many starts each cell is followed, for how many periods, behind which transient."""
 
     starts: int
@@ -54,7 +61,7 @@ class Sweep:
         return np.asarray(self.chaotic.mean(axis=1), dtype=np.float64)
 
 
-def swept(lab: Lab, damping: float, inverse: Array, effort: Effort) -> Sweep:
+def swept(lab: Lab, damping: float, inverse: Array, effort: SweepEffort) -> Sweep:
     """Return Case 1 with another 2 zeta at each 1/alpha of `inverse` (cells,)."""
     cells = len(inverse)
     exponents = np.full((cells, effort.starts), np.nan)
@@ -82,7 +89,7 @@ def windows(inverse: Array, chaotic: NDArray[np.bool_]) -> list[tuple[float, flo
 
 def _line(lab: Lab) -> Sweep:
     cells = lab.pick(451, 91)
-    effort = Effort(*lab.pick((8, 1000, 500), (3, 250, 150)))
+    effort = SweepEffort(*lab.pick((8, 1000, 500), (3, 250, 150)))
     return lab.once("line", lambda: swept(lab, CASES[1].damping, np.linspace(LOW, HIGH, cells), effort))
 
 
@@ -93,7 +100,7 @@ def _inside(sweep: Sweep) -> dict[str, float]:
     return {name: float(sweep.chaotic[cells].mean()) for name, cells in where.items()}
 
 
-def fig6(lab: Lab) -> Outcome:
+def fig6(lab: Lab) -> PaperOutcome:
     """Return the largest exponent over 1/alpha, from several starts at each."""
     sweep = _line(lab)
     found = windows(sweep.inverse, sweep.share >= SOME)
@@ -110,15 +117,15 @@ def fig6(lab: Lab) -> Outcome:
     numbers = {"near_2_bit_per_time": near_two, "windows": float(len(found)), "share_mixed": mixed, **_inside(sweep)}
     numbers["highest_bit_per_time"] = float(np.nanmax(sweep.exponents))
     numbers["highest_near_4.1"] = near_four
-    data = {"inverse": sweep.inverse, "exponents": sweep.exponents, "share": sweep.share, "known": KNOWN}
+    data = LineDrawing(sweep.inverse, sweep.exponents, sweep.share, KNOWN)
     claims = judged(len(found) >= 3, abs(near_two - 0.06) < 0.015, near_four > 0.0)
-    return Outcome(claims, says, numbers, data)
+    return PaperOutcome(claims, says, numbers, data)
 
 
-def fig7(lab: Lab) -> Outcome:
+def fig7(lab: Lab) -> PaperOutcome:
     """Return bifurcation diagrams over 1/alpha for seven dampings."""
     inverse = np.linspace(LOW, HIGH, lab.pick(361, 73))
-    effort = Effort(*lab.pick((4, 400, 500), (2, 120, 100)))
+    effort = SweepEffort(*lab.pick((4, 400, 500), (2, 120, 100)))
     sweeps = [swept(lab, damping, inverse, effort) for damping in DAMPINGS]
     shares = np.array([float(s.chaotic.mean()) for s in sweeps])
     falls = bool((np.diff(shares) <= 0.0).all())
@@ -129,8 +136,10 @@ def fig7(lab: Lab) -> Outcome:
         + " At 0.005 part of what does not repeat is transient."
     )
     numbers = {f"share_{d:g}": float(s) for d, s in zip(DAMPINGS, shares, strict=True)}
-    data = {"inverse": inverse, "places": [s.places for s in sweeps], "dampings": DAMPINGS, "shares": shares}
-    return Outcome(judged(bool(shares[-1] < 0.2 * shares.max()), bool(shares[3] > shares[-1])), says, numbers, data)
+    data = DiagramsDrawing(inverse, [s.places for s in sweeps], DAMPINGS, shares)
+    return PaperOutcome(
+        judged(bool(shares[-1] < 0.2 * shares.max()), bool(shares[3] > shares[-1])), says, numbers, data
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -143,16 +152,16 @@ class Plane:
     chaotic: NDArray[np.bool_]
 
 
-def plane(lab: Lab, inverse: Array, dampings: Array, effort: Effort) -> Plane:
+def plane(lab: Lab, inverse: Array, dampings: Array, effort: SweepEffort) -> Plane:
     """Return Case 1 over 1/alpha and 2 zeta."""
     rows = [swept(lab, float(damping), inverse, effort) for damping in dampings]
     return Plane(inverse, dampings, np.stack([r.exponents for r in rows]), np.stack([r.chaotic for r in rows]))
 
 
-def fig10(lab: Lab) -> Outcome:
+def fig10(lab: Lab) -> PaperOutcome:
     """Return the largest exponent over 1/alpha and zeta: the highest of several starts, and how many are chaotic."""
     across, up = lab.pick((121, 41), (37, 13))
-    effort = Effort(*lab.pick((4, 400, 300), (2, 120, 80)))
+    effort = SweepEffort(*lab.pick((4, 400, 300), (2, 120, 80)))
     found = plane(lab, np.linspace(LOW, HIGH, across), np.linspace(0.01, 0.32, up), effort)
     share = found.chaotic.mean(axis=2)
     low, high = (float(share[part].mean()) for part in (found.dampings < 0.06, found.dampings > 0.25))
@@ -163,18 +172,13 @@ def fig10(lab: Lab) -> Outcome:
         "depends on the start: it is no function of 1/alpha and zeta alone, as an inversion would need."
     )
     numbers = {"share_low_damping": low, "share_high_damping": high, "share_mixed": mixed}
-    data = {
-        "inverse": found.inverse,
-        "zeta": 0.5 * found.dampings,
-        "exponent": found.exponents.max(axis=2),
-        "share": share,
-    }
-    return Outcome(judged(low > 5.0 * high), says, numbers, data)
+    data = SharedPlaneDrawing(found.inverse, 0.5 * found.dampings, found.exponents.max(axis=2), share)
+    return PaperOutcome(judged(low > 5.0 * high), says, numbers, data)
 
 
-def bifurcation(lab: Lab) -> Outcome:
+def bifurcation(lab: Lab) -> PaperOutcome:
     """Return a bifurcation diagram over 1/alpha with the exponents of the same motions."""
-    effort = Effort(*lab.pick((6, 400, 600), (3, 150, 150)))
+    effort = SweepEffort(*lab.pick((6, 400, 600), (3, 150, 150)))
     sweep = swept(lab, CASES[1].damping, np.linspace(LOW, HIGH, lab.pick(1201, 181)), effort)
     several = float(np.mean([_several(row, calm) for row, calm in zip(sweep.exponents, ~sweep.chaotic, strict=True)]))
     says = (
@@ -183,8 +187,8 @@ def bifurcation(lab: Lab) -> Outcome:
         "orbits of different exponents, or in chaos from some of them only."
     )
     numbers = {"share_chaotic": float(sweep.chaotic.mean()), "share_with_several_attractors": several}
-    data = {"inverse": sweep.inverse, "places": sweep.places, "exponents": sweep.exponents, "chaotic": sweep.chaotic}
-    return Outcome("beyond the paper", says, numbers, data)
+    data = BranchesDrawing(sweep.inverse, sweep.places, sweep.exponents)
+    return PaperOutcome("beyond the paper", says, numbers, data)
 
 
 def _several(exponents: Array, calm: NDArray[np.bool_]) -> bool:
@@ -194,10 +198,10 @@ def _several(exponents: Array, calm: NDArray[np.bool_]) -> bool:
     return bool(calm.all() and np.ptp(exponents) > 1e-3)
 
 
-def plane_map(lab: Lab) -> Outcome:
+def plane_map(lab: Lab) -> PaperOutcome:
     """Return a map of the largest exponent over 1/alpha and zeta in more detail than Fig. 10."""
     across, up = lab.pick((301, 111), (61, 25))
-    effort = Effort(*lab.pick((1, 300, 300), (1, 100, 100)))
+    effort = SweepEffort(*lab.pick((1, 300, 300), (1, 100, 100)))
     found = plane(lab, np.linspace(LOW, HIGH, across), np.geomspace(0.01, 0.32, up), effort)
     top = 0.5 * float(found.dampings[found.chaotic.any(axis=(1, 2))].max(initial=0.0))
     says = (
@@ -206,5 +210,5 @@ def plane_map(lab: Lab) -> Outcome:
         "from their neighbours are coexisting attractors and long transients."
     )
     numbers = {"share_chaotic": float(found.chaotic.mean()), "highest_zeta": top}
-    data = {"inverse": found.inverse, "zeta": 0.5 * found.dampings, "exponent": found.exponents[:, :, 0]}
-    return Outcome("beyond the paper", says, numbers, data)
+    data = PlaneDrawing(found.inverse, 0.5 * found.dampings, found.exponents[:, :, 0])
+    return PaperOutcome("beyond the paper", says, numbers, data)

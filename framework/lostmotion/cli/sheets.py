@@ -1,0 +1,138 @@
+"""What plugins say of themselves, as `lostmotion plugins show` tells it; it loads NumPy, which the listing does not."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import MISSING, dataclass, fields, is_dataclass
+from typing import Any
+
+from lostmotion.codec import told
+from lostmotion.contracts import Param
+from lostmotion.registry import Entry
+
+WORDS = ("physics", "formula", "null", "paper", "motion", "reads", "unit")
+LISTS = ("states", "inputs", "channels", "needs", "motions", "resembles")
+SETS = ("preserves",)
+
+
+@dataclass(frozen=True)
+class PlaceSheet:
+    """What a model says of a place at which a force can act."""
+
+    name: str = told("its name")
+    row: int = told("the row of the equations of motion on which the force acts")
+    inertia: str = told("the parameter that is the inertia there")
+    holds: tuple[str, ...] = told("parameters that live at the place")
+
+
+@dataclass(frozen=True)
+class ParameterSheet:
+    """What a plugin says of a parameter."""
+
+    name: str = told("its name")
+    meaning: str = told("what it is, in words")
+    units: Mapping[str, str] = told("its unit in each kind of motion")
+    low: float = told("lower bound; null where there is none")
+    high: float = told("upper bound; null where there is none")
+    scale: str = told("log where it is known by order of magnitude, else linear")
+    null: float | None = told("where the plugin does nothing; null where there is no such value")
+    typical: float = told("width of the usual prior, in natural sizes of the recording")
+    aliases: tuple[str, ...] = told("further names")
+    prior: str | None = told("how a diagnosis believes in it beforehand, in words", default=None)
+
+
+@dataclass(frozen=True)
+class PluginSheet:
+    """Everything that a plugin says of itself; what it does not say is absent."""
+
+    kind: str = told("model, term, quantifier, ...")
+    name: str = told("its name")
+    owner: str = told("the package it came with, and its version")
+    about: str = told("what it is, in a paragraph")
+    physics: str | None = told("the sentence by which a finding is told", default=None)
+    formula: str | None = told("its formula", default=None)
+    null: str | None = told("the null hypothesis of a surrogate", default=None)
+    paper: str | None = told("the paper it follows", default=None)
+    motion: str | None = told("translation or rotation", default=None)
+    reads: str | None = told("what a method reads", default=None)
+    unit: str | None = told("unit of what a method returns", default=None)
+    preserves: tuple[str, ...] | None = told("what a surrogate preserves", default=None)
+    states: tuple[str, ...] | None = told("states of a model or term", default=None)
+    inputs: tuple[str, ...] | None = told("inputs of a model", default=None)
+    channels: tuple[str, ...] | None = told("what sensors of a model can see", default=None)
+    needs: tuple[str, ...] | None = told("what must be there for it", default=None)
+    motions: tuple[str, ...] | None = told("kinds of motion it can be used in", default=None)
+    resembles: tuple[str, ...] | None = told("terms that few recordings tell from it", default=None)
+    interfaces: tuple[PlaceSheet, ...] | None = told("places at which a force can act on a model", default=None)
+    parameters: tuple[ParameterSheet, ...] | None = told("its parameters", default=None)
+    options: Mapping[str, object] | None = told("its options with their defaults", default=None)
+    known_failures: Mapping[str, str] | None = told("rules that it breaks, with the reason", default=None)
+
+
+def sheet_of(entry: Entry, cls: type[Any]) -> PluginSheet:
+    """Return everything that a class says of itself."""
+    motions = getattr(cls, "motions", None) or (getattr(cls, "motion", ""),)
+    options = [f for f in fields(cls) if f.init and f.name != "at"] if is_dataclass(cls) else []
+    places = [PlaceSheet(i.name, i.row, i.inertia, tuple(i.holds)) for i in getattr(cls, "interfaces", None) or ()]
+    return PluginSheet(
+        kind=entry.kind,
+        name=entry.name,
+        owner=f"{entry.owner} {entry.version}".strip(),
+        about=" ".join((cls.__doc__ or "").split()),
+        physics=_word(cls, "physics"),
+        formula=_word(cls, "formula"),
+        null=_word(cls, "null"),
+        paper=_word(cls, "paper"),
+        motion=_word(cls, "motion"),
+        reads=_word(cls, "reads"),
+        unit=_word(cls, "unit"),
+        preserves=tuple(sorted(_names(cls, "preserves") or ())) or None,
+        states=_names(cls, "states"),
+        inputs=_names(cls, "inputs"),
+        channels=_names(cls, "channels"),
+        needs=_names(cls, "needs"),
+        motions=_names(cls, "motions"),
+        resembles=_names(cls, "resembles"),
+        interfaces=tuple(places) or None,
+        parameters=tuple(_parameter(q, motions, entry.kind) for q in getattr(cls, "params", None) or ()) or None,
+        options={f.name: None if f.default is MISSING else f.default for f in options} or None,
+        known_failures=dict(getattr(cls, "known_failures", None) or {}) or None,
+    )
+
+
+def _word(cls: type[Any], key: str) -> str | None:
+    word = getattr(cls, key, None)
+    return word if isinstance(word, str) else None
+
+
+def _names(cls: type[Any], key: str) -> tuple[str, ...] | None:
+    return tuple(getattr(cls, key, None) or ()) or None
+
+
+def _parameter(q: Param, motions: tuple[str, ...], kind: str) -> ParameterSheet:
+    """Return what a parameter is, with its unit in each kind of motion."""
+    return ParameterSheet(
+        name=q.name,
+        meaning=q.meaning,
+        units={m: q.dimension.unit(m) for m in motions},
+        low=q.low,
+        high=q.high,
+        scale=q.scale,
+        null=q.null,
+        typical=q.typical,
+        aliases=q.aliases,
+        prior=_prior(q) if kind == "term" else None,
+    )
+
+
+def _prior(q: Param) -> str:
+    """Return how a diagnosis believes in a parameter of a term beforehand, in natural sizes of the recording."""
+    if q.choices:
+        return f"one of {', '.join(f'{c:g}' for c in q.choices)}"
+    sizes = ("drive force", "rms position", "length of the recording" if q.lasting else "time of the motion")
+    powers = zip(sizes, (q.dimension.force, q.dimension.length, q.dimension.time), strict=True)
+    natural = "".join(
+        f" {'*' if n > 0 else '/'} {size}" + (f"^{abs(n)}" if abs(n) > 1 else "") for size, n in powers if n
+    )
+    form = "log-normal about" if q.scale == "log" else "half-normal of width" if q.low == 0.0 else "normal about 0, sd"
+    return f"{form} {q.typical:g}{natural}"

@@ -1,0 +1,48 @@
+"""What is sealed before a blind trial: the truth behind each case, and the digests that vouch for it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from lostmotion.codec import told
+from lostmotion_trials.blind.imperfect import World
+from lostmotion_trials.blind.pilot import Effect
+from lostmotion_trials.blind.simulator import BlindMachine
+
+
+@dataclass(frozen=True, kw_only=True)
+class SealedMachine(BlindMachine):
+    """A machine with the noise of its recording."""
+
+    measurement_noise: float = told("standard deviation of the measurement noise, in SI units")
+
+
+@dataclass(frozen=True, kw_only=True)
+class SealedTruth:
+    """The truth behind one case: `sealed/NNN.json`."""
+
+    schema: str = told("`lostmotion.sealed/1`")
+    case: str = told("name of the case")
+    salt: str = told("random bytes, so that nobody finds a truth by trying")
+    variant: str = told("kind of the measurement noise: plain, coloured or outliers")
+    effects: tuple[Effect, ...] = told("what is hidden in the machine")
+    machine: SealedMachine = told("the machine and how it is recorded")
+    world: World | None = told("the flaws of a machine of an imperfect world", default=None)
+
+
+@dataclass(frozen=True)
+class ConcealedCase:
+    """A case that was written, with its truth."""
+
+    case: str = told("name of the case")
+    digests: Mapping[str, str] = told("SHA-256 of its files, and of the truth")
+
+
+@dataclass(frozen=True)
+class Seal:
+    """What is published before the first diagnosis: `seal.json`."""
+
+    schema: str = told("`lostmotion.seal/1`")
+    digest: str = told("name of the digest")
+    digests: Mapping[str, Mapping[str, str]] = told("for each case the digests of its files, and of the truth")

@@ -1,0 +1,227 @@
+"""What each figure of the paper is drawn from: arrays, and words beside them; figures drawn alike share one."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lostmotion.contracts import Array
+from lostmotion_trials.paper.chain import Slopes
+
+
+@dataclass(frozen=True, eq=False)
+class Drawing:
+    """What a figure is drawn from."""
+
+
+@dataclass(frozen=True, eq=False)
+class PhaseDrawing(Drawing):
+    """Phase plots: states (samples, 2) in m and m/s, and a title for each."""
+
+    states: Sequence[Array]
+    titles: Sequence[str]
+
+
+@dataclass(frozen=True, eq=False)
+class UnfoldedDrawing(Drawing):
+    """States (samples, 2) in m and m/s, and the delay in samples by which the first is unfolded."""
+
+    states: Array
+    lag: int
+
+
+@dataclass(frozen=True, eq=False)
+class ForceDrawing(Drawing):
+    """The normalised `force` of the backlash over the normalised displacement `p`, (places,)."""
+
+    p: Array
+    force: Array
+
+
+@dataclass(frozen=True, eq=False)
+class SectionsDrawing(Drawing):
+    """Poincare maps: points (periods, 2) in m with a title for each, and those of a transient."""
+
+    points: Sequence[Array]
+    titles: Sequence[str]
+    transient: Array
+
+
+@dataclass(frozen=True, eq=False)
+class LineDrawing(Drawing):
+    """Exponents (cells, starts) in bit per normalised time over 1/alpha, the share of starts in chaos (cells,).
+
+    `known` are the windows of 1/alpha in which there is chaos.
+    """
+
+    inverse: Array
+    exponents: Array
+    share: Array
+    known: Sequence[tuple[float, float]]
+
+
+@dataclass(frozen=True, eq=False)
+class DiagramsDrawing(Drawing):
+    """Stroboscopic positions (cells, starts, kept) in x0 over 1/alpha and the share of chaos, for each damping."""
+
+    inverse: Array
+    places: Sequence[Array]
+    dampings: Sequence[float]
+    shares: Array
+
+
+@dataclass(frozen=True, eq=False)
+class BranchesDrawing(Drawing):
+    """Stroboscopic positions (cells, starts, kept) in x0 and exponents (cells, starts) over 1/alpha."""
+
+    inverse: Array
+    places: Array
+    exponents: Array
+
+
+@dataclass(frozen=True, eq=False)
+class PlaneDrawing(Drawing):
+    """The largest exponent (zeta, inverse) in bit per normalised time over 1/alpha and the damping ratio."""
+
+    inverse: Array
+    zeta: Array
+    exponent: Array
+
+
+@dataclass(frozen=True, eq=False)
+class SharedPlaneDrawing(PlaneDrawing):
+    """The same with the share of starts (zeta, inverse) that end in chaos."""
+
+    share: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Basin:
+    """Which attractor, by its number among the labels, each start (up, across) ends on."""
+
+    across: Array
+    up: Array
+    index: NDArray[np.int64]
+    labels: Sequence[str]
+
+
+@dataclass(frozen=True, eq=False)
+class BasinsDrawing(Drawing):
+    """The basins of Cases 2 and 3."""
+
+    cases: tuple[Basin, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Visits:
+    """How often each cell (x, v) of a section is visited, between edges in x0 and x0 omega_0, over so many periods."""
+
+    counts: Array
+    x: Array
+    v: Array
+    periods: int
+
+
+@dataclass(frozen=True, eq=False)
+class VisitsDrawing(Drawing):
+    """The sections of Cases 1 and 3."""
+
+    cases: tuple[Visits, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class JointDrawing(Drawing):
+    """A recording of the joint in degrees over time (s), what is `left` without harmonics, and densities of both."""
+
+    time: Array
+    base: Array
+    link: Array
+    left: Array
+    frequency: Array
+    density: Array
+    rest: Array
+
+
+@dataclass(frozen=True, eq=False)
+class InformationDrawing(Drawing):
+    """Mutual information (bit) over the lag (s), and where its first minimum is."""
+
+    lag: Array
+    ami: Array
+    first: float
+
+
+@dataclass(frozen=True, eq=False)
+class CaoDrawing(Drawing):
+    """Cao's numbers over the dimension."""
+
+    dim: Array
+    e1: Array
+    e2: Array
+
+
+@dataclass(frozen=True, eq=False)
+class CleanedCaoDrawing(Drawing):
+    """Cao's E1 over the dimension before and after noise reduction."""
+
+    dim: Array
+    before: Array
+    dim_after: Array
+    after: Array
+
+
+@dataclass(frozen=True, eq=False)
+class DelayDrawing(Drawing):
+    """Delay plots: recordings (samples,) in degrees, delays in samples and in s, and titles."""
+
+    links: Sequence[Array]
+    lags: Sequence[int]
+    seconds: Sequence[float]
+    titles: Sequence[str]
+
+
+@dataclass(frozen=True, eq=False)
+class SlopesDrawing(Drawing):
+    """Slopes of the correlation sum with those of surrogates, and titles."""
+
+    slopes: Sequence[Slopes]
+    titles: Sequence[str]
+
+
+@dataclass(frozen=True, eq=False)
+class NoisyInformationDrawing(Drawing):
+    """A motion (m) over time (s), and its mutual information (bit) over lags (s) at levels of noise."""
+
+    time: Array
+    x: Array
+    names: Sequence[str]
+    lags: Sequence[Array]
+    amis: Sequence[Array]
+
+
+@dataclass(frozen=True, eq=False)
+class NoisyCaoDrawing(Drawing):
+    """Cao's E1 over the dimension at levels of noise."""
+
+    names: Sequence[str]
+    dims: Sequence[Array]
+    e1: Sequence[Array]
+
+
+@dataclass(frozen=True, eq=False)
+class NoisyMapsDrawing(Drawing):
+    """Poincare maps (periods, 2) in m at levels of noise."""
+
+    names: Sequence[str]
+    noisy: Sequence[Array]
+
+
+@dataclass(frozen=True, eq=False)
+class CleanedMapsDrawing(NoisyMapsDrawing):
+    """The same behind noise reduction; `window` has the ends (2, 2) in m of what is shown, if that is not all."""
+
+    cleaned: Sequence[Array]
+    window: Array | None = None
