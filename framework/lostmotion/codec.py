@@ -1,8 +1,9 @@
 """One codec for all results: frozen dataclasses to plain JSON values and back, and what each key of a file means.
 
 A field is written under its name, or under that of `told(key=...)`. Fields that are None by default are left out where
-they are None. Numbers that are not finite are written as null, and null is read as NaN where a number is wanted. Keys
-that nobody knows are ignored when a file is read, so that newer files can be read by older programs.
+they are None, and so are others with `told(spare=True)` where they have their default. Numbers that are not finite are
+written as null, and null is read as NaN where a number is wanted. Keys that nobody knows are ignored when a file is
+read, so that newer files can be read by older programs.
 """
 
 from __future__ import annotations
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 Cells = float | tuple[float, ...]
 """A number, or a row of them."""
+ABSENT = ", or absent"
 WORDS: Mapping[Any, str] = {
     float: "number",
     Cells: "number or list of numbers",
@@ -32,12 +34,13 @@ WORDS: Mapping[Any, str] = {
 }
 
 
-def told(doc: str, *, unit: str = "", key: str = "", default: Any = dataclasses.MISSING) -> Any:
+def told(doc: str, *, unit: str = "", key: str = "", spare: bool = False, default: Any = dataclasses.MISSING) -> Any:
     """Return a field of a result: what it means, for the schema; its unit; its `key` in a file where that differs.
 
-    A `default` that is a mapping stands for an empty one of its own in each result.
+    A `spare` field is left out of a file where it has its `default`, as one is whose default is None. A `default` that
+    is a mapping stands for an empty one of its own in each result.
     """
-    metadata = {"doc": doc, "unit": unit, "key": key}
+    metadata = {"doc": doc, "unit": unit, "key": key, "spare": spare}
     if isinstance(default, dict):
         return dataclasses.field(default_factory=dict, metadata=metadata)
     return dataclasses.field(default=default, metadata=metadata)
@@ -78,6 +81,7 @@ def _entries(kind: Any, before: str) -> Iterator[Entry]:
     for f in dataclasses.fields(kind):
         path = before + (f.metadata.get("key") or f.name)
         core, ending, words = _read(hints[f.name])
+        words += ABSENT if _spare(f) else ""
         yield Entry(path + ending, words, f.metadata.get("unit", ""), f.metadata.get("doc", ""))
         if dataclasses.is_dataclass(core):
             yield from _entries(core, f"{path}{ending}.")
@@ -88,7 +92,7 @@ def _read(hint: Any) -> tuple[Any, str, str]:
     options = [one for one in get_args(hint) if one is not type(None)]
     if type(None) in get_args(hint):
         core, ending, words = _read(options[0])
-        return core, ending, f"{words}, or absent"
+        return core, ending, words + ABSENT
     origin = getattr(hint, "__origin__", None)
     if origin is tuple:
         core, ending, words = _read(options[0])
@@ -127,7 +131,10 @@ def _is_scalar(kind: Any) -> bool:
 def _writer(kind: type, converter: Converter) -> Any:
     from cattrs.gen import make_dict_unstructure_fn, override
 
-    how = {f.name: override(rename=f.metadata.get("key") or None, omit_if_default=f.default is None) for f in _of(kind)}
+    how = {
+        f.name: override(rename=f.metadata.get("key") or None, omit_if_default=f.default is None or _spare(f))
+        for f in _of(kind)
+    }
     return make_dict_unstructure_fn(kind, converter, _cattrs_use_linecache=False, **how)  # type: ignore[arg-type]
 
 
@@ -136,6 +143,10 @@ def _reader(kind: type, converter: Converter) -> Any:
 
     how = {f.name: override(rename=f.metadata.get("key") or None) for f in _of(kind)}
     return make_dict_structure_fn(kind, converter, _cattrs_use_linecache=False, **how)  # type: ignore[arg-type]
+
+
+def _spare(f: dataclasses.Field[Any]) -> bool:
+    return bool(f.metadata.get("spare"))
 
 
 def _of(kind: Any) -> tuple[dataclasses.Field[Any], ...]:

@@ -21,6 +21,7 @@ class Part:
     size: float = told("how large it is", unit="m")
     numbers: Mapping[str, Interval] = told("its numbers", default={})
     late: Interval | None = told("since when", default=None)
+    at: str = told("where it is", default="", spare=True)
 
 
 @dataclass(frozen=True)
@@ -44,7 +45,7 @@ def test_none_is_left_out_and_what_is_not_finite_is_null():
     plain = to_plain(Part("a", math.inf, {"k": Interval(1.0, math.nan, 2.0, "N")}))
     assert plain["size"] is None
     assert plain["numbers"]["k"] == {"median": 1.0, "low": None, "high": 2.0, "unit": "N"}
-    assert "late" not in plain
+    assert not {"late", "at"} & set(plain)
     assert math.isnan(from_plain(Part, plain).size)
 
 
@@ -78,4 +79,5 @@ def test_the_schema_has_each_key_with_unit_and_meaning():
     assert rows["parts[].size"][1:] == ("number", "m", "how large it is")
     assert rows["parts[].numbers.NAME.low"].type == "number"
     assert rows["parts[].late"].type == "object, or absent"
+    assert rows["parts[].at"].type == "text, or absent"
     assert rows["in[][]"].type == "list of list of number"

@@ -107,7 +107,7 @@ class Shared:
 
 
 @dataclass(frozen=True)
-class Sharing:
+class SharedValues:
     """What the `recordings` of a fit share, parameter by parameter.
 
     `released` names those that have values of each recording's own, in that order, while others are tested; `failed`
@@ -136,7 +136,7 @@ class Apart:
     given: bool
 
 
-def sharing_of(fit: Fit) -> Sharing | None:
+def sharing_of(fit: Fit) -> SharedValues | None:
     """Return what the recordings of a fit share; None where there is one recording.
 
     Each recording has noise levels of its own. Learned curves are one for all, and move along; values are also compared
@@ -155,7 +155,7 @@ def sharing_of(fit: Fit) -> Sharing | None:
     return max(courses, key=lambda course: course[1])[0]
 
 
-def _course(shared: Fit) -> tuple[Sharing, float]:
+def _course(shared: Fit) -> tuple[SharedValues, float]:
     """Return what recordings share, and the log evidence of the fit in which what differs is released."""
     base = shared
     observations, tested = base.problem.observations, _tested(base.problem)
@@ -177,7 +177,7 @@ def _course(shared: Fit) -> tuple[Sharing, float]:
     values = {key: found[key] for key in tested if key in found}
     failed = tuple(key for key in tested if key not in found)
     names = tuple(observation.name for observation in observations)
-    return Sharing(names, levels, values, tuple(released), failed, gain=gain), base.log_evidence
+    return SharedValues(names, levels, values, tuple(released), failed, gain=gain), base.log_evidence
 
 
 def curves_of(problem: Problem) -> tuple[str, ...]:

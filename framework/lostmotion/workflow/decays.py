@@ -21,7 +21,7 @@ from lostmotion.results import percent
 from lostmotion.signals.decay import Decay, decay_of
 from lostmotion.signals.impacts import hits_of, onsets_of
 from lostmotion.signals.trends import says
-from lostmotion.stages.diagnose import Diagnosis
+from lostmotion.stages.diagnose import Diagnosed
 
 MOST_STRETCHES, MOST_CYCLES = 10, 240
 """So many hits are looked at, and so many cycles of all of them together: a tenth of a second or two."""
@@ -50,7 +50,7 @@ class Stretch(NamedTuple):
     stop: int
 
 
-def decay_in(d: Diagnosis) -> dict[str, Any]:
+def decay_in(d: Diagnosed) -> dict[str, Any]:
     """Return what the recording shown says of free decays, and the models beside it; nothing where it holds none.
 
     `measured`, `before` and `after` have an entry for each decay, with lists (cycles,): `time` (s from the start of the
@@ -141,7 +141,7 @@ def _listed(stretch: Stretch, decay: Decay | None, observation: Observation) -> 
     return {name: [float(f"{value:.{DIGITS}g}") for value in values] for name, values in rows.items()}
 
 
-def _told(d: Diagnosis, measured: Measured, models: dict[str, list[Decay | None]], unit: str) -> str:
+def _told(d: Diagnosed, measured: Measured, models: dict[str, list[Decay | None]], unit: str) -> str:
     """Return in words how the widest of the measured decays goes, and how far the models are from it."""
     widest = max(range(len(measured)), key=lambda i: float(np.ptp(np.log(measured[i][1].amplitude))))
     stretch, decay = measured[widest]
@@ -156,7 +156,7 @@ def _told(d: Diagnosis, measured: Measured, models: dict[str, list[Decay | None]
     return f"{opening}{words if not opening else words[:1].lower() + words[1:]} {compared[:1].upper()}{compared[1:]}."
 
 
-def _named(d: Diagnosis, version: str) -> str:
+def _named(d: Diagnosed, version: str) -> str:
     if not d.found:
         return "the model"
     if version == "before":

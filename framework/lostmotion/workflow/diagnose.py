@@ -26,7 +26,7 @@ from lostmotion.stages.compare import (
     rates_of,
     worsened,
 )
-from lostmotion.stages.diagnose import Diagnosis, diagnose, instead, simpler
+from lostmotion.stages.diagnose import Diagnosed, diagnose, instead, simpler
 from lostmotion.storage import dataset_of, folder_for, save_datasets, save_json
 from lostmotion.workflow.arrays import arrays_of
 from lostmotion.workflow.attractors import motions_of
@@ -132,8 +132,8 @@ def told_of(
 
 
 def _diagnosed(
-    prepared: Prepared, registry: Registry, seed: int, work: Callable[..., Diagnosis]
-) -> tuple[Diagnosis, Prepared, np.random.Generator]:
+    prepared: Prepared, registry: Registry, seed: int, work: Callable[..., Diagnosed]
+) -> tuple[Diagnosed, Prepared, np.random.Generator]:
     """Return the diagnosis, what it was made of, and its random numbers, for who goes on with them.
 
     Terms of other people that break down on the way are left out, and it begins anew.
@@ -155,7 +155,7 @@ def _diagnosed(
         return _diagnosed(fewer, registry, seed, work)
 
 
-def judged(diagnosis: Diagnosis, prepared: Prepared, rng: np.random.Generator) -> Outcome:
+def judged(diagnosis: Diagnosed, prepared: Prepared, rng: np.random.Generator) -> Outcome:
     """Return the diagnosis with what both models predict of the held-out data."""
     pieces = pieces_of(prepared.observations, diagnosis.held)
     same = diagnosis.after is diagnosis.before
@@ -169,7 +169,7 @@ def judged(diagnosis: Diagnosis, prepared: Prepared, rng: np.random.Generator) -
     return Outcome(diagnosis, before, after, horizon, draws, draws if same else draws_after(diagnosis, rng))
 
 
-def upheld(diagnosis: Diagnosis, prepared: Prepared, rng: np.random.Generator, say: Say = lambda _: None) -> Outcome:
+def upheld(diagnosis: Diagnosed, prepared: Prepared, rng: np.random.Generator, say: Say = lambda _: None) -> Outcome:
     """Return the diagnosis with its predictions, less what held-out data speak against.
 
     They have a veto: where free runs or one-step predictions are worse with what was found than without it, learned

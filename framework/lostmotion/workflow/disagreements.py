@@ -27,13 +27,13 @@ from lostmotion.quantities import unit_of
 from lostmotion.report.words import chance
 from lostmotion.settings import DEFAULT
 from lostmotion.signals.impacts import Hit, hits_of
-from lostmotion.stages.diagnose import Diagnosis
+from lostmotion.stages.diagnose import Diagnosed
 from lostmotion.workflow.decays import is_struck
 
 EXPECTED = 1.0
 
 
-def disagreement_in(d: Diagnosis, rng: np.random.Generator) -> dict[str, Any]:
+def disagreement_in(d: Diagnosed, rng: np.random.Generator) -> dict[str, Any]:
     """Return what goes into `where`: `over_time` of the recording that is shown, and `by_recording` of several."""
     fits = {"before": d.before, "after": d.after} if d.found else {"before": d.before}
     shown = {name: squares_of(fit, d.shown) for name, fit in fits.items()}

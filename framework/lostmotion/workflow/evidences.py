@@ -8,14 +8,14 @@ from typing import Any
 import numpy as np
 
 from lostmotion.inference.evidence import Check, checked
-from lostmotion.stages.diagnose import Diagnosis
+from lostmotion.stages.diagnose import Diagnosed
 
 FEWEST = 15.0
 """With fewer effective draws the sampled evidence says nothing."""
 APART = 3.0
 
 
-def evidence_of(diagnosis: Diagnosis, rng: np.random.Generator) -> dict[str, Any]:
+def evidence_of(diagnosis: Diagnosed, rng: np.random.Generator) -> dict[str, Any]:
     """Return the log evidence of the models before and after by both methods; nothing where nothing was found."""
     if diagnosis.after is diagnosis.before:
         return {}

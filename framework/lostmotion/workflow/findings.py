@@ -18,7 +18,7 @@ from lostmotion.likelihood.predict import Horizon
 from lostmotion.quantities import unit_of
 from lostmotion.results import Interval, percent
 from lostmotion.stages.compare import Prediction
-from lostmotion.stages.diagnose import Diagnosis, base_keys
+from lostmotion.stages.diagnose import Diagnosed, base_keys
 from lostmotion.workflow.states import LIKELY, NAMED, OPEN, doubts_of, holds
 from lostmotion.workflow.unknowns import learned_entry, unnamed_entry
 
@@ -32,7 +32,7 @@ class Outcome:
     `unconfirmed` tells by term, in a sentence, that held-out data are predicted no better with it than without it.
     """
 
-    diagnosis: Diagnosis
+    diagnosis: Diagnosed
     before: Prediction
     after: Prediction
     horizon: Horizon
@@ -99,7 +99,7 @@ def shown(parameters: Mapping[str, Mapping[str, Any]], why: str) -> dict[str, di
     return {name: {**one, "low": None, "high": None, "withheld": why} for name, one in parameters.items()}
 
 
-def _shapeless(d: Diagnosis) -> bool:
+def _shapeless(d: Diagnosed) -> bool:
     """Return whether what is left beside terms is a random force: with no structure, and no memory that was doubted."""
     return not (d.left and d.left.structure) and not d.selection.declined
 
@@ -142,7 +142,7 @@ def elsewhere(model: Model) -> set[str]:
     return {place.name for place in model.interfaces if place.row != first.row or place.against != first.against}
 
 
-def _mark(d: Diagnosis, key: str) -> dict[str, Any]:
+def _mark(d: Diagnosed, key: str) -> dict[str, Any]:
     """Return the entry of a term that the stored values themselves betray."""
     term, slots = term_of(d.selection.nominal.problem, key)
     rows = zip(slots, *d.marks[key], strict=True)
@@ -160,7 +160,7 @@ def _mark(d: Diagnosis, key: str) -> dict[str, Any]:
     }
 
 
-def _whose(d: Diagnosis, term: Term) -> str:
+def _whose(d: Diagnosed, term: Term) -> str:
     """Return at which of several sensors a term acts, as a sentence on it ends; nothing for other terms."""
     if not isinstance(term, SensorTerm) or len(d.shown.sensors) < 2:
         return ""

@@ -6,19 +6,19 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from lostmotion.inference.natural import term_of
-from lostmotion.inference.sharing import Shared, Sharing, sharing_of
+from lostmotion.inference.sharing import Shared, SharedValues, sharing_of
 from lostmotion.likelihood.problem import Problem
 from lostmotion.quantities import unit_of
 from lostmotion.report.words import chance, figures, sentence, spoken
 from lostmotion.results import Interval
-from lostmotion.stages.diagnose import Diagnosis
+from lostmotion.stages.diagnose import Diagnosed
 
 Entry = dict[str, Any]
 UNNAMED = ("unknown", "random_force")
 """Entries of what no term explains: what differs from recording to recording may be all there is to it."""
 
 
-def shared_in(d: Diagnosis, found: Sequence[Entry]) -> dict[str, Any]:
+def shared_in(d: Diagnosed, found: Sequence[Entry]) -> dict[str, Any]:
     """Return `sharing`, and `found` with what recordings share of each term; nothing where there is one recording.
 
     A term gets `by_recording` and `shared`; one that holds neither with one value nor with a power of the level gets a
@@ -43,7 +43,7 @@ def _nothing(many: int) -> Entry:
     return {"parameters": {}, "says": [says]}
 
 
-def sharing_entry(sharing: Sharing, problem: Problem) -> Entry:
+def sharing_entry(sharing: SharedValues, problem: Problem) -> Entry:
     """Return the content of `sharing`: recordings with their levels, each parameter in each of them, and sentences."""
     motion, levels = problem.system.model.motion, sharing.levels
     names = {key: name_of(key, problem) for key in sharing.parameters}
@@ -77,20 +77,20 @@ def sharing_entry(sharing: Sharing, problem: Problem) -> Entry:
     }
 
 
-def _released(sharing: Sharing, problem: Problem) -> str:
+def _released(sharing: SharedValues, problem: Problem) -> str:
     """Return what values of each recording's own are worth, and whether a learned curve is needed beside them."""
     others = " and ".join(name_of(key, problem) for key in sharing.released)
     curve = ", and no learned curve is needed beside them" if sharing.dropped else ""
     return f"Values of each recording's own for {others} raise the log evidence by {figures(sharing.gain)}{curve}."
 
 
-def _shared(one: Shared, said: str, sharing: Sharing) -> Entry:
+def _shared(one: Shared, said: str, sharing: SharedValues) -> Entry:
     power = {"exponent": one.power.exponent, "error": one.power.error, "p": one.power.p} if one.power else None
     odd = None if one.odd is None else sharing.recordings[one.odd]
     return {"holds": one.holds, "p": one.p, "says": said, "power_of_level": power, "differs_in": odd}
 
 
-def _told(entry: Entry, key: str, problem: Problem, sharing: Sharing) -> Entry:
+def _told(entry: Entry, key: str, problem: Problem, sharing: SharedValues) -> Entry:
     """Return the entry of a term with what recordings share of it; as it is where none of its values was compared."""
     slots = {s.key: s.param.name for s in term_of(problem, key)[1] if s.key in sharing.parameters}
     if not slots:
@@ -115,7 +115,7 @@ def _told(entry: Entry, key: str, problem: Problem, sharing: Sharing) -> Entry:
     return {**entry, **more, **({"doubts": [*entry.get("doubts", ()), *doubts]} if doubts else {})}
 
 
-def _moved(one: Shared, before: Mapping[str, Any], names: Mapping[str, str], sharing: Sharing) -> str:
+def _moved(one: Shared, before: Mapping[str, Any], names: Mapping[str, str], sharing: SharedValues) -> str:
     """Return that a value which holds is another one once what differs is released; empty where it is not."""
     if before["low"] is None:
         return ""
@@ -139,7 +139,7 @@ def name_of(key: str, problem: Problem) -> str:
     return f"{spoken(own)} of {spoken(law.name)}{place}"
 
 
-def says(one: Shared, names: Mapping[str, str], sharing: Sharing) -> str:
+def says(one: Shared, names: Mapping[str, str], sharing: SharedValues) -> str:
     """Return what is said of one parameter: that one value holds, or how values differ."""
     name, many = sentence(names[one.key]) if "." in one.key else one.key, len(sharing.recordings)
     if one.holds:
@@ -147,7 +147,7 @@ def says(one: Shared, names: Mapping[str, str], sharing: Sharing) -> str:
     return f"{_difference(one, name, sharing)}.{_rivals(one, names)}"
 
 
-def _difference(one: Shared, name: str, sharing: Sharing) -> str:
+def _difference(one: Shared, name: str, sharing: SharedValues) -> str:
     medians = [value.median for value in one.values]
     low, high = (one.values[medians.index(end)] for end in (min(medians), max(medians)))
     if one.power is not None:

@@ -13,7 +13,7 @@ from lostmotion.quantities import TIME
 from lostmotion.report.words import spoken
 from lostmotion.settings import DEFAULT, Name
 from lostmotion.stages.compare import Prediction
-from lostmotion.stages.diagnose import Diagnosis
+from lostmotion.stages.diagnose import Diagnosed
 
 NAMED, LIKELY, OPEN = "named", "likely", "open"
 
@@ -23,7 +23,7 @@ def holds(after: Prediction, floor: float, limits: Name = DEFAULT.name) -> bool:
     return math.isfinite(after.nrmse) and not after.nrmse > max(limits.error, limits.error_noise * floor)
 
 
-def probability_of(d: Diagnosis, key: str) -> float:
+def probability_of(d: Diagnosed, key: str) -> float:
     """Return the probability that a term is at work, or one that no recording of this kind can tell from it."""
     term, _ = term_of(d.after.problem, key)
     kin = [
@@ -36,7 +36,7 @@ def _same(term: Any, other: Any) -> bool:
     return other.name in term.equals or term.name in other.equals
 
 
-def doubts_of(d: Diagnosis, key: str) -> list[str]:
+def doubts_of(d: Diagnosed, key: str) -> list[str]:
     """Return why a term that was found is no more than likely, in sentences; none where it is named."""
     term, _ = term_of(d.after.problem, key)
     imitates = term.unlikely > 0.0 or term.acts != "motion"
@@ -44,7 +44,7 @@ def doubts_of(d: Diagnosis, key: str) -> list[str]:
     return [*_less_sure(d, key), *_decided_late(d, key), *_beside(d, key), *steady, *_unusual(d, key)]
 
 
-def _less_sure(d: Diagnosis, key: str) -> Iterator[str]:
+def _less_sure(d: Diagnosed, key: str) -> Iterator[str]:
     p = probability_of(d, key)
     if p > d.settings.name.sure:
         return
@@ -53,7 +53,7 @@ def _less_sure(d: Diagnosis, key: str) -> Iterator[str]:
     yield f"Its probability is {p:.2g}{rivals}."
 
 
-def _decided_late(d: Diagnosis, key: str) -> Iterator[str]:
+def _decided_late(d: Diagnosed, key: str) -> Iterator[str]:
     """Yield a sentence where held-out data had to decide between a term and a smooth force."""
     chosen = d.selection.chosen.problem.active
     if chosen in d.selection.scored and key in d.selection.unbeaten:
@@ -63,7 +63,7 @@ def _decided_late(d: Diagnosis, key: str) -> Iterator[str]:
         )
 
 
-def _beside(d: Diagnosis, key: str) -> Iterator[str]:
+def _beside(d: Diagnosed, key: str) -> Iterator[str]:
     """Yield a sentence where much has no name beside a term: as a learned curve, or as a random force."""
     limits = d.settings.name
     if d.learned and won_by(d, key) < limits.beside * d.learned.gain:
@@ -77,14 +77,14 @@ def _beside(d: Diagnosis, key: str) -> Iterator[str]:
             yield f"Of the force that was missing, {share:.0%} is still missing with it."
 
 
-def won_by(d: Diagnosis, key: str) -> float:
+def won_by(d: Diagnosed, key: str) -> float:
     """Return the log weight that a found term adds to the other found ones; to the nominal model where no one knows."""
     visits, terms = d.selection.visits, frozenset(d.named)
     here, less = visits.get(terms), visits.get(terms - {key})
     return here.weight - less.weight if here and less else d.selection.gain(key)
 
 
-def _others(d: Diagnosis, key: str) -> list[str]:
+def _others(d: Diagnosed, key: str) -> list[str]:
     """Return the terms of other sets without this one that have a share of the posterior, in words."""
     found = d.selection.chosen.problem.active
     sets = [terms for terms, p in d.selection.probabilities().items() if key not in terms and p > d.settings.name.rival]
@@ -92,7 +92,7 @@ def _others(d: Diagnosis, key: str) -> list[str]:
     return [spoken(term_of(d.before.problem, k)[0].name) for k in names]
 
 
-def unsteady(d: Diagnosis, key: str) -> Iterator[str]:
+def unsteady(d: Diagnosed, key: str) -> Iterator[str]:
     """Yield a sentence for each level of another found term that moves far when this one comes in."""
     chosen = d.selection.chosen
     without = d.selection.visits.get(chosen.problem.active - {key})
@@ -111,12 +111,12 @@ def unsteady(d: Diagnosis, key: str) -> Iterator[str]:
             )
 
 
-def _called(d: Diagnosis, key: str) -> str:
+def _called(d: Diagnosed, key: str) -> str:
     name = spoken(term_of(d.before.problem, key)[0].name)
     return name[:1].upper() + name[1:]
 
 
-def _unusual(d: Diagnosis, key: str) -> Iterator[str]:
+def _unusual(d: Diagnosed, key: str) -> Iterator[str]:
     """Yield a sentence on a delay that is longer than acquisition systems have, or that one frequency cannot show."""
     term, slots = term_of(d.after.problem, key)
     late = [s for s in slots if s.param.dimension == TIME and s.key in d.after.values]
@@ -141,7 +141,7 @@ def in_order(found: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
     return sorted(found, key=lambda entry: order.index(entry["state"]))
 
 
-def open_of(d: Diagnosis) -> list[dict[str, Any]]:
+def open_of(d: Diagnosed) -> list[dict[str, Any]]:
     """Return the terms that stay open: they would raise the likelihood, and something speaks against a name.
 
     What was found and taken back comes first: it came closest.

@@ -23,7 +23,7 @@ from lostmotion.inference.unexplained import Unknown
 from lostmotion.quantities import LENGTH, NUMBER, SPEED, TIME, Dimension
 from lostmotion.report.words import spoken
 from lostmotion.results import Interval
-from lostmotion.stages.diagnose import Diagnosis, Located
+from lostmotion.stages.diagnose import Diagnosed, Located
 
 OVER: dict[str, tuple[str, Dimension]] = {
     "position": ("x", LENGTH),
@@ -40,7 +40,7 @@ BAND = 1.96
 RATIO = "the robust likelihood ratio of a curve over each covariate in the filter"
 
 
-def learned_entry(d: Diagnosis) -> dict[str, Any]:
+def learned_entry(d: Diagnosed) -> dict[str, Any]:
     """Return the entry of a mismatch that learned curves explain where the library does not."""
     unknown = d.learned
     if unknown is None:
@@ -71,7 +71,7 @@ def learned_entry(d: Diagnosis) -> dict[str, Any]:
     }
 
 
-def _why_unnamed(d: Diagnosis, unknown: Unknown) -> str:
+def _why_unnamed(d: Diagnosed, unknown: Unknown) -> str:
     """Return why a learned force has no name: none explains it, or a smooth force explains as much as the best one."""
     selection = d.selection
     as_good = [key for key in selection.unbeaten if selection.gain(key) > unknown.gain - d.settings.select.decisive]
@@ -83,7 +83,7 @@ def _why_unnamed(d: Diagnosis, unknown: Unknown) -> str:
     return f"that has no certain name, since {name} explains it and a smooth force explains as much"
 
 
-def _looks(d: Diagnosis) -> tuple[dict[str, Any], str]:
+def _looks(d: Diagnosed) -> tuple[dict[str, Any], str]:
     """Return what a learned force looks like along the recorded motion: as an entry, and in words; or nothing."""
     if d.learned is None or d.left is None:
         return {}, ""
@@ -99,7 +99,7 @@ def _looks(d: Diagnosis) -> tuple[dict[str, Any], str]:
     return entry, f", looks like {' and '.join(names)} ({found.share:.0%} of its variance)"
 
 
-def unnamed_entry(d: Diagnosis) -> dict[str, Any]:
+def unnamed_entry(d: Diagnosed) -> dict[str, Any]:
     """Return the entry of a force that neither a term nor a curve explains: structured ("unknown") or not."""
     located = d.left or d.located
     depends = [] if d.found else located.structure
@@ -117,11 +117,11 @@ def unnamed_entry(d: Diagnosis) -> dict[str, Any]:
     }
 
 
-def _unit_of(d: Diagnosis, dimension: Dimension) -> str:
+def _unit_of(d: Diagnosed, dimension: Dimension) -> str:
     return dimension.unit(d.after.problem.system.model.motion)
 
 
-def _size(d: Diagnosis, keys: Sequence[str], bands: Sequence[Band]) -> tuple[float, float]:
+def _size(d: Diagnosed, keys: Sequence[str], bands: Sequence[Band]) -> tuple[float, float]:
     """Return the rms of the learned force along the recording, and its standard error: that of the least sure curve."""
     law = np.sum([d.laws[key] for key in keys], axis=0)
     rms = float(np.sqrt(np.mean(law**2)))
@@ -135,7 +135,7 @@ def _doubt(band: Band) -> float:
     return math.sqrt(max(float(direction @ band.covariance @ direction), 0.0)) / norm
 
 
-def _curve(d: Diagnosis, key: str, band: Band) -> dict[str, Any]:
+def _curve(d: Diagnosed, key: str, band: Band) -> dict[str, Any]:
     """Return a learned curve with its band of 95 %, as lists in SI units; a surface as lists of lists.
 
     One with a memory tells in which time (s) it forgets.
@@ -163,7 +163,7 @@ def _curve(d: Diagnosis, key: str, band: Band) -> dict[str, Any]:
     return entry
 
 
-def _visited(d: Diagnosis, band: Band, term: Surface) -> Array:
+def _visited(d: Diagnosed, band: Band, term: Surface) -> Array:
     """Return which cells (points, points) of the grid of a surface the motion came to, and their neighbours."""
     problem, beside = d.after.problem, np.asarray(band.beside)
     place = place_of(problem.system.model, term)
@@ -178,7 +178,7 @@ def _visited(d: Diagnosis, band: Band, term: Surface) -> Array:
     return np.asarray(maximum_filter(seen, size=3))
 
 
-def _proposal(d: Diagnosis, bands: list[Band]) -> dict[str, Any]:
+def _proposal(d: Diagnosed, bands: list[Band]) -> dict[str, Any]:
     """Return the formula that a sparse regression proposes for each curve, marked as no more than that."""
     parts, shares = [], []
     for band in bands:
@@ -190,7 +190,7 @@ def _proposal(d: Diagnosis, bands: list[Band]) -> dict[str, Any]:
     return {"formula": " + ".join(parts), "share_of_curve": min(shares), "says": NOT_FOUND}
 
 
-def _formula(d: Diagnosis, band: Band) -> tuple[str, float] | None:
+def _formula(d: Diagnosed, band: Band) -> tuple[str, float] | None:
     if band.beside is not None or band.term.over == "history":
         return None
     axis = Axis(*OVER[band.term.over], band.term.params[0].dimension, d.after.problem.system.model.motion)
@@ -200,7 +200,7 @@ def _formula(d: Diagnosis, band: Band) -> tuple[str, float] | None:
     return (f"{band.term.times} ({found.text})" if band.term.times else found.text), found.share
 
 
-def unknown_odds(d: Diagnosis) -> tuple[float, float]:
+def unknown_odds(d: Diagnosed) -> tuple[float, float]:
     """Return the probability that something is at work which the library does not have, and the log evidence for it."""
     if d.learned:
         return d.learned.probability, d.learned.gain

@@ -17,7 +17,7 @@ from lostmotion.quantities import quantity_of, unit_of
 from lostmotion.report.words import chance, span, spoken
 from lostmotion.results import rounded
 from lostmotion.stages.compare import Prediction
-from lostmotion.stages.diagnose import Diagnosis, fitted_keys
+from lostmotion.stages.diagnose import Diagnosed, fitted_keys
 from lostmotion.workflow.findings import (
     Outcome,
     elsewhere,
@@ -116,7 +116,7 @@ def _white(p: float, certain: float) -> str:
     return f"One-step errors cannot be told from white noise (Ljung-Box p = {p:.2g})."
 
 
-def _sensors(d: Diagnosis) -> list[dict[str, Any]]:
+def _sensors(d: Diagnosed) -> list[dict[str, Any]]:
     """Return name, channel, unit, standard deviation and kind of noise of each sensor."""
     motion = d.after.problem.system.model.motion
     rows = []
@@ -130,12 +130,12 @@ def _sensors(d: Diagnosis) -> list[dict[str, Any]]:
     return rows
 
 
-def names_of(d: Diagnosis) -> list[str]:
+def names_of(d: Diagnosed) -> list[str]:
     """Return the names of the sensors: the channel of one that was given none."""
     return [sensor.label for sensor in d.shown.sensors]
 
 
-def noises_of(d: Diagnosis) -> list[float]:
+def noises_of(d: Diagnosed) -> list[float]:
     """Return the standard deviation of all measurement noise of each sensor, after."""
     fit = d.after
     return [math.sqrt(fit.problem.measurement(fit.theta, 0, i)) for i in range(len(d.shown.sensors))]
@@ -162,7 +162,7 @@ def told(fit: Fit, draws: Array) -> dict[str, dict[str, Any]]:
     return {key: interval.as_dict() for key, interval in intervals(fit, draws).items()}
 
 
-def _ranking(d: Diagnosis, found: Sequence[dict[str, Any]], *, failed: bool) -> list[dict[str, Any]]:
+def _ranking(d: Diagnosed, found: Sequence[dict[str, Any]], *, failed: bool) -> list[dict[str, Any]]:
     """Return every candidate with its evidence, price and probability, beside them "nothing missing" and "unknown".
 
     A term that was found has the probability that is told of it. Where the model has `failed` on held-out data,
@@ -197,7 +197,7 @@ def _ranking(d: Diagnosis, found: Sequence[dict[str, Any]], *, failed: bool) -> 
     return sorted(rows, key=lambda row: (-row["probability"], -row["log_evidence_gain"]))
 
 
-def _confused(d: Diagnosis) -> list[dict[str, Any]]:
+def _confused(d: Diagnosed) -> list[dict[str, Any]]:
     """Return the terms that are in other sets of some weight, and relatives of what was found."""
     rows = []
     for term in d.selection.nominal.problem.system.terms:
@@ -209,24 +209,24 @@ def _confused(d: Diagnosis) -> list[dict[str, Any]]:
     return rows + [row for key in d.named for row in _equal(d, key)]
 
 
-def _bodies(d: Diagnosis) -> int:
+def _bodies(d: Diagnosed) -> int:
     """Return on how many bodies of the model a force may act."""
     return len({place.row for place in d.after.problem.system.model.interfaces})
 
 
-def _taken_as(d: Diagnosis) -> str:
+def _taken_as(d: Diagnosed) -> str:
     """Return how the unexplained force is to be read where what was found acts on another body than the first."""
     at = {term_of(d.after.problem, key)[0].at for key in d.named}
     others = elsewhere(d.after.problem.system.model)
     return ", taken as one that acts on the first body," if at & others else ""
 
 
-def other_level(d: Diagnosis) -> str:
+def other_level(d: Diagnosed) -> str:
     """Return what recording may tell two laws apart that are alike at one size of the motion."""
     return "a decay from a larger or smaller start" if d.shown.free else "another drive level"
 
 
-def _equal(d: Diagnosis, key: str) -> list[dict[str, Any]]:
+def _equal(d: Diagnosed, key: str) -> list[dict[str, Any]]:
     """Return the terms that no recording of a machine that does not age can tell from a term that was found."""
     term, _ = term_of(d.after.problem, key)
     if len(d.shown.sensors) > 1:  # what delays one sensor delays no other
@@ -239,7 +239,7 @@ def _equal(d: Diagnosis, key: str) -> list[dict[str, Any]]:
     return [{"mechanism": n, "at": "", "probability": p, "says": says.format(spoken(n))} for n in term.equals]
 
 
-def _unexplained(d: Diagnosis, *, after: bool) -> dict[str, Any]:
+def _unexplained(d: Diagnosed, *, after: bool) -> dict[str, Any]:
     located = d.left if after and d.left else d.located
     rms = float(np.std(located.missing.force))
     rotation = d.after.problem.system.model.motion == "rotation"
