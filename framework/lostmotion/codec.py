@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+import operator
 from collections.abc import Iterator, Mapping
 from functools import cache
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar, get_args, get_type_hints
@@ -81,7 +82,7 @@ def _entries(kind: Any, before: str) -> Iterator[Entry]:
     for f in dataclasses.fields(kind):
         path = before + (f.metadata.get("key") or f.name)
         core, ending, words = _read(hints[f.name])
-        words += ABSENT if _spare(f) else ""
+        words += ABSENT if f.metadata.get("spare") else ""
         yield Entry(path + ending, words, f.metadata.get("unit", ""), f.metadata.get("doc", ""))
         if dataclasses.is_dataclass(core):
             yield from _entries(core, f"{path}{ending}.")
@@ -109,6 +110,8 @@ def _converter() -> Converter:
 
     made = Converter()
     made.register_unstructure_hook(float, lambda x: float(x) if math.isfinite(x) else None)
+    made.register_unstructure_hook(int, operator.index)
+    made.register_unstructure_hook(bool, bool)
     made.register_structure_hook(float, lambda x, _: _number(x))
     made.register_structure_hook(int, lambda x, _: _whole(x))
     made.register_structure_hook(bool, lambda x, _: _wanted(x, bool, "true or false"))
@@ -131,11 +134,16 @@ def _is_scalar(kind: Any) -> bool:
 def _writer(kind: type, converter: Converter) -> Any:
     from cattrs.gen import make_dict_unstructure_fn, override
 
-    how = {
-        f.name: override(rename=f.metadata.get("key") or None, omit_if_default=f.default is None or _spare(f))
-        for f in _of(kind)
-    }
-    return make_dict_unstructure_fn(kind, converter, _cattrs_use_linecache=False, **how)  # type: ignore[arg-type]
+    spare = {f.name for f in _of(kind) if f.default is None or f.metadata.get("spare")}
+    how = {f.name: override(rename=f.metadata.get("key") or None, omit_if_default=f.name in spare) for f in _of(kind)}
+    write: Any = make_dict_unstructure_fn(kind, converter, _cattrs_use_linecache=False, **how)  # type: ignore[arg-type]
+    keys = [f.metadata.get("key") or f.name for f in _of(kind)]
+
+    def in_order(result: Any) -> dict[str, Any]:
+        plain = write(result)  # the spare ones come last
+        return {key: plain[key] for key in keys if key in plain}
+
+    return in_order if spare else write
 
 
 def _reader(kind: type, converter: Converter) -> Any:
@@ -143,10 +151,6 @@ def _reader(kind: type, converter: Converter) -> Any:
 
     how = {f.name: override(rename=f.metadata.get("key") or None) for f in _of(kind)}
     return make_dict_structure_fn(kind, converter, _cattrs_use_linecache=False, **how)  # type: ignore[arg-type]
-
-
-def _spare(f: dataclasses.Field[Any]) -> bool:
-    return bool(f.metadata.get("spare"))
 
 
 def _of(kind: Any) -> tuple[dataclasses.Field[Any], ...]:

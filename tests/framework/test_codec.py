@@ -24,6 +24,13 @@ class Part:
     at: str = told("where it is", default="", spare=True)
 
 
+@dataclass(frozen=True, kw_only=True)
+class Choice:
+    name: str = told("what it is called")
+    price: float | None = told("what it costs", default=None)
+    good: bool = told("whether it is good")
+
+
 @dataclass(frozen=True)
 class Whole:
     parts: tuple[Part, ...] = told("what it is made of")
@@ -49,7 +56,14 @@ def test_none_is_left_out_and_what_is_not_finite_is_null():
     assert math.isnan(from_plain(Part, plain).size)
 
 
-def test_arrays_are_lists():
+def test_keys_stand_in_the_order_of_the_fields():
+    assert list(to_plain(Choice(name="a", price=1.0, good=np.True_))) == ["name", "price", "good"]
+    assert list(to_plain(Choice(name="a", good=True))) == ["name", "good"]
+
+
+def test_arrays_are_lists_and_numbers_of_numpy_are_numbers():
+    assert json.dumps(to_plain((np.True_, np.int64(3), np.float32(0.5)))) == "[true, 3, 0.5]"
+    assert to_plain(Choice(name="a", good=np.True_))["good"] is True
     assert to_plain(Whole((), np.eye(2), np.int64(4)))["in"] == [[1.0, 0.0], [0.0, 1.0]]
 
 

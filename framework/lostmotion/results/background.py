@@ -15,7 +15,7 @@ class RecordingFacts:
     name: str = told("its name")
     samples: int = told("number of its samples")
     rate: float = told("samples in a second", unit="Hz")
-    start: float | None = told("the time of its first sample; null where it is not known", unit="s")
+    start: str | None = told("date and time of day of its first sample (ISO 8601); null where it is not known")
     inputs: tuple[str, ...] = told("its recorded inputs")
 
 

@@ -270,12 +270,12 @@ class BothWhite:
 
 @dataclass(frozen=True)
 class SampledEvidence:
-    """The log evidence of a model by two methods."""
+    """The log evidence of a model by Laplace's method and by importance sampling."""
 
     laplace: float = told("by Laplace's method")
     sampled: float = told("by importance sampling; null where it cannot be told")
     error: float = told("standard error of `sampled`")
-    effective: float = told("effective number of draws")
+    effective: float = told("effective number of draws; below a few tens `sampled` is not to be trusted")
 
 
 @dataclass(frozen=True)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
 
 import numpy as np
 
@@ -16,6 +15,7 @@ from lostmotion.inference.prices import related
 from lostmotion.likelihood.system import key_of
 from lostmotion.quantities import unit_of
 from lostmotion.report.words import sentence, spoken
+from lostmotion.results.diagnosis import Confusion, DecidingExcitation
 from lostmotion.stages.diagnose import Diagnosed
 from lostmotion.stages.experiment import Limits, Proposal, natural_of, propose, usual_limits
 from lostmotion.workflow.verdict import other_level
@@ -75,23 +75,22 @@ def proposed(
     }
 
 
-def confused_with(d: Diagnosed, rows: Sequence[Mapping[str, Any]], proposals: Proposals) -> list[dict[str, Any]]:
+def confused_with(d: Diagnosed, rows: Sequence[Confusion], proposals: Proposals) -> tuple[Confusion, ...]:
     """Return the `rows` of what a verdict cannot tell apart, with close relatives, and the experiments that decide."""
     told = {}
     for key, proposal in proposals.items():
         term, _ = term_of(d.selection.chosen.problem, key)
         p = d.selection.inclusion(key)
-        row = {"mechanism": term.name, "at": term.at, "probability": p}
-        if proposal is None:
-            told[term.name, term.at] = {
-                **row,
-                "says": f"{_opening(d, term, p)} {sentence(other_level(d))} would decide.",
-            }
-        else:
-            says = _says(d, term, p, proposal)
-            told[term.name, term.at] = {**row, "excitation": _excitation(d, proposal), "says": says}
-    rest = [dict(row) for row in rows if (row["mechanism"], row["at"]) not in told]
-    return [*told.values(), *rest]
+        says = f"{_opening(d, term, p)} {sentence(other_level(d))} would decide."
+        told[term.name, term.at] = Confusion(
+            mechanism=term.name,
+            at=term.at,
+            probability=p,
+            excitation=_excitation(d, proposal) if proposal else None,
+            says=_says(d, term, p, proposal) if proposal else says,
+        )
+    rest = (row for row in rows if (row.mechanism, row.at) not in told)
+    return (*told.values(), *rest)
 
 
 def _unit(d: Diagnosed) -> str:
@@ -100,19 +99,19 @@ def _unit(d: Diagnosed) -> str:
     return unit_of(model.inputs[0], model.motion)
 
 
-def _excitation(d: Diagnosed, proposal: Proposal) -> dict[str, Any]:
+def _excitation(d: Diagnosed, proposal: Proposal) -> DecidingExcitation:
     e = proposal.excitation
-    return {
-        "waveform": e.waveform,
-        "level": e.level,
-        "frequency": e.band[1],
-        "band": list(e.band),
-        "unit": _unit(d),
-        "expected_log_gain": proposal.gain,
-        "repeat_log_gain": proposal.repeat,
-        "if_found_is_true": proposal.ways[0],
-        "if_this_is_true": proposal.ways[1],
-    }
+    return DecidingExcitation(
+        waveform=e.waveform,
+        level=e.level,
+        frequency=e.band[1],
+        band=e.band,
+        unit=_unit(d),
+        expected_log_gain=proposal.gain,
+        repeat_log_gain=proposal.repeat,
+        if_found_is_true=proposal.ways[0],
+        if_this_is_true=proposal.ways[1],
+    )
 
 
 def _opening(d: Diagnosed, term: Term, p: float) -> str:

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from typing import Any
+from dataclasses import replace
 
 import numpy as np
 
+from lostmotion.contracts import Term
 from lostmotion.inference.natural import term_of
 from lostmotion.quantities import TIME
 from lostmotion.report.words import spoken
+from lostmotion.results.diagnosis import Mechanism, OpenTerm
 from lostmotion.settings import DEFAULT, Name
 from lostmotion.stages.compare import Prediction
 from lostmotion.stages.diagnose import Diagnosed
@@ -32,7 +34,7 @@ def probability_of(d: Diagnosed, key: str) -> float:
     return min(sum(d.selection.inclusion(k) for k in {key, *kin}), 1.0)
 
 
-def _same(term: Any, other: Any) -> bool:
+def _same(term: Term, other: Term) -> bool:
     return other.name in term.equals or term.name in other.equals
 
 
@@ -128,20 +130,20 @@ def _unusual(d: Diagnosed, key: str) -> Iterator[str]:
         yield f"A delay of {share:.0%} of a natural period is unusual: measure the time between the channels by itself."
 
 
-def doubted(entry: dict[str, Any], sure: float = DEFAULT.name.sure) -> dict[str, Any]:
+def doubted(entry: Mechanism, sure: float = DEFAULT.name.sure) -> Mechanism:
     """Return an entry of what was found: with a doubt it is likely, with a probability of `sure` at most."""
-    if not entry.get("doubts") or entry.get("state") not in (NAMED, LIKELY):
+    if not entry.doubts or entry.state not in (NAMED, LIKELY):
         return entry
-    return {**entry, "state": LIKELY, "probability": min(entry["probability"], sure)}
+    return replace(entry, state=LIKELY, probability=min(entry.probability, sure))
 
 
-def in_order(found: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
+def in_order(found: Sequence[Mechanism]) -> tuple[Mechanism, ...]:
     """Return the entries of what was found, what is named first and what is open last."""
     order = (NAMED, LIKELY, OPEN)
-    return sorted(found, key=lambda entry: order.index(entry["state"]))
+    return tuple(sorted(found, key=lambda entry: order.index(entry.state)))
 
 
-def open_of(d: Diagnosed) -> list[dict[str, Any]]:
+def open_of(d: Diagnosed) -> tuple[OpenTerm, ...]:
     """Return the terms that stay open: they would raise the likelihood, and something speaks against a name.
 
     What was found and taken back comes first: it came closest.
@@ -151,17 +153,13 @@ def open_of(d: Diagnosed) -> list[dict[str, Any]]:
         (d.selection.unbeaten, "a small smooth force that nobody has named explains as much"),
         (d.selection.declined, "what is left over has a memory, so that this gain is not believed"),
     ]
-    rows: dict[str, dict[str, Any]] = {}
+    rows: dict[str, OpenTerm] = {}
     for keys, why in reasons:
         for key in sorted(keys - set(d.found) - set(rows)):
             if key not in d.before.problem.system.keys:
                 continue
             term, _ = term_of(d.before.problem, key)
+            p = d.selection.inclusion(key) if key not in d.withdrawn else 0.0
             says = f"{_called(d, key)} would raise the likelihood, but {why}."
-            rows[key] = {
-                "mechanism": term.name,
-                "at": term.at,
-                "probability": d.selection.inclusion(key) if key not in d.withdrawn else 0.0,
-                "says": says,
-            }
-    return list(rows.values())
+            rows[key] = OpenTerm(term.name, term.at, p, says)
+    return tuple(rows.values())

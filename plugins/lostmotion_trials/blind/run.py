@@ -37,7 +37,7 @@ class Diagnoser:
         place = self.cases / label(number)
         shutil.rmtree(place / "diagnosis", ignore_errors=True)
         try:
-            content = run_diagnosis(
+            found = run_diagnosis(
                 place / "case.toml", place / "diagnosis", _registry(self.plugins), seed=number, jobs=1, propose=False
             )
         except PlaceError:
@@ -46,7 +46,7 @@ class Diagnoser:
             shutil.rmtree(place / "diagnosis", ignore_errors=True)
             return {"case": label(number), "status": "failed", "says": " ".join(str(err).split())}
         (place / "diagnosis" / "arrays.nc").unlink()
-        return {"case": label(number), "status": "ok", "says": " ".join(content["says"])}
+        return {"case": label(number), "status": "ok", "says": " ".join(found.says)}
 
 
 @dataclass(frozen=True)

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from lostmotion.codec import to_plain
 from lostmotion.contracts import Array
 from lostmotion.registry import Registry
 from lostmotion.report import figure_hero
@@ -50,7 +51,7 @@ def run_demo(out: Path, registry: Registry, setting: Setting, *, say: Callable[[
     periods = QUICK if setting.quick else PERIODS
     concealed = conceal_joint(rng, periods=periods, friction=0.0 if setting.clean else FRICTION)
     case = write_case(concealed, out / "case")
-    content = run_diagnosis(case, out, registry, seed=setting.seed, jobs=setting.jobs, say=say)
+    content = to_plain(run_diagnosis(case, out, registry, seed=setting.seed, jobs=setting.jobs, say=say))
     figure_hero(out)
     lines = (_recorded(concealed.time), *(_nothing_hidden(content) if setting.clean else _hidden(content)))
     return Judged((*lines, _improved(content)), content, judge(content, clean=setting.clean))
