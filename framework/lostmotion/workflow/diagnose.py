@@ -22,7 +22,7 @@ from lostmotion.registry import Registry
 from lostmotion.report import write_report
 from lostmotion.results.background import FittedMachine, Origin, RecordingFacts, SensorChannel, TermFacts
 from lostmotion.results.behaviour import Behaviour
-from lostmotion.results.diagnosis import Diagnosis, EvidenceCheck, Response
+from lostmotion.results.diagnosis import Diagnosis, Response
 from lostmotion.settings import DEFAULT, Settings
 from lostmotion.stages.compare import (
     exponent_of,
@@ -73,14 +73,6 @@ if TYPE_CHECKING:
 Say = Callable[[str], None]
 SHOW, NEXT, EVIDENCE, WHEN = 1, 2, 3, 4
 """The streams of random numbers for what is shown, proposed, checked and placed in time: no finding depends on them."""
-
-
-@dataclass(frozen=True)
-class Checked:
-    """What was found out of a diagnosed outcome by simulating and sampling."""
-
-    show: Behaviour
-    evidence: EvidenceCheck
 
 
 @dataclass(frozen=True, eq=False)
@@ -146,8 +138,7 @@ def told_of(
     stream = np.random.default_rng([seed, NEXT])
     proposals = proposed(diagnosis, prepared.case.experiment if propose else None, rng=stream, say=say)
     say("evidence by sampling")
-    evidence = evidence_of(diagnosis, np.random.default_rng([seed, EVIDENCE]))
-    result = _result(prepared, outcome, seed, proposals, Checked(show, evidence))
+    result = _result(prepared, outcome, seed, proposals, show)
     variables, coords = arrays_of(outcome, motions)
     return Told(result, dataset_of(variables, coords, {"title": prepared.case.title}), outcome)
 
@@ -219,7 +210,7 @@ def upheld(diagnosis: Diagnosed, prepared: Prepared, rng: np.random.Generator, s
     return outcome
 
 
-def _result(prepared: Prepared, outcome: Outcome, seed: int, proposals: Proposals, checked: Checked) -> Diagnosis:
+def _result(prepared: Prepared, outcome: Outcome, seed: int, proposals: Proposals, show: Behaviour) -> Diagnosis:
     d, case = outcome.diagnosis, prepared.case
     found, sharing = shared_in(d, found_in(outcome))
     found, rest = in_order([doubted(entry, d.settings.name.sure) for entry in found]), open_of(d)
@@ -248,9 +239,9 @@ def _result(prepared: Prepared, outcome: Outcome, seed: int, proposals: Proposal
         valid_prediction_time=valid_times(outcome),
         whiteness=whiteness_of(outcome),
         sharing=sharing,
-        show=checked.show,
+        show=show,
         decay=decay_in(d),
-        evidence=checked.evidence,
+        evidence=evidence_of(d, np.random.default_rng([seed, EVIDENCE])),
         machine=_machine(outcome, case),
         truth=case.truth,
         recordings=tuple(map(_recording, prepared.recordings)),
