@@ -21,7 +21,9 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from lostmotion.case import dump_case
+from lostmotion.codec import to_plain
 from lostmotion.registry import Registry
+from lostmotion.results.diagnosis import Diagnosis
 from lostmotion.workflow.diagnose import run_diagnosis
 
 PLACES = ("second", "joint", "ground")
@@ -113,15 +115,14 @@ def prepared(folder: Path, seed: int, place: str, encoders: int) -> tuple[Path, 
     return folder / "case.toml", {**values, "friction": friction}
 
 
-def row_of(said: dict[str, Any], truth: dict[str, Any], seconds: float) -> dict[str, Any]:
+def row_of(said: Diagnosis, truth: dict[str, Any], seconds: float) -> dict[str, Any]:
     """Return one line of the table: what was named, and intervals beside the truth."""
     found = [
-        {"mechanism": e["mechanism"], "at": e.get("at", ""), "probability": e["probability"],
-         "parameters": e.get("parameters", {})} for e in said["found"]
-    ]  # fmt: skip
-    return {
-        "found": found, "after": said["parameters"]["after"], "fit": said["fit"], "truth": truth, "seconds": seconds,
-    }  # fmt: skip
+        {"mechanism": e.mechanism, "at": e.at, "probability": e.probability, "parameters": to_plain(e.parameters)}
+        for e in said.found
+    ]
+    after, fit = to_plain(said.parameters.after), to_plain(said.fit)
+    return {"found": found, "after": after, "fit": fit, "truth": truth, "seconds": seconds}
 
 
 def hit(row: dict[str, Any]) -> str:
@@ -177,7 +178,7 @@ def main() -> None:
                 case, truth = prepared(folder, machine, place, encoders)
                 begin = time.perf_counter()
                 said = run_diagnosis(case, folder / "out", Registry.discover(), jobs=asked.jobs, propose=False)
-                row = row_of(dict(said), truth, time.perf_counter() - begin)
+                row = row_of(said, truth, time.perf_counter() - begin)
                 row = {"machine": machine, "place": place, "encoders": encoders, **row}
                 rows.append(row)
                 with log.open("a") as file:

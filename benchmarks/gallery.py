@@ -12,12 +12,12 @@ samples of the Silverbox.
 from __future__ import annotations
 
 import argparse
+import math
 import re
 import sys
 import time
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from scipy.interpolate import CubicSpline
@@ -26,6 +26,8 @@ from lostmotion.contracts import Assembly
 from lostmotion.likelihood.drive import Drive
 from lostmotion.likelihood.system import System
 from lostmotion.registry import Registry, default
+from lostmotion.results import Interval
+from lostmotion.results.diagnosis import Candidate, Diagnosis, Mechanism
 from lostmotion.workflow.diagnose import run_diagnosis
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -41,7 +43,7 @@ SHOWN = 0.01
 """Candidates of a lower probability are not printed."""
 
 
-def arrow(content: Mapping[str, Any], data: Path, registry: Registry) -> dict[str, float]:
+def arrow(found: Diagnosis, data: Path, registry: Registry) -> dict[str, float]:
     """Return the rms errors (V) of free runs over the arrow with the parameters before and after.
 
     A learned curve is no law beyond what it was learned on: with one there is no free run after.
@@ -50,13 +52,13 @@ def arrow(content: Mapping[str, Any], data: Path, registry: Registry) -> dict[st
     u, y = (table[k].ravel()[ARROW] for k in ("V1", "V2"))
     grid = np.arange(len(u)) / RATE
     drive = Drive.smooth([CubicSpline(grid, u)], 1.0 / RATE, len(u))
-    errors, laws = {}, tuple(f for f in content["found"] if f.get("at") == "ground")
-    learned = any(f["mechanism"] == "unknown" for f in content["found"])
+    errors, laws = {}, tuple(f for f in found.found if f.at == "ground")
+    learned = any(f.mechanism == "unknown" for f in found.found)
     for when, terms in (("before", ()),) if learned else (("before", ()), ("after", laws)):
         model = registry.make("model", "linear_oscillator")
-        system = System.of(Assembly(model, tuple(registry.make("term", f["mechanism"]) for f in terms)))
+        system = System.of(Assembly(model, tuple(registry.make("term", f.mechanism) for f in terms)))
         known = {s.key for s in system.slots}
-        values = {k: v["median"] for k, v in content["parameters"][when].items() if k in known}
+        values = {k: v.median for k, v in getattr(found.parameters, when).items() if k in known}
         run = system.simulate(system.vector(values), system.everything, np.array([y[0], 0.0]), drive, 8)
         errors[when] = float(np.sqrt(np.mean((run.states[SETTLING:, 0] - y[SETTLING:]) ** 2)))
     return errors
@@ -78,10 +80,10 @@ def main() -> None:
         folder.mkdir(parents=True, exist_ok=True)
         (folder / "case.toml").write_text(CASES[name](data, folder))
         begin = time.perf_counter()
-        content = run_diagnosis(folder / "case.toml", folder / "result", registry, jobs=args.jobs, propose=args.propose)
-        told(name, content, time.perf_counter() - begin)
-        further = arrow(content, data, registry) if name == "silverbox" else {}
-        tables = {f"figures of benchmarks/gallery.py {name}": table(content, further)}
+        found = run_diagnosis(folder / "case.toml", folder / "result", registry, jobs=args.jobs, propose=args.propose)
+        told(name, found, time.perf_counter() - begin)
+        further = arrow(found, data, registry) if name == "silverbox" else {}
+        tables = {f"figures of benchmarks/gallery.py {name}": table(found, further)}
         if name in by_hand.READ:
             tables[f"by hand: {name}"] = read(by_hand.READ[name](data))
         print("\n\n".join(tables.values()), flush=True)
@@ -95,23 +97,24 @@ def read(numbers: by_hand.Numbers) -> str:
     return "\n".join(["| read off by hand | |", "|---|---|", *rows])
 
 
-def table(content: Mapping[str, Any], further: Mapping[str, float]) -> str:
+def table(found: Diagnosis, further: Mapping[str, float]) -> str:
     """Return what a diagnosis says as a table: parameters, names with their probabilities, held-out predictions."""
-    both, fit = content["parameters"], content["fit"]
-    units = {key: value["unit"] for when in WHEN for key, value in both[when].items()}
+    both = {"before": found.parameters.before, "after": found.parameters.after}
+    scores = {"before": found.fit.before, "after": found.fit.after}
+    units = {key: value.unit for when in WHEN for key, value in both[when].items()}
     rows = [
         (f"`{key}` ({unit})" if unit else f"`{key}`", *(between(both[w].get(key)) for w in WHEN))
         for key, unit in units.items()
     ]
     rows += [
-        (f"{entry['state']}: {entry['mechanism']} {place_of(entry)}".rstrip(), "", f"{entry['probability']:.3f}")
-        for entry in content["found"]
+        (f"{entry.state}: {entry.mechanism} {place_of(entry)}".rstrip(), "", f"{entry.probability:.3f}")
+        for entry in found.found
     ]
-    rows.append(("force left unexplained, rms (" + content["unexplained"]["unit"] + ")",
-                 *(f"{content[k]['rms']:.2g}" for k in ("unexplained_before", "unexplained"))))  # fmt: skip
-    over = f"over {fit['horizon_unit_time'] * fit['before']['horizon']:.3g} s"
-    rows.append((f"held-out error {over}", *(f"{fit[w]['heldout_nrmse']:.2%}" for w in WHEN)))
-    rows.append(("held-out log score", *(f"{fit[w]['heldout_log_score']:.3f}" for w in WHEN)))
+    left = (found.unexplained_before, found.unexplained)
+    rows.append((f"force left unexplained, rms ({found.unexplained.unit})", *(f"{one.rms:.2g}" for one in left)))
+    over = f"over {found.fit.horizon_unit_time * found.fit.before.horizon:.3g} s"
+    rows.append((f"held-out error {over}", *(f"{scores[w].nrmse:.2%}" for w in WHEN)))
+    rows.append(("held-out log score", *(f"{scores[w].log_score:.3f}" for w in WHEN)))
     if further:
         rows.append(
             (
@@ -122,18 +125,18 @@ def table(content: Mapping[str, Any], further: Mapping[str, float]) -> str:
     return "\n".join(["| | before | after |", "|---|---|---|", *(f"| {' | '.join(row)} |" for row in rows)])
 
 
-def between(value: Mapping[str, Any] | None) -> str:
+def between(value: Interval | None) -> str:
     """Return an estimate with its 95 % interval, or nothing."""
     if not value:
         return ""
-    if value["low"] is None:
-        return f"{value['median']:.4g} (interval withheld)"
-    return f"{value['median']:.4g} [{value['low']:.4g}, {value['high']:.4g}]"
+    if math.isnan(value.low):
+        return f"{value.median:.4g} (interval withheld)"
+    return f"{value.median:.4g} [{value.low:.4g}, {value.high:.4g}]"
 
 
-def place_of(entry: Mapping[str, Any]) -> str:
+def place_of(entry: Mechanism | Candidate) -> str:
     """Return where a term acts, if it acts at a place."""
-    return f"at {entry['at']}" if entry.get("at") else ""
+    return f"at {entry.at}" if entry.at else ""
 
 
 def into_pages(tables: Mapping[str, str]) -> None:
@@ -146,18 +149,18 @@ def into_pages(tables: Mapping[str, str]) -> None:
             page.write_text(text)
 
 
-def told(name: str, content: Mapping[str, Any], taken: float) -> None:
+def told(name: str, found: Diagnosis, taken: float) -> None:
     """Print what a diagnosis says."""
-    fit = content["fit"]
+    fit = found.fit
     print(f"{name}, {taken:.0f} s")
-    for line in (*content["says"], *content["notes"]):
+    for line in (*found.says, *found.notes):
         print(f"  {line}")
-    for label, key in (("error", "heldout_nrmse"), ("log score", "heldout_log_score")):
-        print(f"  held-out {label} " + " -> ".join(f"{fit[k][key]:.3g}" for k in ("before", "after")))
-    print(f"  noise {fit['noise_floor_nrmse']:.3g}")
-    for entry in content["ranking"]:
-        if entry["probability"] > SHOWN:
-            print(f"  {entry['mechanism']} {place_of(entry)}: probability {entry['probability']:.3f}")
+    print(f"  held-out error {fit.before.nrmse:.3g} -> {fit.after.nrmse:.3g}")
+    print(f"  held-out log score {fit.before.log_score:.3g} -> {fit.after.log_score:.3g}")
+    print(f"  noise {fit.noise_floor_nrmse:.3g}")
+    for entry in found.ranking:
+        if entry.probability > SHOWN:
+            print(f"  {entry.mechanism} {place_of(entry)}: probability {entry.probability:.3f}")
 
 
 if __name__ == "__main__":

@@ -57,6 +57,7 @@ def run(study):
 
 def findings(d):
     """Return names, intervals, gains and statuses of a diagnosis."""
+    from lostmotion.codec import to_plain
     from lostmotion.workflow.findings import draws_of, intervals
 
     rng = np.random.default_rng(1)
@@ -80,7 +81,7 @@ def findings(d):
         "verdict": [*d.named, *["unknown"] * d.unknown] or ["random_force"] * d.unexplained,
         "levels": {n: dict(zip(f.problem.keys, map(float, f.theta), strict=True)) for n, f in wide.items()},
         "usual": {n: {k: float(s) for k, s in f.sd.items()} for n, f in wide.items()},
-        "intervals": {n: {k: i.as_dict() for k, i in intervals(f, draws_of(f, rng)).items()} for n, f in wide.items()},
+        "intervals": {n: to_plain(intervals(f, draws_of(f, rng))) for n, f in wide.items()},
         "nsub": [d.before.problem.nsub, d.after.problem.nsub],
     }
 

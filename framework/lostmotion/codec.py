@@ -1,14 +1,16 @@
 """One codec for all results: frozen dataclasses to plain JSON values and back, and what each key of a file means.
 
 A field is written under its name, or under that of `told(key=...)`. Fields that are None by default are left out where
-they are None. Numbers that are not finite are written as null, and null is read as NaN where a number is wanted. Keys
-that nobody knows are ignored when a file is read, so that newer files can be read by older programs.
+they are None, and so are others with `told(spare=True)` where they have their default. Numbers that are not finite are
+written as null, and null is read as NaN where a number is wanted. Keys that nobody knows are ignored when a file is
+read, so that newer files can be read by older programs.
 """
 
 from __future__ import annotations
 
 import dataclasses
 import math
+import operator
 from collections.abc import Iterator, Mapping
 from functools import cache
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeVar, get_args, get_origin, get_type_hints
@@ -23,6 +25,7 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 Cells = float | tuple[float, ...]
 """A number, or a row of them."""
+ABSENT = ", or absent"
 WORDS: Mapping[Any, str] = {
     float: "number",
     Cells: "number or list of numbers",
@@ -32,13 +35,22 @@ WORDS: Mapping[Any, str] = {
 }
 
 
-def told(doc: str, *, unit: str = "", key: str = "", flat: bool = False, default: Any = dataclasses.MISSING) -> Any:
+def told(
+    doc: str,
+    *,
+    unit: str = "",
+    key: str = "",
+    flat: bool = False,
+    spare: bool = False,
+    default: Any = dataclasses.MISSING,
+) -> Any:
     """Return a field of a result: what it means, for the schema; its unit; its `key` in a file where that differs.
 
     The keys of a `flat` field, a result itself, stand in the file among those of its owner; it may be None, where none
-    of them is there. A `default` that is a mapping stands for an empty one of its own in each result.
+    of them is there. A `spare` field is left out of a file where it has its `default`, as one is whose default is None.
+    A `default` that is a mapping stands for an empty one of its own in each result.
     """
-    metadata = {"doc": doc, "unit": unit, "key": key, "flat": flat}
+    metadata = {"doc": doc, "unit": unit, "key": key, "flat": flat, "spare": spare}
     if isinstance(default, dict):
         return dataclasses.field(default_factory=dict, metadata=metadata)
     return dataclasses.field(default=default, metadata=metadata)
@@ -82,6 +94,7 @@ def _entries(kind: Any, before: str) -> Iterator[Entry]:
         if f.metadata.get("flat"):
             yield from _entries(core, before)
             continue
+        words += ABSENT if f.metadata.get("spare") else ""
         yield Entry(path + ending, words, f.metadata.get("unit", ""), f.metadata.get("doc", ""))
         if dataclasses.is_dataclass(core):
             yield from _entries(core, f"{path}{ending}.")
@@ -94,7 +107,7 @@ def _read(hint: Any) -> tuple[Any, str, str]:
     options = [one for one in get_args(hint) if one is not type(None)]
     if type(None) in get_args(hint):
         core, ending, words = _read(options[0])
-        return core, ending, f"{words}, or absent"
+        return core, ending, words + ABSENT
     origin = getattr(hint, "__origin__", None)
     if origin is tuple:
         core, ending, words = _read(options[0])
@@ -111,6 +124,8 @@ def _converter() -> Converter:
 
     made = Converter()
     made.register_unstructure_hook(float, lambda x: float(x) if math.isfinite(x) else None)
+    made.register_unstructure_hook(int, operator.index)
+    made.register_unstructure_hook(bool, bool)
     made.register_structure_hook(float, lambda x, _: _number(x))
     made.register_structure_hook(int, lambda x, _: _whole(x))
     made.register_structure_hook(bool, lambda x, _: _wanted(x, bool, "true or false"))
@@ -150,19 +165,20 @@ def _is_scalar(kind: Any) -> bool:
 def _writer(kind: type, converter: Converter) -> Any:
     from cattrs.gen import make_dict_unstructure_fn, override
 
-    how = {f.name: override(rename=f.metadata.get("key") or None, omit_if_default=f.default is None) for f in _of(kind)}
+    spare = {f.name for f in _of(kind) if f.default is None or f.metadata.get("spare")}
+    how = {f.name: override(rename=f.metadata.get("key") or None, omit_if_default=f.name in spare) for f in _of(kind)}
     write: Any = make_dict_unstructure_fn(kind, converter, _cattrs_use_linecache=False, **how)  # type: ignore[arg-type]
     fields = [(_key(f), bool(f.metadata.get("flat"))) for f in _of(kind)]
 
-    def written(result: Any) -> dict[str, Any]:
-        found = write(result)  # cattrs puts what may be left out behind all else
+    def in_order(result: Any) -> dict[str, Any]:
+        found = write(result)  # the spare ones come last
         plain: dict[str, Any] = {}
         for key, flat in fields:
             if key in found:
                 plain.update(found[key] if flat else {key: found[key]})
         return plain
 
-    return written if any(f.default is None or f.metadata.get("flat") for f in _of(kind)) else write
+    return in_order if spare or _flat(kind) else write
 
 
 def _reader(kind: type, converter: Converter) -> Any:

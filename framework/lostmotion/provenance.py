@@ -9,7 +9,9 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any
 
+from lostmotion.codec import to_plain
 from lostmotion.errors import DataError
+from lostmotion.results.background import Origin
 
 PACKAGES = ("lostmotion", "numpy", "numba")
 """The packages whose version may change a number."""
@@ -24,20 +26,21 @@ def digest(path: Path) -> str:
         raise DataError(f"{path.name} cannot be read ({err.strerror}): give the path of a file") from err
 
 
-def provenance(
-    component: str, settings: Mapping[str, Any], seed: int | None, inputs: Mapping[str, str]
-) -> dict[str, Any]:
-    """Return what made a result, ready for JSON: component, versions, settings, seed and digests of the inputs.
+def origin_of(component: str, settings: Mapping[str, object], seed: int | None, inputs: Mapping[str, str]) -> Origin:
+    """Return what made a result: component, versions, settings, seed and digests of the inputs.
 
     `inputs` maps a name, such as that of the file, to its `digest`. Keys are sorted.
     """
-    return {
-        "component": component,
-        "versions": {"python": platform.python_version(), **{name: _version(name) for name in PACKAGES}},
-        "settings": _plain(settings),
-        "seed": seed,
-        "inputs": _plain(inputs),
-    }
+    versions = {"python": platform.python_version(), **{name: _version(name) for name in PACKAGES}}
+    return Origin(component, versions, _plain(settings), seed, _plain(inputs))
+
+
+def provenance(
+    component: str, settings: Mapping[str, Any], seed: int | None, inputs: Mapping[str, str]
+) -> dict[str, Any]:
+    """Return what made a result, as `origin_of` tells it, ready for JSON."""
+    made: dict[str, Any] = to_plain(origin_of(component, settings, seed, inputs))
+    return made
 
 
 def _version(package: str) -> str:

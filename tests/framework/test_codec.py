@@ -23,6 +23,14 @@ class Part:
     numbers: Mapping[str, Interval] = told("its numbers", default={})
     late: Interval | None = told("since when", default=None)
     rest: float = told("what is left", default=0.0)
+    at: str = told("where it is", default="", spare=True)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Choice:
+    name: str = told("what it is called")
+    price: float | None = told("what it costs", default=None)
+    good: bool = told("whether it is good")
 
 
 @dataclass(frozen=True)
@@ -47,16 +55,20 @@ def test_none_is_left_out_and_what_is_not_finite_is_null():
     plain = to_plain(Part("a", math.inf, {"k": Interval(1.0, math.nan, 2.0, "N")}))
     assert plain["size"] is None
     assert plain["numbers"]["k"] == {"median": 1.0, "low": None, "high": 2.0, "unit": "N"}
-    assert "late" not in plain
+    assert not {"late", "at"} & set(plain)
     assert math.isnan(from_plain(Part, plain).size)
 
 
 def test_keys_stand_in_the_order_of_the_fields():
     late = Interval(1.0, 0.5, 2.0, "s")
     assert list(to_plain(Part("a", 1.0, late=late))) == ["name", "size", "numbers", "late", "rest"]
+    assert list(to_plain(Choice(name="a", price=1.0, good=np.True_))) == ["name", "price", "good"]
+    assert list(to_plain(Choice(name="a", good=True))) == ["name", "good"]
 
 
-def test_arrays_are_lists():
+def test_arrays_are_lists_and_numbers_of_numpy_are_numbers():
+    assert json.dumps(to_plain((np.True_, np.int64(3), np.float32(0.5)))) == "[true, 3, 0.5]"
+    assert to_plain(Choice(name="a", good=np.True_))["good"] is True
     assert to_plain(Whole((), np.eye(2), np.int64(4)))["in"] == [[1.0, 0.0], [0.0, 1.0]]
 
 
@@ -89,6 +101,7 @@ def test_the_schema_has_each_key_with_unit_and_meaning():
     assert rows["parts[].numbers.NAME.low"].type == "number"
     assert rows["parts[].late"].type == "object, or absent"
     assert rows["kind"].type == '"near" or "far"'
+    assert rows["parts[].at"].type == "text, or absent"
     assert rows["in[][]"].type == "list of list of number"
 
 

@@ -125,7 +125,7 @@ def two_places(force, rng):
 def test_a_structured_force_is_significant_in_a_model_with_two_places():
     """With eleven covariates and 199 surrogates a Bonferroni level of 0.0045 lay below the least p-value, 0.005.
 
-    `structure` is what `Diagnosis.unknown` asks for.
+    `structure` is what `Diagnosed.unknown` asks for.
     """
     found = two_places(lambda x, v: -3.0 * np.sign(v), np.random.default_rng(12))
     assert len(found.explained) == 11

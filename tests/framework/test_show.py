@@ -1,13 +1,28 @@
 """Distances between clouds of points, growth rates in blocks, and the table of before, after and noise floor."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
+from lostmotion.codec import to_plain
 from lostmotion.likelihood.observation import Observation
 from lostmotion.report import show
 from lostmotion.report.evidence import Evidence
+from lostmotion.results.behaviour import (
+    Behaviour,
+    Chance,
+    DimensionInterval,
+    Distance,
+    ExponentInterval,
+    HorizonLength,
+    ModelBehaviour,
+    NoiseFloor,
+    ValidTime,
+)
 from lostmotion.signals.distances import distances, energy_distance, same_chance
 from lostmotion.workflow.attractors import MOST, distances_between, section
+from lostmotion.workflow.show import UNITS
 from lostmotion.workflow.show_words import said
 
 PERIOD = 40.0
@@ -93,25 +108,35 @@ def test_sections_are_taken_at_the_phase_asked_for():
     assert MOST >= 200
 
 
-def made(augmented=True):
-    def measures(error, p):
-        return {
-            "heldout_log_score": 4.0,
-            "free_run_error": error,
-            "valid_prediction_time": {"value": 3.0, "or_longer": error < 0.1},
-            "attractor_distance": {"value": error, "p": p, "status": "ok"},
-            "largest_exponent": {"value": 1.0, "low": 0.8, "high": 1.2, "status": "ok"},
-            "d2": {"value": 2.1, "low": 2.0, "high": 2.2, "status": "ok", "says": ""},
-            "whiteness": {"p": p},
-        }
+ABOUT_TWO = DimensionInterval(2.1, 2.0, 2.2, "ok", "")
 
-    table = {"before": measures(0.3, 0.005), "noise_floor": measures(0.01, 0.5)}
-    del table["noise_floor"]["whiteness"], table["noise_floor"]["valid_prediction_time"]
-    if augmented:
-        table["after"] = measures(0.02, 0.4)
-    table["units"] = {"valid_prediction_time": "Lyapunov times", "largest_exponent": "1/s", "d2": "1"}
-    table["horizon"] = {"value": 0.5, "unit": "Lyapunov times"}
-    return {"found": [{}] if augmented else [], "show": {**table, "says": said(table, True)}}
+
+def measures(error, p, d2=ABOUT_TWO):
+    return ModelBehaviour(
+        heldout_log_score=4.0,
+        free_run_error=error,
+        valid_prediction_time=ValidTime(3.0, error < 0.1),
+        attractor_distance=Distance(error, p, "ok"),
+        largest_exponent=ExponentInterval(1.0, 0.8, 1.2, "ok"),
+        d2=d2,
+        whiteness=Chance(p),
+    )
+
+
+def behaviour(augmented=True, **given):
+    """Measures before and after, as a diagnosis has them."""
+    before, after = measures(0.3, 0.005, **given), measures(0.02, 0.4, **given)
+    like, horizon = measures(0.01, 0.5, **given), HorizonLength(0.5, "Lyapunov times")
+    floor = NoiseFloor(like.heldout_log_score, like.free_run_error, like.attractor_distance, like.d2)
+    last = after if augmented else before
+    units, says = replace(UNITS, valid_prediction_time=horizon.unit), said(last, floor, horizon, True)
+    return Behaviour(
+        before=before, after=after if augmented else None, noise_floor=floor, units=units, horizon=horizon, says=says
+    )
+
+
+def made(augmented=True, **given):
+    return {"found": [{}] if augmented else [], "show": to_plain(behaviour(augmented, **given))}
 
 
 def plain(text):
@@ -120,16 +145,14 @@ def plain(text):
 
 @pytest.mark.parametrize(("free", "how"), [(False, "under the recorded drive"), (True, "left to itself")])
 def test_an_exponent_says_what_drove_the_model(free, how):
-    table = made()["show"]
-    assert said(table, not free, driven=not free)["largest_exponent"].startswith(f"Of the model {how}")
+    table = behaviour()
+    says = said(table.after, table.noise_floor, table.horizon, not free, driven=not free)
+    assert says.largest_exponent.startswith(f"Of the model {how}")
 
 
 def test_what_could_not_be_measured_keeps_its_sentence():
-    facts = made()
-    refused = {"value": None, "low": None, "high": None, "status": "too_short", "says": "Too few periods."}
-    for column in ("before", "after", "noise_floor"):
-        facts["show"][column]["d2"] = refused
-    facts["show"]["says"] = said(facts["show"], True)
+    nothing = float("nan")
+    facts = made(d2=DimensionInterval(nothing, nothing, nothing, "too_short", "Too few periods."))
     row = next(r for r in show.table(Evidence(facts, {}, {}, {})).rows if r[0] == "Correlation dimension")
     assert row[1:4] == ["–"] * 3
     assert "Too few periods." in row[4]

@@ -5,8 +5,11 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from lostmotion.codec import to_plain
 from lostmotion.inference.course import Visit
 from lostmotion.likelihood.problem import RANDOM
+from lostmotion.results import Interval
+from lostmotion.results.diagnosis import Mechanism
 from lostmotion.settings import DEFAULT
 from lostmotion.stages.compare import PARTS, confirmed, worsened
 from lostmotion.workflow import confirming
@@ -140,9 +143,9 @@ def test_what_stays_open_is_told_with_the_reason_once():
     after = fit_of({}, [])
     d = diagnosis(after, {(): 1.0}, unbeaten={FRICTION}, declined={FRICTION, DELAY}, withdrawn=("unknown",))
     rows = open_of(d)
-    assert [row["mechanism"] for row in rows] == ["coulomb_friction", "excitation_delay"]
-    assert "smooth force that nobody has named" in rows[0]["says"]
-    assert "has a memory" in rows[1]["says"]
+    assert [row.mechanism for row in rows] == ["coulomb_friction", "excitation_delay"]
+    assert "smooth force that nobody has named" in rows[0].says
+    assert "has a memory" in rows[1].says
 
 
 @pytest.mark.parametrize(("error", "floor", "good"), [(0.2, 0.01, True), (0.35, 0.1, True), (5.92, 0.01, False),
@@ -152,10 +155,10 @@ def test_a_model_holds_that_predicts(error, floor, good):
 
 
 def test_intervals_are_withheld_with_the_reason():
-    told = {"c": {"median": 1.0, "low": 0.9, "high": 1.1, "unit": "N s/m"}}
-    assert shown(told, "")["c"]["low"] == 0.9
-    kept = shown(told, "because")["c"]
-    assert (kept["median"], kept["low"], kept["high"], kept["withheld"]) == (1.0, None, None, "because")
+    told = {"c": Interval(1.0, 0.9, 1.1, "N s/m")}
+    assert shown(told, "") == told
+    kept = to_plain(shown(told, "because")["c"])
+    assert kept == {"median": 1.0, "low": None, "high": None, "unit": "N s/m", "withheld": "because"}
 
 
 def prediction(nrmse, scores):
@@ -289,13 +292,17 @@ def test_a_delay_of_less_than_half_a_sample_is_usual(delay, told):
     assert bool(usual(d, DELAY)) == told
 
 
+def entry(**told):
+    return Mechanism(parameters={}, says="It acts.", **told)
+
+
 def test_what_is_doubted_is_likely_and_comes_behind_what_is_named():
     entries = [
-        {"mechanism": "unknown", "state": OPEN, "probability": 1.0},
-        {"mechanism": "offset_force", "state": NAMED, "probability": 0.999, "doubts": ["why"]},
-        {"mechanism": "coulomb_friction", "state": NAMED, "probability": 0.97, "doubts": []},
+        entry(mechanism="unknown", state=OPEN, probability=1.0),
+        entry(mechanism="offset_force", state=NAMED, probability=0.999, doubts=("why",)),
+        entry(mechanism="coulomb_friction", state=NAMED, probability=0.97),
     ]
-    told = in_order([doubted(entry) for entry in entries])
-    assert [entry["mechanism"] for entry in told] == ["coulomb_friction", "offset_force", "unknown"]
-    assert [entry["state"] for entry in told] == [NAMED, LIKELY, OPEN]
-    assert [entry["probability"] for entry in told] == [0.97, DEFAULT.name.sure, 1.0]
+    told = in_order([doubted(one) for one in entries])
+    assert [one.mechanism for one in told] == ["coulomb_friction", "offset_force", "unknown"]
+    assert [one.state for one in told] == [NAMED, LIKELY, OPEN]
+    assert [one.probability for one in told] == [0.97, DEFAULT.name.sure, 1.0]

@@ -11,6 +11,8 @@ from lostmotion.likelihood.observation import Observation, Sensor
 from lostmotion.report.evidence import Evidence
 from lostmotion.report.opening import badge
 from lostmotion.results import Interval
+from lostmotion.results.diagnosis import Mechanism
+from lostmotion.results.mismatch import UnexplainedForce
 from lostmotion.stages.diagnose import _check_moving
 from lostmotion.workflow import verdict
 from lostmotion.workflow.diagnose import unused
@@ -51,10 +53,12 @@ def diagnosed(slow, *names, white=0.0):
     ],
 )
 def test_what_grows_is_not_said_to_fall(monkeypatch, force, error, told):
-    fit = {w: {"heldout_nrmse": e} for w, e in zip(("before", "after"), error, strict=True)}
-    monkeypatch.setattr(verdict, "_fit", lambda _: fit | {"noise_floor_nrmse": 0.01})
-    monkeypatch.setattr(verdict, "_unexplained", lambda _, after: {"rms": force[after], "unit": "N"})
-    said = verdict.says(diagnosed([0.0]), [{"says": "Friction acts."}])[1]
+    outcome = diagnosed([0.0])
+    outcome.before, outcome.after.nrmse = SimpleNamespace(nrmse=error[0]), error[1]
+    monkeypatch.setattr(verdict, "noise_floor", lambda _: 0.01)
+    monkeypatch.setattr(verdict, "unexplained_of", lambda _, after: UnexplainedForce(True, force[after], "N", 0.1))
+    friction = Mechanism(mechanism="friction", probability=1.0, state="named", parameters={}, says="Friction acts.")
+    said = verdict.says(outcome, [friction])[1]
     start, end = told.split(" * ")
     assert start in said
     assert f"over one drive period {end} of the response" in said

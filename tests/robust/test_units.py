@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from lostmotion.codec import to_plain
 from lostmotion.likelihood.drive import Drive
 from lostmotion.likelihood.observation import rounded
 from lostmotion.likelihood.system import System
@@ -80,7 +81,7 @@ def test_a_diagnosis_is_the_same_in_any_units(tmp_path, recorded):
     """To 1e-6 of each number, found terms and intervals included."""
     registry = Registry.discover()
     cases = [written(tmp_path / f, recorded, f, u) for f, u in (("N", "m"), ("kN", "um"))]
-    plain, other = (run_diagnosis(c, c.parent / "result", registry, jobs=1, propose=False) for c in cases)
+    plain, other = (to_plain(run_diagnosis(c, c.parent / "result", registry, jobs=1, propose=False)) for c in cases)
     for key in ("found", "parameters", "fit", "ranking", "where"):
         assert numbers(plain[key]) == pytest.approx(numbers(other[key]), rel=1e-6), key
 

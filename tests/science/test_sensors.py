@@ -78,11 +78,11 @@ def test_what_one_of_two_encoders_has_of_its_own_is_named_at_it(tmp_path, mechan
     columns = {"t": T, "F": DRIVE(T), "motor": 1e3 * noisy(states[:, 0], 0.01, 3), "load": load}
     model = model_of("clearance_chain", CHAIN, ("c1", "k0", "x0"))
     said = said_of(case_of(tmp_path, columns, {"inputs": [FORCE], "sensors": list(ENCODERS)}, model))
-    (found,) = said["found"]
-    assert (found["mechanism"], found["at"]) == (mechanism, "load encoder")
-    value = found["parameters"][name]
-    assert value["low"] - 0.02 * abs(truth) <= truth <= value["high"] + 0.02 * abs(truth)
-    assert said["confused_with"] == [] or all(row["mechanism"] != "excitation_delay" for row in said["confused_with"])
+    (found,) = said.found
+    assert (found.mechanism, found.at) == (mechanism, "load encoder")
+    value = found.parameters[name]
+    assert value.low - 0.02 * abs(truth) <= truth <= value.high + 0.02 * abs(truth)
+    assert all(row.mechanism != "excitation_delay" for row in said.confused_with)
 
 
 @pytest.mark.slow
@@ -93,16 +93,16 @@ def test_a_slow_sensor_beside_a_fast_one_tells_what_it_sees(tmp_path):
     columns = {"t": T, "F": DRIVE(T), "motor": 1e3 * noisy(states[:, 0], 0.01, 3), "load": load}
     model = model_of("clearance_chain", CHAIN, ("c1", "k0", "x0"))
     said = said_of(case_of(tmp_path, columns, {"inputs": [FORCE], "sensors": list(ENCODERS)}, model))
-    assert said["verdict"] == "adequate"
-    assert any("every 10th row (15 Hz)" in note for note in said["notes"])
-    assert [s["name"] for s in said["sensors"]] == ["motor encoder", "load encoder"]
-    assert said["sensors"][1]["noise_sd"] == pytest.approx(0.01 * states[:, 2].std(), rel=0.15)
-    by_sensor = said["fit"]["after"]["heldout_nrmse_by_sensor"]
+    assert said.verdict == "adequate"
+    assert any("every 10th row (15 Hz)" in note for note in said.notes)
+    assert [s.name for s in said.sensors] == ["motor encoder", "load encoder"]
+    assert said.sensors[1].noise_sd == pytest.approx(0.01 * states[:, 2].std(), rel=0.15)
+    by_sensor = said.fit.after.nrmse_by_sensor
     assert set(by_sensor) == {"motor encoder", "load encoder"}
-    assert said["fit"]["after"]["heldout_nrmse"] == pytest.approx(np.mean(list(by_sensor.values())))
+    assert said.fit.after.nrmse == pytest.approx(np.mean(list(by_sensor.values())))
     for parameter in ("k0", "x0"):
-        value = said["parameters"]["after"][parameter]
-        assert value["low"] * 0.99 <= CHAIN[parameter] <= value["high"] * 1.01
+        value = said.parameters.after[parameter]
+        assert value.low * 0.99 <= CHAIN[parameter] <= value.high * 1.01
 
 
 @pytest.mark.slow
@@ -113,10 +113,10 @@ def test_two_forces_are_two_inputs(tmp_path):
     inputs = [FORCE, {"input": "second_force", "column": "B", "unit": "N"}]
     model = model_of("clearance_chain", CHAIN, ("c1", "k0", "x0"))
     said = said_of(case_of(tmp_path, columns, {"inputs": inputs, "sensors": [ENCODERS[0]]}, model))
-    assert said["verdict"] == "adequate"
+    assert said.verdict == "adequate"
     for parameter in ("k0", "x0"):
-        value = said["parameters"]["after"][parameter]
-        assert value["low"] * 0.99 <= CHAIN[parameter] <= value["high"] * 1.01
+        value = said.parameters.after[parameter]
+        assert value.low * 0.99 <= CHAIN[parameter] <= value.high * 1.01
 
 
 @pytest.mark.slow
@@ -142,10 +142,10 @@ def test_a_shaken_table_with_an_accelerometer_on_it(tmp_path):
     }
     model = model_of("linear_oscillator", {"m": 1.0, "c": 0.7, "k": 150.0}, ("c", "k"))
     said = said_of(case_of(tmp_path, columns, recording, model))
-    (found,) = said["found"]
-    assert found["mechanism"] == "coulomb_friction"
-    value = found["parameters"]["force"]
-    assert value["low"] - 0.005 <= drag <= value["high"] + 0.005
+    (found,) = said.found
+    assert found.mechanism == "coulomb_friction"
+    value = found.parameters["force"]
+    assert value.low - 0.005 <= drag <= value.high + 0.005
 
 
 @pytest.mark.slow
@@ -173,10 +173,10 @@ def test_a_load_cell_beside_an_encoder_on_a_joint_that_is_moved(tmp_path):
     }
     values = {"m": m, "c": c, "k0": k0, "x0": x0}
     said = said_of(case_of(tmp_path, columns, recording, model_of("backlash_slider", values, ("c", "k0", "x0"))))
-    (found,) = said["found"]
-    assert (found["mechanism"], found["at"]) == ("coulomb_friction", "ground")
-    value = found["parameters"]["force"]
-    assert value["low"] - 0.005 <= drag <= value["high"] + 0.005
+    (found,) = said.found
+    assert (found.mechanism, found.at) == ("coulomb_friction", "ground")
+    value = found.parameters["force"]
+    assert value.low - 0.005 <= drag <= value.high + 0.005
     for parameter in ("k0", "x0"):
-        value = said["parameters"]["after"][parameter]
-        assert value["low"] * 0.99 <= values[parameter] <= value["high"] * 1.01
+        value = said.parameters.after[parameter]
+        assert value.low * 0.99 <= values[parameter] <= value.high * 1.01

@@ -9,6 +9,7 @@ from scipy.stats import binom, chi2
 from several import C, K, M, fitted, least, recorded, rubbed, rubbing
 
 from lostmotion.case import dump_case
+from lostmotion.codec import to_plain
 from lostmotion.inference.sharing import (
     covariance_of,
     holm,
@@ -168,12 +169,12 @@ def test_a_diagnosis_says_whether_friction_holds(tmp_path, odd):
     forces, levels = (1.0, odd, 1.0, 1.0), (4.0, 8.0, 16.0, 11.0)
     runs = [rubbed(f"run {i}", 50 + i, levels[i], friction=forces[i]) for i in range(4)]
     said = run_diagnosis(case_of(tmp_path, runs), tmp_path / "out", Registry.discover(), propose=False, jobs=1)
-    assert json.loads((tmp_path / "out" / "diagnosis.json").read_text())["sharing"] == said["sharing"]
-    first = next(one for one in said["found"] if one["mechanism"] == "coulomb_friction")
-    assert [row["recording"] for row in first["by_recording"]] == said["sharing"]["recordings"]
-    assert [row["parameters"]["force"]["median"] for row in first["by_recording"]] == pytest.approx(forces[:3], rel=0.1)
-    assert first["shared"]["holds"] is (odd == 1.0)
-    assert bool(first.get("doubts")) is (odd != 1.0)
+    assert json.loads((tmp_path / "out" / "diagnosis.json").read_text())["sharing"] == to_plain(said.sharing)
+    first = next(one for one in said.found if one.mechanism == "coulomb_friction")
+    assert tuple(row.recording for row in first.by_recording) == said.sharing.recordings
+    assert [row.parameters["force"].median for row in first.by_recording] == pytest.approx(forces[:3], rel=0.1)
+    assert first.shared.holds is (odd == 1.0)
+    assert bool(first.doubts) is (odd != 1.0)
     page = (tmp_path / "out" / "report.html").read_text()
     assert "What recordings share" in page
     assert ("no, differs in" in page) is (odd != 1.0)

@@ -93,9 +93,9 @@ def test_a_force_over_one_thing_stays_a_curve(tmp_path, seed):
 @pytest.mark.slow
 @pytest.mark.parametrize(("law", "names"), [(twisted, ["position", "velocity"]), (yielding, ["history"])])
 def test_beside_the_whole_library_it_stays_unknown_and_is_predicted(tmp_path, law, names):
-    content = run_diagnosis(hidden_case(tmp_path, law), tmp_path / "out", Registry.discover(), jobs=1, propose=False)
-    (found,) = [entry for entry in content["found"] if entry["mechanism"] != "random_force"]
-    assert found["mechanism"] == "unknown"
-    assert found["depends_on"] == names
-    assert content["fit"]["after"]["heldout_nrmse"] < 0.15 * content["fit"]["before"]["heldout_nrmse"]
-    assert np.shape(found["curve"]["force"]) == ((41, 31) if len(names) == 2 else (161,))
+    told = run_diagnosis(hidden_case(tmp_path, law), tmp_path / "out", Registry.discover(), jobs=1, propose=False)
+    (found,) = [entry for entry in told.found if entry.mechanism != "random_force"]
+    assert found.mechanism == "unknown"
+    assert list(found.depends_on) == names
+    assert told.fit.after.nrmse < 0.15 * told.fit.before.nrmse
+    assert np.shape(found.curve.force) == ((41, 31) if len(names) == 2 else (161,))

@@ -1,6 +1,7 @@
 """`lostmotion init` as a newcomer uses it: a table, a case, and every refusal with what to do."""
 
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -73,7 +74,7 @@ def test_a_recording_is_diagnosed_without_a_case_where_its_columns_are_clear(pla
 
     def run_diagnosis(case, out, registry, **options):
         asked.append((case, out))
-        return {"says": ["Nothing is missing."]}
+        return SimpleNamespace(says=("Nothing is missing.",))
 
     monkeypatch.setattr("lostmotion.workflow.diagnose.run_diagnosis", run_diagnosis)
     result = CliRunner().invoke(main, ["diagnose", "my run.csv", "--model", "duffing", "--quiet"])

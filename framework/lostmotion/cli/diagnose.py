@@ -73,8 +73,8 @@ def _one(ctx: click.Context, case: Path, out: Path, *, quiet: bool, seed: int, j
     from lostmotion.workflow.diagnose import run_diagnosis
 
     with progress("diagnose", quiet=quiet) as say:
-        content = run_diagnosis(case, out, registry_of(ctx), seed=seed, jobs=jobs, say=say, settings=settings)
-    for sentence in content["says"]:
+        found = run_diagnosis(case, out, registry_of(ctx), seed=seed, jobs=jobs, say=say, settings=settings)
+    for sentence in found.says:
         click.echo(sentence)
     click.echo(str(out / "report.html"))
 

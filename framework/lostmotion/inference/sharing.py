@@ -28,6 +28,7 @@ from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import Problem
 from lostmotion.likelihood.space import LEVELS, Free, keys_of
 from lostmotion.results import Interval
+from lostmotion.results.sharing import PowerOfLevel
 from lostmotion.settings import DEFAULT
 from lostmotion.settings import Shared as SharedLimits
 
@@ -66,15 +67,6 @@ class Levels:
 
 
 @dataclass(frozen=True)
-class Power:
-    """Values that go with the level to a power: its `exponent`, the standard error, the p-value of what is left."""
-
-    exponent: float
-    error: float
-    p: float
-
-
-@dataclass(frozen=True)
 class Shared:
     """A parameter in each recording: `values` with 95 % intervals, their best `common` value, and whether that holds.
 
@@ -89,7 +81,7 @@ class Shared:
     chi2: float
     dof: int
     p: float
-    power: Power | None = None
+    power: PowerOfLevel | None = None
     odd: int | None = None
     instead: tuple[str, ...] = ()
     given: bool = False
@@ -107,7 +99,7 @@ class Shared:
 
 
 @dataclass(frozen=True)
-class Sharing:
+class SharedValues:
     """What the `recordings` of a fit share, parameter by parameter.
 
     `released` names those that have values of each recording's own, in that order, while others are tested; `failed`
@@ -136,7 +128,7 @@ class Apart:
     given: bool
 
 
-def sharing_of(fit: Fit) -> Sharing | None:
+def sharing_of(fit: Fit) -> SharedValues | None:
     """Return what the recordings of a fit share; None where there is one recording.
 
     Each recording has noise levels of its own. Learned curves are one for all, and move along; values are also compared
@@ -155,7 +147,7 @@ def sharing_of(fit: Fit) -> Sharing | None:
     return max(courses, key=lambda course: course[1])[0]
 
 
-def _course(shared: Fit) -> tuple[Sharing, float]:
+def _course(shared: Fit) -> tuple[SharedValues, float]:
     """Return what recordings share, and the log evidence of the fit in which what differs is released."""
     base = shared
     observations, tested = base.problem.observations, _tested(base.problem)
@@ -177,7 +169,7 @@ def _course(shared: Fit) -> tuple[Sharing, float]:
     values = {key: found[key] for key in tested if key in found}
     failed = tuple(key for key in tested if key not in found)
     names = tuple(observation.name for observation in observations)
-    return Sharing(names, levels, values, tuple(released), failed, gain=gain), base.log_evidence
+    return SharedValues(names, levels, values, tuple(released), failed, gain=gain), base.log_evidence
 
 
 def curves_of(problem: Problem) -> tuple[str, ...]:
@@ -295,7 +287,7 @@ def holm(p: Sequence[float]) -> list[float]:
     return adjusted
 
 
-def power_of(values: Array, covariance: Array, levels: Array) -> Power | None:
+def power_of(values: Array, covariance: Array, levels: Array) -> PowerOfLevel | None:
     """Return how logarithms of values (n,) go with those of the levels (n,): a straight line, where one describes them.
 
     None for fewer than three values, equal levels, or a line that leaves something over.
@@ -309,7 +301,7 @@ def power_of(values: Array, covariance: Array, levels: Array) -> Power | None:
     left = values - line @ rows
     p = float(chdtrc(len(values) - 2, max(float(left @ np.linalg.solve(covariance, left)), 0.0)))
     exponent, error = float(line[1]), math.sqrt(spread[1, 1])
-    return Power(exponent, error, p) if p > FITS and KNOWN * error < abs(exponent) <= STEEPEST else None
+    return PowerOfLevel(exponent, error, p) if p > FITS and KNOWN * error < abs(exponent) <= STEEPEST else None
 
 
 def odd_one(values: Array, covariance: Array) -> int | None:
@@ -349,7 +341,7 @@ def _tolerance(one: Apart, share: float) -> Array:
     return np.asarray((share * size) ** 2 * np.eye(len(one.at)))
 
 
-def _power(one: Apart, covariance: Array, levels: Levels) -> Power | None:
+def _power(one: Apart, covariance: Array, levels: Levels) -> PowerOfLevel | None:
     """Return how the values of a parameter go with the level; only where each is known to be other than zero."""
     if one.free.log:
         return power_of(one.at, covariance, np.array(levels.values))

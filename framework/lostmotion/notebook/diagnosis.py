@@ -11,13 +11,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from lostmotion.codec import from_plain, to_plain
 from lostmotion.notebook.machine import FittedModel, fitted_of, machine_of
 from lostmotion.registry import Registry, default
 from lostmotion.report import learned, missing, page, portraits, posteriors, prediction, ranking, style
 from lostmotion.report.evidence import Evidence, evidence_with
-from lostmotion.results import FoundMechanism, HeldOut, Interval, Ranked
-from lostmotion.storage import finite, folder_for, load_arrays, load_json, save_datasets, save_json, save_text
-from lostmotion.workflow.diagnose import Told
+from lostmotion.results import Interval
+from lostmotion.results.diagnosis import Candidate, Diagnosis, HeldOutScore, Mechanism
+from lostmotion.storage import folder_for, load_arrays, load_json, save_datasets, save_json, save_text
+from lostmotion.workflow.findings import Outcome
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -80,71 +82,66 @@ class DiagnosisPlots:
 class DiagnosisResult:
     """What `lostmotion.diagnose` returns. It shows itself as the answer in words.
 
-    `content` is that of `diagnosis.json`, `arrays` the dataset behind it; `told` is what both were made of, where it
-    was made in this session.
+    `result` is the diagnosis with all that `diagnosis.json` holds, `arrays` the dataset behind it; `outcome` is what
+    both were made of, where it was made in this session.
     """
 
-    content: Mapping[str, Any]
+    result: Diagnosis
     arrays: xr.Dataset
     registry: Registry = field(repr=False)
-    told: Told | None = field(default=None, repr=False)
+    outcome: Outcome | None = field(default=None, repr=False)
 
     @property
     def verdict(self) -> str:
         """Whether the model is "adequate", or there is a "mismatch"."""
-        return str(self.content["verdict"])
+        return self.result.verdict
 
     @property
     def says(self) -> tuple[str, ...]:
         """The answer, in sentences."""
-        return tuple(str(one) for one in self.content["says"])
+        return self.result.says
 
     @property
     def notes(self) -> tuple[str, ...]:
         """Sentences on the recordings and on what makes the answer less certain."""
-        return tuple(str(one) for one in self.content["notes"])
+        return self.result.notes
 
-    @cached_property
-    def found(self) -> tuple[FoundMechanism, ...]:
-        """What the model leaves out, the most probable first."""
-        return tuple(_found(entry) for entry in self.content["found"])
+    @property
+    def found(self) -> tuple[Mechanism, ...]:
+        """What the model leaves out, what is named first and what is open last."""
+        return self.result.found
 
-    @cached_property
-    def ranking(self) -> tuple[Ranked, ...]:
-        """All candidates, the best first."""
-        return tuple(
-            Ranked(str(e["mechanism"]), str(e.get("at", "")), float(e["log_evidence_gain"]), float(e["probability"]))
-            for e in self.content["ranking"]
-        )
+    @property
+    def ranking(self) -> tuple[Candidate, ...]:
+        """All candidates, the most probable first."""
+        return self.result.ranking
 
     @property
     def parameters_before(self) -> Mapping[str, Interval]:
         """The parameters of the model as it was, by name."""
-        return _intervals(self.content["parameters"]["before"])
+        return self.result.parameters.before
 
     @property
     def parameters_after(self) -> Mapping[str, Interval]:
         """The parameters of the model with what was found, by name."""
-        return _intervals(self.content["parameters"]["after"])
+        return self.result.parameters.after
 
     @property
-    def heldout(self) -> Mapping[str, HeldOut]:
+    def heldout(self) -> Mapping[str, HeldOutScore]:
         """What the models "before" and "after" predict of data that no fit has seen."""
-        fit = self.content["fit"]
-        return {when: _heldout(fit[when], fit) for when in ("before", "after")}
+        return {"before": self.result.fit.before, "after": self.result.fit.after}
 
     @cached_property
     def model(self) -> FittedModel:
         """The model with what was found, fitted: `.simulate(inputs, duration=..., rate=...)` sets it in motion."""
-        if self.told is not None:
-            return fitted_of(self.told.outcome, self.content["machine"])
-        return machine_of(self.content["machine"], self.registry)
+        if self.outcome is not None:
+            return fitted_of(self.outcome, self.result.machine)
+        return machine_of(self.result.machine, self.registry)
 
     @cached_property
     def evidence(self) -> Evidence:
         """Facts and arrays as figures take them."""
-        facts: Any = finite(self.content)
-        return evidence_with(facts, self.arrays)
+        return evidence_with(self.to_dict(), self.arrays)
 
     @property
     def plot(self) -> DiagnosisPlots:
@@ -153,8 +150,8 @@ class DiagnosisResult:
 
     def to_dict(self) -> dict[str, Any]:
         """Return the content of `diagnosis.json`."""
-        made: Any = finite(self.content)
-        return dict(made)
+        made: dict[str, Any] = to_plain(self.result)
+        return made
 
     def to_xarray(self) -> xr.Dataset:
         """Return the arrays behind the diagnosis, with units and coordinates."""
@@ -185,12 +182,12 @@ class DiagnosisResult:
         """Return the folder into which `diagnosis.json`, `arrays.nc` and `report.html` were written, for `load`."""
         place = folder_for(Path(folder))
         save_datasets(place / "arrays.nc", {None: self.arrays})
-        save_json(place / "diagnosis.json", self.content)
+        save_json(place / "diagnosis.json", self.to_dict())
         self.report(place / "report.html")
         return place
 
     def __repr__(self) -> str:
-        lines = [f"{self.content['title']}: {self.verdict}", *self.says]
+        lines = [f"{self.result.title}: {self.verdict}", *self.says]
         lines += [f"  {name} = {told}" for name, told in self.parameters_after.items()]
         return "\n".join(lines)
 
@@ -199,45 +196,12 @@ class DiagnosisResult:
         with style.applied():
             drawn = prediction.draw(self.evidence)
             figure = style.embedded(drawn, "prediction") if drawn else ""
-        title = html.escape(str(self.content["title"]))
+        title = html.escape(self.result.title)
         return f"<h4>{title}: {html.escape(self.verdict)}</h4><ul>{said}</ul>{figure}"
 
 
 def load_diagnosis(folder: Path, registry: Registry | None = None) -> DiagnosisResult:
     """Return the diagnosis that was saved into a folder; `DataError` where it is absent or damaged."""
-    content = load_json(folder / "diagnosis.json", AGAIN)
-    return DiagnosisResult(content, load_arrays(folder / "arrays.nc", AGAIN), registry or default())
-
-
-def _intervals(told: Mapping[str, Mapping[str, Any]]) -> dict[str, Interval]:
-    return {name: Interval.of(one) for name, one in told.items()}
-
-
-def _heldout(told: Mapping[str, Any], fit: Mapping[str, Any]) -> HeldOut:
-    by_sensor = {str(name): _number(value) for name, value in (told.get("heldout_nrmse_by_sensor") or {}).items()}
-    return HeldOut(
-        _number(told["heldout_nrmse"]),
-        _number(told["heldout_log_score"]),
-        _number(told["horizon"]),
-        str(fit.get("horizon_unit", "")),
-        by_sensor,
-    )
-
-
-def _number(value: Any) -> float:
-    return float("nan") if value is None else float(value)
-
-
-def _found(entry: Mapping[str, Any]) -> FoundMechanism:
-    return FoundMechanism(
-        mechanism=str(entry["mechanism"]),
-        at=str(entry.get("at", "")),
-        probability=_number(entry["probability"]),
-        state=str(entry.get("state", "")),
-        parameters=_intervals(entry.get("parameters") or {}),
-        says=str(entry["says"]),
-        doubts=tuple(str(one) for one in entry.get("doubts") or ()),
-        share_of_drive=_number(entry.get("share_of_drive")),
-        depends_on=tuple(str(one) for one in entry.get("depends_on") or ()),
-        since=Interval.of(entry["since"]) if entry.get("since") else None,
-    )
+    file = folder / "diagnosis.json"
+    result = from_plain(Diagnosis, load_json(file, AGAIN), str(file))
+    return DiagnosisResult(result, load_arrays(folder / "arrays.nc", AGAIN), registry or default())

@@ -69,7 +69,7 @@ def diagnose(
         told = told_of(
             asked.prepared(known_to, terms), known_to, seed=seed, jobs=jobs, say=say, settings=read(settings)
         )
-    found = DiagnosisResult(told.content, told.arrays, known_to, told)
+    found = DiagnosisResult(told.result, told.arrays, known_to, told.outcome)
     if out is not None:
         found.save(out)
     return found

@@ -17,6 +17,7 @@ from lostmotion.quantities import unit_of
 from lostmotion.recording import Recording
 from lostmotion.recording.made import made as recorded
 from lostmotion.registry import Registry
+from lostmotion.results.background import FittedMachine
 from lostmotion.workflow.findings import Outcome
 from lostmotion.workflow.simulate import Moved, set_in_motion
 from lostmotion.written import model_of
@@ -83,27 +84,25 @@ class FittedModel:
         return f"<FittedModel {self.assembly.label}: {told}>"
 
 
-def fitted_of(outcome: Outcome, told: Mapping[str, Any]) -> FittedModel:
+def fitted_of(outcome: Outcome, machine: FittedMachine) -> FittedModel:
     """Return the model of a diagnosis that was made in this session, with learned forces if there are any."""
     problem = outcome.diagnosis.after.problem
     system = problem.system
     terms = tuple(t for key, t in zip(system.keys, system.terms, strict=True) if key in problem.active)
-    return FittedModel(system.model, terms, dict(told["values"]), outcome.diagnosis.shown.sensors)
+    return FittedModel(system.model, terms, machine.values, outcome.diagnosis.shown.sensors)
 
 
-def machine_of(told: Mapping[str, Any], registry: Registry) -> FittedModel:
-    """Return the model that a result tells of in its entry `machine`."""
-    if told["equations"]:
-        cls: Any = model_of(told["equations"], units=told["units"], params=[*told["values"]])
+def machine_of(machine: FittedMachine, registry: Registry) -> FittedModel:
+    """Return the model that a result holds as its `machine`; learned forces are not among its terms."""
+    if machine.equations:
+        cls: Any = model_of(machine.equations, units=machine.units, params=[*machine.values])
         made: Model = cls()
     else:
-        made = registry.make("model", told["model"])
-    learned = {*told["learned"]}
-    terms = tuple(
-        registry.make("term", one["name"], at=one["at"]) for one in told["terms"] if one["key"] not in learned
-    )
-    sensors = tuple(Sensor(sensor["channel"], sensor["name"]) for sensor in told["sensors"])
-    return FittedModel(made.turned(told["motion"]), terms, dict(told["values"]), sensors, tuple(learned))
+        made = registry.make("model", machine.model)
+    kept = (term for term in machine.terms if term.key not in machine.learned)
+    terms = tuple(registry.make("term", term.name, at=term.at) for term in kept)
+    sensors = tuple(Sensor(sensor.channel, sensor.name) for sensor in machine.sensors)
+    return FittedModel(made.turned(machine.motion), terms, machine.values, sensors, machine.learned)
 
 
 def _signals(inputs: Mapping[str, Signal] | Recording, rate: float | None) -> tuple[dict[str, Signal], float]:

@@ -52,52 +52,6 @@ class Interval:
         return f"{self.median:.4g}{unit} [{self.low:.4g}, {self.high:.4g}]"
 
 
-@dataclass(frozen=True)
-class HeldOut:
-    """What a model predicts of data that no fit has seen: free runs over `horizon` (in `horizon_unit`).
-
-    `nrmse` is their error over the standard deviation of the response, the mean over sensors; `log_score` that of
-    one-step predictions, for each sample.
-    """
-
-    nrmse: float
-    log_score: float
-    horizon: float
-    horizon_unit: str = ""
-    nrmse_by_sensor: Mapping[str, float] = field(default_factory=dict)
-
-
-@dataclass(frozen=True)
-class FoundMechanism:
-    """A piece of physics that a model leaves out, and where it acts (`at`).
-
-    `state` is "named", "likely" or "open", with the `doubts` behind it. Bounds of `parameters` are NaN where intervals
-    are withheld. An unknown force says what it `depends_on`; `since` is its onset where it was not there from the
-    beginning.
-    """
-
-    mechanism: str
-    at: str
-    probability: float
-    state: str
-    parameters: Mapping[str, Interval]
-    says: str
-    doubts: tuple[str, ...] = ()
-    share_of_drive: float = float("nan")
-    depends_on: tuple[str, ...] = ()
-    since: Interval | None = None
-
-
-@dataclass(frozen=True)
-class Ranked:
-    """A candidate of the ranking: the log evidence that it adds alone, and its posterior probability."""
-
-    mechanism: str
-    at: str
-    log_evidence_gain: float
-    probability: float
-
-
 STATUSES: Mapping[str, str] = {
     "ok": "the number and its interval may be used",
     "uncertain": "a number is given, but a condition for its interval does not hold",

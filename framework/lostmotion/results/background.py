@@ -15,7 +15,7 @@ class RecordingFacts:
     name: str = told("its name")
     samples: int = told("number of its samples")
     rate: float = told("samples in a second", unit="Hz")
-    start: float | None = told("the time of its first sample; null where it is not known", unit="s")
+    start: str | None = told("date and time of day of its first sample (ISO 8601); null where it is not known")
     inputs: tuple[str, ...] = told("its recorded inputs")
 
 
@@ -29,7 +29,7 @@ class TermFacts:
 
 
 @dataclass(frozen=True)
-class Channel:
+class SensorChannel:
     """A sensor of the fitted machine."""
 
     name: str = told("its name")
@@ -37,7 +37,7 @@ class Channel:
 
 
 @dataclass(frozen=True)
-class Machine:
+class FittedMachine:
     """The fitted model with what was found, as it is set in motion again."""
 
     model: str = told("name of the model; `equations` for one that is written as equations")
@@ -46,7 +46,7 @@ class Machine:
     motion: str = told("translation or rotation")
     terms: tuple[TermFacts, ...] = told("the terms that are added to it")
     learned: tuple[str, ...] = told("the keys of learned curves")
-    sensors: tuple[Channel, ...] = told("its sensors")
+    sensors: tuple[SensorChannel, ...] = told("its sensors")
     values: Mapping[str, float] = told("all its parameters, in SI units")
 
 

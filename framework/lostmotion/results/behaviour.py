@@ -8,7 +8,7 @@ from lostmotion.codec import told
 
 
 @dataclass(frozen=True)
-class Followed:
+class ValidTime:
     """How long a free run stays near the recording."""
 
     value: float = told("that time, in the unit of the horizon")
@@ -58,7 +58,7 @@ class ModelBehaviour:
 
     heldout_log_score: float = told("mean log density of one-step predictions of held-out samples")
     free_run_error: float = told("error of free runs over the horizon, over the deviation of the response")
-    valid_prediction_time: Followed = told("how long a free run errs by less than 40 % of the motion")
+    valid_prediction_time: ValidTime = told("how long a free run errs by less than 40 % of the motion")
     attractor_distance: Distance = told("distance between the attractors of recording and free run")
     largest_exponent: ExponentInterval = told("largest Lyapunov exponent")
     d2: DimensionInterval = told("correlation dimension of a free run")
@@ -89,23 +89,23 @@ class MeasureTexts:
 
 
 @dataclass(frozen=True)
-class Horizon:
+class HorizonLength:
     """The time over which free runs are compared."""
 
     value: float = told("its length, in `unit`")
     unit: str = told("Lyapunov times, drive periods or natural periods")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Behaviour:
     """Measures of the motion: before, after, and of noise alone."""
 
     before: ModelBehaviour = told("of the nominal model")
+    after: ModelBehaviour | None = told("of the model with what was found", default=None)
     noise_floor: NoiseFloor = told("of noise alone")
     units: MeasureTexts = told("units of the measures")
-    horizon: Horizon = told("the time over which free runs are compared")
+    horizon: HorizonLength = told("the time over which free runs are compared")
     says: MeasureTexts = told("a sentence on each measure")
-    after: ModelBehaviour | None = told("of the model with what was found", default=None)
 
 
 @dataclass(frozen=True)

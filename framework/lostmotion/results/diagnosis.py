@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 from lostmotion.codec import Cells, told
 from lostmotion.results import Interval
-from lostmotion.results.background import Machine, Origin, RecordingFacts
+from lostmotion.results.background import FittedMachine, Origin, RecordingFacts
 from lostmotion.results.behaviour import Behaviour, Decays
-from lostmotion.results.mismatch import Missing, Place
-from lostmotion.results.sharing import Comparison, Own, Sharing
+from lostmotion.results.mismatch import ForceDependence, UnexplainedForce
+from lostmotion.results.sharing import Comparison, OwnParameters, Sharing
 
 SCHEMA = "lostmotion.diagnosis/1"
 
@@ -37,46 +37,51 @@ class LearnedCurve:
     )
 
 
-@dataclass(frozen=True)
-class Formula:
+@dataclass(frozen=True, kw_only=True)
+class ProposedFormula:
     """A formula that a sparse regression proposes for a learned curve: a proposal, not a finding."""
 
     formula: str | None = told("the formula; null where none is close")
-    says: str = told("what the proposal is worth, in a sentence")
     share_of_curve: float | None = told("the share of the curve that the formula explains", default=None)
+    says: str = told("what the proposal is worth, in a sentence")
 
 
 @dataclass(frozen=True)
-class Likeness:
+class LookAlike:
     """A term of the library that a learned force looks like."""
 
     mechanism: str = told("name of the term")
     at: str = told("place at which it would act")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Mechanism:
-    """What the model leaves out: a term of the library, a mark of a sensor, or a force without a name."""
+    """What the model leaves out: a term of the library, a mark of a sensor, or a force without a name.
+
+    Bounds of `parameters` are NaN where their intervals are withheld.
+    """
 
     mechanism: str = told("name of the mechanism; `unknown` or `random_force` where it has none")
+    at: str = told(
+        "the place of the model, drive or sensor at which it acts; empty for a force without a name",
+        default="",
+        spare=True,
+    )
     probability: float = told("posterior probability among the library, nothing missing and unknown")
     state: str = told("named, likely or open")
-    parameters: Mapping[str, Interval] = told("its parameters by name")
-    says: str = told("the finding, in a sentence")
-    at: str = told(
-        "the place of the model, drive or sensor at which it acts; empty for a force without a name", default=""
-    )
     doubts: tuple[str, ...] = told("why it is no more than likely, in sentences", default=())
+    log_odds: float | None = told("log odds of the learned curves over the best of the library", default=None)
+    depends_on: tuple[str, ...] | None = told("what a force without a name depends on", default=None)
+    parameters: Mapping[str, Interval] = told("its parameters by name")
+    curve: LearnedCurve | None = told("the first of `curves`", default=None)
+    curves: tuple[LearnedCurve, ...] = told("the learned curves", default=(), spare=True)
+    proposal: ProposedFormula | None = told("a formula for the learned curves", default=None)
+    looks_like: tuple[LookAlike, ...] = told("terms of the library that it looks like", default=(), spare=True)
+    share_of_likeness: float | None = told("the share of its variance that these explain", default=None)
     share_of_drive: float | None = told("largest force, as a share of the drive", default=None)
     since: Interval | None = told("its onset, where it was not there from the beginning", default=None)
-    depends_on: tuple[str, ...] | None = told("what a force without a name depends on", default=None)
-    log_odds: float | None = told("log odds of the learned curves over the best of the library", default=None)
-    curves: tuple[LearnedCurve, ...] | None = told("the learned curves", default=None)
-    curve: LearnedCurve | None = told("the first of `curves`", default=None)
-    proposal: Formula | None = told("a formula for the learned curves", default=None)
-    looks_like: tuple[Likeness, ...] | None = told("terms of the library that it looks like", default=None)
-    share_of_likeness: float | None = told("the share of its variance that these explain", default=None)
-    by_recording: tuple[Own, ...] | None = told("its parameters in each recording by itself", default=None)
+    says: str = told("the finding, in a sentence")
+    by_recording: tuple[OwnParameters, ...] = told("its parameters in each recording by itself", default=(), spare=True)
     shared: Comparison | None = told("whether one value holds in all recordings", default=None)
 
 
@@ -90,7 +95,7 @@ class OpenTerm:
     says: str = told("why it stays open, in a sentence")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Candidate:
     """A row of the ranking: a term, `nothing_missing` or `unknown`."""
 
@@ -98,14 +103,14 @@ class Candidate:
     at: str = told("place at which it acts")
     log_evidence_gain: float = told("log evidence that it adds alone to the nominal model")
     probability: float = told("posterior probability; of a term that was found, that of `found`")
-    fitted: bool = told("whether it was fitted; else the gain is the bound of a score test")
     price: float | None = told(
         "what its parameters and its place among the library cost, in log evidence", default=None
     )
+    fitted: bool = told("whether it was fitted; else the gain is the bound of a score test")
 
 
 @dataclass(frozen=True)
-class Excitation:
+class DecidingExcitation:
     """The experiment that would tell two explanations apart."""
 
     waveform: str = told("harmonic, two tones, sweep or multisine")
@@ -119,15 +124,15 @@ class Excitation:
     if_this_is_true: float = told("the same if this mechanism is true")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Confusion:
     """A mechanism that the recording cannot tell from what was found."""
 
     mechanism: str = told("name of the mechanism")
-    says: str = told("why it cannot be told apart, and what would decide, in sentences")
     at: str | None = told("place at which it would act", default=None)
     probability: float | None = told("its posterior probability", default=None)
-    excitation: Excitation | None = told("the experiment that would decide", default=None)
+    excitation: DecidingExcitation | None = told("the experiment that would decide", default=None)
+    says: str = told("why it cannot be told apart, and what would decide, in sentences")
 
 
 @dataclass(frozen=True)
@@ -142,9 +147,12 @@ class ParameterSets:
 class HeldOutScore:
     """What a model predicts of data that no fit has seen."""
 
-    heldout_log_score: float = told("mean log density of one-step predictions, for each sample")
-    heldout_nrmse: float = told("error of free runs over `horizon`, over the standard deviation of the response")
-    heldout_nrmse_by_sensor: Mapping[str, float] = told("the same for each sensor, by name")
+    log_score: float = told("mean log density of one-step predictions, for each sample", key="heldout_log_score")
+    nrmse: float = told(
+        "error of free runs over `horizon`, over the standard deviation of the response, the mean over sensors",
+        key="heldout_nrmse",
+    )
+    nrmse_by_sensor: Mapping[str, float] = told("the same for each sensor, by name", key="heldout_nrmse_by_sensor")
     horizon: float = told("length of the free runs, in `horizon_unit`")
 
 
@@ -262,12 +270,12 @@ class BothWhite:
 
 @dataclass(frozen=True)
 class SampledEvidence:
-    """The log evidence of a model by two methods."""
+    """The log evidence of a model by Laplace's method and by importance sampling."""
 
     laplace: float = told("by Laplace's method")
     sampled: float = told("by importance sampling; null where it cannot be told")
     error: float = told("standard error of `sampled`")
-    effective: float = told("effective number of draws")
+    effective: float = told("effective number of draws; below a few tens `sampled` is not to be trusted")
 
 
 @dataclass(frozen=True)
@@ -283,18 +291,18 @@ class EvidenceCheck:
 class Diagnosis:
     """What a diagnosis returns: everything in `diagnosis.json`."""
 
-    schema: str = told("name and number of this format", default=SCHEMA)
     title: str = told("title of the case")
+    schema: str = told("name and number of this format", default=SCHEMA)
     verdict: str = told("adequate or mismatch")
     says: tuple[str, ...] = told("the answer, in sentences")
     found: tuple[Mechanism, ...] = told("what the model leaves out, named ones first")
     open: tuple[OpenTerm, ...] = told("terms that stay open")
     ranking: tuple[Candidate, ...] = told("every candidate, the most probable first")
     confused_with: tuple[Confusion, ...] = told("what this recording cannot tell from what was found")
-    unexplained: Missing = told("the random force that is left")
-    unexplained_before: Missing = told("the random force that the nominal model leaves")
-    where: Place = told("what the missing force depends on, before")
-    where_after: Place = told("what the rest depends on, after")
+    unexplained: UnexplainedForce = told("the random force that is left")
+    unexplained_before: UnexplainedForce = told("the random force that the nominal model leaves")
+    where: ForceDependence = told("what the missing force depends on, before")
+    where_after: ForceDependence = told("what the rest depends on, after")
     parameters: ParameterSets = told("the parameters of the model, before and after")
     fit: HeldOutScores = told("predictions of held-out data, before and after")
     model: Labels = told("the models in words")
@@ -305,12 +313,12 @@ class Diagnosis:
     lyapunov: Exponents = told("largest Lyapunov exponents")
     valid_prediction_time: ValidTimes = told("how long predictions hold")
     whiteness: BothWhite = told("whether one-step errors are white")
+    sharing: Sharing | None = told("what several recordings share", default=None)
     show: Behaviour = told("measures of the motion, before, after and of noise alone")
+    decay: Decays | None = told("free decays, where the recording has any", default=None)
     evidence: EvidenceCheck = told("the log evidence by another method")
-    machine: Machine = told("what it takes to set the fitted model in motion again")
-    truth: Mapping[str, object] = told("what the case says is true, for tests on made data")
+    machine: FittedMachine = told("what it takes to set the fitted model in motion again")
+    truth: Mapping[str, float] = told("what the case says is true, for tests on made data")
     recordings: tuple[RecordingFacts, ...] = told("the recordings of the case")
     notes: tuple[str, ...] = told("what makes the answer less certain, in sentences")
     provenance: Origin = told("where the result comes from")
-    decay: Decays | None = told("free decays, where the recording has any", default=None)
-    sharing: Sharing | None = told("what several recordings share", default=None)

@@ -9,7 +9,7 @@ from lostmotion.codec import told
 
 
 @dataclass(frozen=True)
-class Missing:
+class UnexplainedForce:
     """A force that is missing, as a random one."""
 
     significant: bool = told("whether it is beyond the usual noise of the drive")
@@ -39,7 +39,7 @@ class Peaks:
 
 
 @dataclass(frozen=True)
-class OverTime:
+class DisagreementOverTime:
     """How much the models disagree with a recording in each stretch of it."""
 
     edges: tuple[float, ...] = told("limits of the stretches", unit="s")
@@ -69,7 +69,7 @@ class RecordingMismatch:
 
 
 @dataclass(frozen=True)
-class Trend:
+class LevelTrend:
     """Whether the disagreement goes with the level of the drive."""
 
     correlation: float = told("rank correlation of disagreement and level")
@@ -80,8 +80,8 @@ class Trend:
 class BothTrends:
     """Trends before and after; null where there are too few recordings."""
 
-    after: Trend | None = told("with what was found")
-    before: Trend | None = told("of the nominal model")
+    after: LevelTrend | None = told("with what was found")
+    before: LevelTrend | None = told("of the nominal model")
 
 
 @dataclass(frozen=True)
@@ -96,7 +96,7 @@ class ByRecording:
 
 
 @dataclass(frozen=True)
-class Place:
+class ForceDependence:
     """What a missing force depends on, by covariate such as position, velocity, phase or time."""
 
     summary: str = told("what it depends on, in words")
@@ -109,5 +109,5 @@ class Place:
     significant: tuple[str, ...] = told("covariates beyond chance, the likeliest first")
     against: str = told("what the p-values are against, in words")
     bodies: int | None = told("number of bodies that a missing force acts on", default=None)
-    over_time: OverTime | None = told("when the models disagree most", default=None)
+    over_time: DisagreementOverTime | None = told("when the models disagree most", default=None)
     by_recording: ByRecording | None = told("with which recording the models disagree most", default=None)

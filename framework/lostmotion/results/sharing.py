@@ -10,7 +10,7 @@ from lostmotion.results import Interval
 
 
 @dataclass(frozen=True)
-class Own:
+class OwnParameters:
     """The parameters of a term in one recording by itself."""
 
     recording: str = told("name of the recording")
@@ -31,7 +31,7 @@ class OwnValue:
 
 
 @dataclass(frozen=True)
-class Power:
+class PowerOfLevel:
     """A parameter that goes with a power of the level."""
 
     exponent: float = told("the exponent")
@@ -55,7 +55,7 @@ class FullComparison:
     holds: bool = told("whether it does")
     p: float = told("p-value of one value for all")
     says: str = told("how values differ, in a sentence")
-    power_of_level: Power | None = told("the power of the level with which it goes; null where it does not")
+    power_of_level: PowerOfLevel | None = told("the power of the level with which it goes; null where it does not")
     differs_in: str | None = told("the one recording in which it differs; null where there is none")
 
 
@@ -67,13 +67,13 @@ class SharedParameter:
     shared: FullComparison = told("whether one value holds")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Sharing:
     """What recordings share."""
 
-    parameters: Mapping[str, SharedParameter] = told("each parameter that was compared, by key")
-    says: tuple[str, ...] = told("what holds and what differs, in sentences")
     recordings: tuple[str, ...] | None = told("names of the recordings that were fitted", default=None)
     levels: tuple[float, ...] | None = told("levels of their drives", default=None)
     level_of: str | None = told("what the levels are of: drive or response", default=None)
     level_unit: str | None = told("unit of the levels", default=None)
+    parameters: Mapping[str, SharedParameter] = told("each parameter that was compared, by key")
+    says: tuple[str, ...] = told("what holds and what differs, in sentences")

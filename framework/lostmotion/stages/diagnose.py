@@ -77,7 +77,7 @@ class Located:
 
 
 @dataclass(frozen=True)
-class Diagnosis:
+class Diagnosed:
     """What was found: the fits before and after, the selection, the missing force before and what is left after.
 
     `marks` holds the terms that the stored values themselves betray, with their parameters and the errors of these.
@@ -151,7 +151,7 @@ def diagnose(
     jobs: int = 2,
     say: Callable[[str], None] = lambda _: None,
     settings: Settings = DEFAULT,
-) -> Diagnosis:
+) -> Diagnosed:
     """Return the diagnosis of a case; `system` holds the model and every term that is to be tried."""
     train, held = split(observations, settings.heldout.share)
     _check_moving(held)
@@ -177,7 +177,7 @@ def diagnose(
         shown = replace(observations[0], begun=after.problem.observations[0].begun)
     chance = rng.spawn(1)[0]
     marks = marks_of(after)
-    bare = Diagnosis(before, after, selection, shown, _NOWHERE, None, _NO, {}, {}, gain, train, held, marks)
+    bare = Diagnosed(before, after, selection, shown, _NOWHERE, None, _NO, {}, {}, gain, train, held, marks)
     known = _located(bare, chance)
     structured = bool((known.left or known.located).structure)
     suspicious = known.unexplained or structured or len(known.found) >= MANY or selection.beaten() > settings.rival.much
@@ -191,7 +191,7 @@ def diagnose(
     return _located(replace(bare, after=after, random_gain=gain, learned=replace(learned, fit=after)), chance)
 
 
-def simpler(d: Diagnosis, rng: np.random.Generator) -> Diagnosis | None:
+def simpler(d: Diagnosed, rng: np.random.Generator) -> Diagnosed | None:
     """Return the diagnosis without one of its learned curves, else without its least probable term; None without any.
 
     A curve over time goes first: nobody knows how it goes on. All that was fitted is fitted anew, and the missing force
@@ -210,13 +210,13 @@ def simpler(d: Diagnosis, rng: np.random.Generator) -> Diagnosis | None:
     return _anew(replace(d, selection=selection, learned=learned), (gone,), rng)
 
 
-def instead(d: Diagnosis, fit: Fit, rng: np.random.Generator) -> Diagnosis:
+def instead(d: Diagnosed, fit: Fit, rng: np.random.Generator) -> Diagnosed:
     """Return the diagnosis with another set of terms that was visited, given by its fit, in place of the chosen one."""
     gone = tuple(key for key in d.named if key not in fit.problem.active)
     return _anew(replace(d, selection=replace(d.selection, chosen=fit), learned=None), gone, rng)
 
 
-def _anew(d: Diagnosis, gone: tuple[str, ...], rng: np.random.Generator) -> Diagnosis:
+def _anew(d: Diagnosed, gone: tuple[str, ...], rng: np.random.Generator) -> Diagnosed:
     """Return a diagnosis of which the selection or the learned curves changed, fitted and located anew."""
     fit = d.learned.fit if d.learned else d.selection.chosen
     after = polish(fit) if fit.problem.active else d.before
@@ -272,7 +272,7 @@ _NO = np.zeros(0)
 _NOWHERE = Located(Missing(_NO, _NO, np.zeros((0, 2)), 0.0, 0.0, 0.0), {}, {}, "")
 
 
-def _located(bare: Diagnosis, rng: np.random.Generator) -> Diagnosis:
+def _located(bare: Diagnosed, rng: np.random.Generator) -> Diagnosed:
     """Return the diagnosis with the missing force located: found terms taken out first, then with them."""
     after, shown = bare.after, bare.shown
     honest = stepped(after.problem, after.theta).on((shown,))

@@ -9,7 +9,7 @@ import numpy as np
 from lostmotion.contracts import Array
 from lostmotion.inference.fit import Fit
 from lostmotion.quantities import unit_of
-from lostmotion.stages.diagnose import Diagnosis, Located, base_keys
+from lostmotion.stages.diagnose import Diagnosed, Located, base_keys
 from lostmotion.storage import Column
 from lostmotion.workflow.attractors import section
 from lostmotion.workflow.findings import Outcome
@@ -53,7 +53,7 @@ def _units_of(fit: Fit) -> list[str]:
     return [units[key] for key in base_keys(fit)]
 
 
-def units_of(d: Diagnosis) -> dict[str, str]:
+def units_of(d: Diagnosed) -> dict[str, str]:
     """Return the SI units of position, velocity, acceleration and force in the model of a diagnosis."""
     if d.after.problem.system.model.motion == "rotation":
         return {"position": "rad", "velocity": "rad/s", "acceleration": "rad/s^2", "force": "N m"}
@@ -106,7 +106,7 @@ def _further(outcome: Outcome) -> dict[str, Column]:
     return table
 
 
-def _curves(d: Diagnosis) -> dict[str, Column]:
+def _curves(d: Diagnosed) -> dict[str, Column]:
     units = {**units_of(d), "phase": "cycles", "time": "s"}
     units |= {name: units[name.split()[0]] for name in d.located.curves}
     names = list(d.located.curves)
@@ -159,7 +159,7 @@ def _draws(outcome: Outcome) -> dict[str, Column]:
     }
 
 
-def _portraits(d: Diagnosis, motions: Mapping[str, Array]) -> dict[str, Column]:
+def _portraits(d: Diagnosed, motions: Mapping[str, Array]) -> dict[str, Column]:
     """Return phase portraits and stroboscopic sections of the recording and of free runs of both models."""
     units, period = units_of(d), d.shown.period
     table = {}

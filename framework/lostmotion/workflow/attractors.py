@@ -14,7 +14,7 @@ from lostmotion.inference.fit import Fit
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.predict import filtered, free_run
 from lostmotion.signals.distances import distances, energy_distance, same_chance
-from lostmotion.stages.diagnose import Diagnosis
+from lostmotion.stages.diagnose import Diagnosed
 
 LOOKS = 4
 """Phases of the drive at which sections are taken."""
@@ -34,7 +34,7 @@ class Apart:
     status: str = "ok"
 
 
-def motions_of(d: Diagnosis) -> dict[str, Array]:
+def motions_of(d: Diagnosed) -> dict[str, Array]:
     """Return the states (samples, n) of the recording, smoothed, and of a free run of each model, by name."""
     runs = {"recorded": (d.left or d.located).missing.states, "before": _free(d.before, d.shown)}
     if d.found:

@@ -23,7 +23,7 @@ from lostmotion.likelihood.predict import filtered
 from lostmotion.likelihood.problem import RANDOM
 from lostmotion.quantities import TIME
 from lostmotion.stages.compare import Piece, confirmed, pieces_of, run_errors
-from lostmotion.stages.diagnose import Diagnosis
+from lostmotion.stages.diagnose import Diagnosed
 from lostmotion.workflow.findings import Outcome
 
 ASKED = 3
@@ -139,7 +139,7 @@ def _righted(right: Righted, pieces: Sequence[Piece]) -> float:
     return _scored(right.fit, [replace(p, observation=right.put_right(p.observation)) for p in pieces]) + wider
 
 
-def _others(d: Diagnosis, here: Visit) -> list[Visit]:
+def _others(d: Diagnosed, here: Visit) -> list[Visit]:
     """Return the sets of most weight of each size up to that of a chosen one, but for this one and the empty set.
 
     One that wins a small share of what the chosen one wins on the fitted data does not explain these, nor does one
@@ -162,14 +162,14 @@ def _level(fit: Fit) -> float:
     return float(fit.theta[keys.index(RANDOM)]) if RANDOM in keys else -math.inf
 
 
-def _right(d: Diagnosis, here: Visit) -> bool:
+def _right(d: Diagnosed, here: Visit) -> bool:
     """Return whether nothing else is wrong with the model beside what was found, each sample counting as one."""
     if not here.terms:
         return True
     return not d.unexplained and not d.selection.expansion(here).promise(1.0).gain > d.settings.rival.much
 
 
-def usual(d: Diagnosis, key: str) -> str:
+def usual(d: Diagnosed, key: str) -> str:
     """Return a sentence on a delay that is no longer than acquisition systems have as a rule; empty where it is."""
     term, slots = term_of(d.after.problem, key)
     late = [s for s in slots if s.param.dimension == TIME and s.key in d.after.values]

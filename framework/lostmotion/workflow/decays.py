@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,14 +18,14 @@ from lostmotion.quantities import quantity_of, unit_of
 from lostmotion.recording.doubts import is_impulsive
 from lostmotion.report.words import readable, spoken
 from lostmotion.results import percent
+from lostmotion.results.behaviour import DecayCycles, Decays
 from lostmotion.signals.decay import Decay, decay_of
 from lostmotion.signals.impacts import hits_of, onsets_of
 from lostmotion.signals.trends import says
-from lostmotion.stages.diagnose import Diagnosis
+from lostmotion.stages.diagnose import Diagnosed
 
 MOST_STRETCHES, MOST_CYCLES = 10, 240
 """So many hits are looked at, and so many cycles of all of them together: a tenth of a second or two."""
-KEPT = ("time", "amplitude", "frequency", "decrement", "damping_ratio")
 DIGITS = 5
 BOUND = 1e3
 """A free run beyond so many times the largest reading runs away."""
@@ -50,26 +50,28 @@ class Stretch(NamedTuple):
     stop: int
 
 
-def decay_in(d: Diagnosis) -> dict[str, Any]:
-    """Return what the recording shown says of free decays, and the models beside it; nothing where it holds none.
+def decay_in(d: Diagnosed) -> Decays | None:
+    """Return what the recording shown says of free decays, and the models beside it; None where it holds none.
 
-    `measured`, `before` and `after` have an entry for each decay, with lists (cycles,): `time` (s from the start of the
-    recording), `amplitude` (SI unit of the first sensor, `unit`), `frequency` (Hz), `decrement` and `damping_ratio`. Of
-    a recording that nothing drives, but in which no decay can be measured, there is a sentence alone.
+    Of a recording that nothing drives, but in which no decay can be measured, there is a sentence alone.
     """
     stretches = stretches_of(d.shown)
     most = MOST_CYCLES // max(len(stretches), 1)
     seen = [(s, decay_of(d.shown.response[s.start : s.stop], d.shown.dt, most=most)) for s in stretches]
     measured = [(stretch, decay) for stretch, decay in seen if decay is not None]
     if not measured:
-        return {"says": NONE_MEASURED} if d.shown.free else {}
+        return Decays(NONE_MEASURED) if d.shown.free else None
     models = {"before": _of_model(d.before, d.shown, measured)}
     if d.found:
         models["after"] = _of_model(d.after, d.shown, measured)
     unit = unit_of(d.shown.channel, d.after.problem.system.model.motion)
-    rows = {name: [_listed(*pair, d.shown) for pair in pairs if pair[1]] for name, pairs in models.items()}
+    rows = {
+        name: tuple(_listed(stretch, made, d.shown) for stretch, made in pairs if made)
+        for name, pairs in models.items()
+    }
     told = _told(d, measured, {name: [decay for _, decay in pairs] for name, pairs in models.items()}, unit)
-    return {"says": told, "unit": unit, "measured": [_listed(*pair, d.shown) for pair in measured], **rows}
+    recorded = tuple(_listed(stretch, decay, d.shown) for stretch, decay in measured)
+    return Decays(told, unit, recorded, rows["before"], rows.get("after"))
 
 
 def stretches_of(observation: Observation) -> tuple[Stretch, ...]:
@@ -134,14 +136,22 @@ def _alike(shown: Array, dt: float, seen: Decay, most: int) -> Decay | None:
     return near or decay_of(shown, dt, noise=seen.noise, most=most)
 
 
-def _listed(stretch: Stretch, decay: Decay | None, observation: Observation) -> dict[str, list[float]]:
-    """Return a decay as plain lists, with the time from the start of the recording."""
-    rows = {name: np.asarray(getattr(decay, name)) for name in KEPT}
-    rows["time"] = rows["time"] + (observation.begin + stretch.start) * observation.dt
-    return {name: [float(f"{value:.{DIGITS}g}") for value in values] for name, values in rows.items()}
+def _listed(stretch: Stretch, decay: Decay, observation: Observation) -> DecayCycles:
+    """Return the cycles of a decay, with the time from the start of the recording."""
+    return DecayCycles(
+        time=_figures(decay.time + (observation.begin + stretch.start) * observation.dt),
+        amplitude=_figures(decay.amplitude),
+        frequency=_figures(decay.frequency),
+        decrement=_figures(decay.decrement),
+        damping_ratio=_figures(decay.damping_ratio),
+    )
 
 
-def _told(d: Diagnosis, measured: Measured, models: dict[str, list[Decay | None]], unit: str) -> str:
+def _figures(values: Array) -> tuple[float, ...]:
+    return tuple(float(f"{value:.{DIGITS}g}") for value in values)
+
+
+def _told(d: Diagnosed, measured: Measured, models: dict[str, list[Decay | None]], unit: str) -> str:
     """Return in words how the widest of the measured decays goes, and how far the models are from it."""
     widest = max(range(len(measured)), key=lambda i: float(np.ptp(np.log(measured[i][1].amplitude))))
     stretch, decay = measured[widest]
@@ -156,7 +166,7 @@ def _told(d: Diagnosis, measured: Measured, models: dict[str, list[Decay | None]
     return f"{opening}{words if not opening else words[:1].lower() + words[1:]} {compared[:1].upper()}{compared[1:]}."
 
 
-def _named(d: Diagnosis, version: str) -> str:
+def _named(d: Diagnosed, version: str) -> str:
     if not d.found:
         return "the model"
     if version == "before":

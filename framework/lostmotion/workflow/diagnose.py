@@ -2,21 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from lostmotion.case import CaseFile
+from lostmotion.codec import to_plain
 from lostmotion.errors import ContractError
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.system import System, key_of
-from lostmotion.provenance import provenance
+from lostmotion.provenance import origin_of
+from lostmotion.quantities import quantity_of
+from lostmotion.recording import Recording
 from lostmotion.registry import Registry
 from lostmotion.report import write_report
+from lostmotion.results.background import FittedMachine, Origin, RecordingFacts, SensorChannel, TermFacts
+from lostmotion.results.behaviour import Behaviour
+from lostmotion.results.diagnosis import Diagnosis, Response
 from lostmotion.settings import DEFAULT, Settings
 from lostmotion.stages.compare import (
     exponent_of,
@@ -26,7 +32,7 @@ from lostmotion.stages.compare import (
     rates_of,
     worsened,
 )
-from lostmotion.stages.diagnose import Diagnosis, diagnose, instead, simpler
+from lostmotion.stages.diagnose import Diagnosed, diagnose, instead, simpler
 from lostmotion.storage import dataset_of, folder_for, save_datasets, save_json
 from lostmotion.workflow.arrays import arrays_of
 from lostmotion.workflow.attractors import motions_of
@@ -34,13 +40,31 @@ from lostmotion.workflow.confirming import decided, predicted_better, unconfirme
 from lostmotion.workflow.decays import decay_in
 from lostmotion.workflow.disagreements import disagreement_in
 from lostmotion.workflow.evidences import evidence_of
-from lostmotion.workflow.findings import Outcome, draws_of
+from lostmotion.workflow.findings import Outcome, draws_of, found_in, why_withheld
 from lostmotion.workflow.mixed import draws_after
 from lostmotion.workflow.notes import notes_of
 from lostmotion.workflow.prepare import Prepared, prepare
-from lostmotion.workflow.rivals import confused_with, proposed
+from lostmotion.workflow.rivals import Proposals, confused_with, proposed
+from lostmotion.workflow.sharings import shared_in
 from lostmotion.workflow.show import Seen, shown
-from lostmotion.workflow.verdict import verdict
+from lostmotion.workflow.states import doubted, in_order, open_of
+from lostmotion.workflow.unknowns import where
+from lostmotion.workflow.verdict import (
+    bodies_of,
+    confusions_of,
+    drive_of,
+    exponents_of,
+    labels,
+    parameters_of,
+    ranking_of,
+    says,
+    scores_of,
+    sensors_of,
+    unexplained_of,
+    units_of,
+    valid_times,
+    whiteness_of,
+)
 from lostmotion.workflow.vetting import blamed, raising, theirs, told_aside, within_numbers
 
 if TYPE_CHECKING:
@@ -53,16 +77,16 @@ SHOW, NEXT, EVIDENCE, WHEN = 1, 2, 3, 4
 
 @dataclass(frozen=True, eq=False)
 class Told:
-    """A diagnosis as it is told: the content of `diagnosis.json`, the arrays behind it, and what both are made of."""
+    """A diagnosis as it is told: the result, the arrays behind it, and what both are made of."""
 
-    content: Mapping[str, Any]
+    result: Diagnosis
     arrays: xr.Dataset
     outcome: Outcome
 
     def save(self, folder: Path) -> None:
         """Write `diagnosis.json`, `arrays.nc` and `report.html` into a folder."""
         save_datasets(folder / "arrays.nc", {None: self.arrays})
-        save_json(folder / "diagnosis.json", self.content)
+        save_json(folder / "diagnosis.json", to_plain(self.result))
         write_report(folder)
 
 
@@ -76,8 +100,8 @@ def run_diagnosis(
     propose: bool = True,
     say: Say = lambda _: None,
     settings: Settings = DEFAULT,
-) -> Mapping[str, Any]:
-    """Return the content of `diagnosis.json` after writing it, `arrays.nc` and `report.html` into the folder `out`.
+) -> Diagnosis:
+    """Return the diagnosis of a case after writing it, `arrays.nc` and `report.html` into the folder `out`.
 
     Unless it is to `propose` none, it looks for the experiment that would tell rivals apart.
     """
@@ -87,7 +111,7 @@ def run_diagnosis(
     told = told_of(prepared, registry, seed=seed, jobs=jobs, propose=propose, say=say, settings=settings)
     say("report")
     told.save(folder)
-    return told.content
+    return told.result
 
 
 @within_numbers()
@@ -114,26 +138,14 @@ def told_of(
     stream = np.random.default_rng([seed, NEXT])
     proposals = proposed(diagnosis, prepared.case.experiment if propose else None, rng=stream, say=say)
     say("evidence by sampling")
-    evidence = evidence_of(diagnosis, np.random.default_rng([seed, EVIDENCE]))
-    said = verdict(outcome)
-    said["where"] |= disagreement_in(diagnosis, np.random.default_rng([seed, WHEN]))
-    decay = decay_in(diagnosis)
-    content = {
-        "title": prepared.case.title,
-        **said,
-        "confused_with": confused_with(diagnosis, said["confused_with"], proposals),
-        "show": show,
-        **({"decay": decay} if decay else {}),
-        "evidence": evidence,
-        **_background(prepared, outcome, seed),
-    }
+    result = _result(prepared, outcome, seed, proposals, show)
     variables, coords = arrays_of(outcome, motions)
-    return Told(content, dataset_of(variables, coords, {"title": prepared.case.title}), outcome)
+    return Told(result, dataset_of(variables, coords, {"title": prepared.case.title}), outcome)
 
 
 def _diagnosed(
-    prepared: Prepared, registry: Registry, seed: int, work: Callable[..., Diagnosis]
-) -> tuple[Diagnosis, Prepared, np.random.Generator]:
+    prepared: Prepared, registry: Registry, seed: int, work: Callable[..., Diagnosed]
+) -> tuple[Diagnosed, Prepared, np.random.Generator]:
     """Return the diagnosis, what it was made of, and its random numbers, for who goes on with them.
 
     Terms of other people that break down on the way are left out, and it begins anew.
@@ -155,7 +167,7 @@ def _diagnosed(
         return _diagnosed(fewer, registry, seed, work)
 
 
-def judged(diagnosis: Diagnosis, prepared: Prepared, rng: np.random.Generator) -> Outcome:
+def judged(diagnosis: Diagnosed, prepared: Prepared, rng: np.random.Generator) -> Outcome:
     """Return the diagnosis with what both models predict of the held-out data."""
     pieces = pieces_of(prepared.observations, diagnosis.held)
     same = diagnosis.after is diagnosis.before
@@ -169,7 +181,7 @@ def judged(diagnosis: Diagnosis, prepared: Prepared, rng: np.random.Generator) -
     return Outcome(diagnosis, before, after, horizon, draws, draws if same else draws_after(diagnosis, rng))
 
 
-def upheld(diagnosis: Diagnosis, prepared: Prepared, rng: np.random.Generator, say: Say = lambda _: None) -> Outcome:
+def upheld(diagnosis: Diagnosed, prepared: Prepared, rng: np.random.Generator, say: Say = lambda _: None) -> Outcome:
     """Return the diagnosis with its predictions, less what held-out data speak against.
 
     They have a veto: where free runs or one-step predictions are worse with what was found than without it, learned
@@ -198,49 +210,74 @@ def upheld(diagnosis: Diagnosis, prepared: Prepared, rng: np.random.Generator, s
     return outcome
 
 
-def _background(prepared: Prepared, outcome: Outcome, seed: int) -> dict[str, Any]:
+def _result(prepared: Prepared, outcome: Outcome, seed: int, proposals: Proposals, show: Behaviour) -> Diagnosis:
+    d, case = outcome.diagnosis, prepared.case
+    found, sharing = shared_in(d, found_in(outcome))
+    found, rest = in_order([doubted(entry, d.settings.name.sure) for entry in found]), open_of(d)
+    over_time, by_recording = disagreement_in(d, np.random.default_rng([seed, WHEN]))
+    before = replace(where(d.located, d.learned), bodies=bodies_of(d), over_time=over_time, by_recording=by_recording)
+    return Diagnosis(
+        title=case.title,
+        verdict="mismatch" if found else "adequate",
+        says=says(outcome, found, rest),
+        found=found,
+        open=rest,
+        ranking=ranking_of(d, found, failed=bool(why_withheld(outcome))),
+        confused_with=confused_with(d, confusions_of(d), proposals),
+        unexplained=unexplained_of(d, after=True),
+        unexplained_before=unexplained_of(d, after=False),
+        where=before,
+        where_after=where(d.left or d.located),
+        parameters=parameters_of(outcome),
+        fit=scores_of(outcome),
+        model=labels(d),
+        drive=drive_of(d),
+        units=units_of(d),
+        response=Response(quantity_of(d.shown.channel)),
+        sensors=sensors_of(d),
+        lyapunov=exponents_of(outcome),
+        valid_prediction_time=valid_times(outcome),
+        whiteness=whiteness_of(outcome),
+        sharing=sharing,
+        show=show,
+        decay=decay_in(d),
+        evidence=evidence_of(d, np.random.default_rng([seed, EVIDENCE])),
+        machine=_machine(outcome, case),
+        truth=case.truth,
+        recordings=tuple(map(_recording, prepared.recordings)),
+        notes=tuple(notes_of(outcome, (*prepared.notes, *unused(case.known)))),
+        provenance=_origin(prepared, d, seed),
+    )
+
+
+def _recording(r: Recording) -> RecordingFacts:
+    return RecordingFacts(r.name, r.n, r.rate, r.start, tuple(a.attrs["of"] for a in r.inputs))
+
+
+def _origin(prepared: Prepared, d: Diagnosed, seed: int) -> Origin:
     case = prepared.case
     settings = {"model": case.model, "known": dict(case.known), "terms": [f"{t.name}@{t.at}" for t in prepared.terms]}
-    settings["thresholds"] = outcome.diagnosis.settings.as_dict()
-    return {
-        "machine": _machine(outcome, case),
-        "truth": dict(case.truth),
-        "recordings": [
-            {
-                "name": r.name,
-                "samples": r.n,
-                "rate": r.rate,
-                "start": r.start,
-                "inputs": [a.attrs["of"] for a in r.inputs],
-            }
-            for r in prepared.recordings
-        ],
-        "notes": notes_of(outcome, (*prepared.notes, *unused(case.known))),
-        "provenance": provenance("diagnose", settings, seed, prepared.inputs),
-    }
+    return origin_of("diagnose", {**settings, "thresholds": d.settings.as_dict()}, seed, prepared.inputs)
 
 
-def _machine(outcome: Outcome, case: CaseFile) -> dict[str, Any]:
+def _machine(outcome: Outcome, case: CaseFile) -> FittedMachine:
     """Return what it takes to set the model that was fitted in motion again: model, terms, and all values in SI."""
     problem, theta = outcome.diagnosis.after.problem, outcome.diagnosis.after.theta
     system, full = problem.system, problem.full(theta)
     learned = outcome.diagnosis.learned
     own = {q.name for q in system.model.params}
     told = {key: float(full[i]) for key, i in system.index.items()}
-    return {
-        "model": case.model,
-        "equations": list(case.equations),
-        "units": dict(case.units),
-        "motion": system.model.motion,
-        "terms": [
-            {"key": key, "name": term.name, "at": term.at}
-            for key, term in zip(system.keys, system.terms, strict=True)
-            if key in problem.active
-        ],
-        "learned": list(learned.keys) if learned else [],
-        "sensors": [{"name": s.name, "channel": s.channel} for s in outcome.diagnosis.shown.sensors],
-        "values": {k: v for k, v in told.items() if k in own or any(k.startswith(f"{a}.") for a in problem.active)},
-    }
+    terms = zip(system.keys, system.terms, strict=True)
+    return FittedMachine(
+        model=case.model,
+        equations=case.equations,
+        units=case.units,
+        motion=system.model.motion,
+        terms=tuple(TermFacts(key, term.name, term.at) for key, term in terms if key in problem.active),
+        learned=learned.keys if learned else (),
+        sensors=tuple(SensorChannel(s.name, s.channel) for s in outcome.diagnosis.shown.sensors),
+        values={k: v for k, v in told.items() if k in own or any(k.startswith(f"{a}.") for a in problem.active)},
+    )
 
 
 def unused(known: Iterable[str]) -> list[str]:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import Any
 
 import numpy as np
 
@@ -25,28 +24,40 @@ from lostmotion.inference.disagreement import (
 from lostmotion.likelihood.observation import Observation
 from lostmotion.quantities import unit_of
 from lostmotion.report.words import chance
+from lostmotion.results.mismatch import (
+    BothTrends,
+    ByRecording,
+    DisagreementOverTime,
+    LevelTrend,
+    Peaks,
+    RecordingMismatch,
+    WorstWindow,
+)
 from lostmotion.settings import DEFAULT
 from lostmotion.signals.impacts import Hit, hits_of
-from lostmotion.stages.diagnose import Diagnosis
+from lostmotion.stages.diagnose import Diagnosed
 from lostmotion.workflow.decays import is_struck
 
 EXPECTED = 1.0
 
 
-def disagreement_in(d: Diagnosis, rng: np.random.Generator) -> dict[str, Any]:
-    """Return what goes into `where`: `over_time` of the recording that is shown, and `by_recording` of several."""
+def disagreement_in(d: Diagnosed, rng: np.random.Generator) -> tuple[DisagreementOverTime | None, ByRecording | None]:
+    """Return the disagreement over the time of the recording that is shown, and by recording where there are several.
+
+    None where no one-step error is finite.
+    """
     fits = {"before": d.before, "after": d.after} if d.found else {"before": d.before}
     shown = {name: squares_of(fit, d.shown) for name, fit in fits.items()}
     if not all(np.isfinite(one).any() for one in shown.values()):
-        return {}
+        return None, None
     level = d.settings.locate.level
-    content = {"over_time": over_time(d.shown, shown, rng, level)}
-    if d.shown.samples == d.held[0].samples:
-        begun = (*d.after.problem.observations, *d.held)
-        all_of = {name: [squares_of(fit, one) for one in begun] for name, fit in fits.items()}
-        motion = d.after.problem.system.model.motion
-        content["by_recording"] = by_recording(begun, all_of, len(d.train), motion, rng, level)
-    return content
+    over = over_time(d.shown, shown, rng, level)
+    if d.shown.samples != d.held[0].samples:
+        return over, None
+    begun = (*d.after.problem.observations, *d.held)
+    all_of = {name: [squares_of(fit, one) for one in begun] for name, fit in fits.items()}
+    motion = d.after.problem.system.model.motion
+    return over, by_recording(begun, all_of, len(d.train), motion, rng, level)
 
 
 def over_time(
@@ -54,7 +65,7 @@ def over_time(
     squares: Mapping[str, Array],
     rng: np.random.Generator,
     level: float = DEFAULT.locate.level,
-) -> dict[str, Any]:
+) -> DisagreementOverTime:
     """Return the disagreement over windows of a recording (over its hits, where a hammer drives it), and a sentence.
 
     `squares` holds the squared standardised one-step errors (samples,) of the models "before" and, if there is one,
@@ -65,20 +76,18 @@ def over_time(
     edges = [round(float(e), 9) for e in (observation.begin + windows.edges) * observation.dt]
     told = {name: _judged(one, windows, edges, rng, level) for name, one in squares.items()}
     last = told.get("after", told["before"])
-    content: dict[str, Any] = {
-        "edges": edges,
-        "unit": "s",
-        "windows": "hits" if windows.aligned else "even",
-        "before": told["before"][0],
-        "after": last[0],
-        "expected": EXPECTED,
-        "worst": last[1],
-        "worst_before": told["before"][1],
-        "says": _says({name: worst for name, (_, worst) in told.items()}, windows.aligned, len(windows)),
-    }
-    if windows.aligned:
-        content["peaks"] = {"values": [hit.peak for hit in hits], "unit": "N"}
-    return content
+    return DisagreementOverTime(
+        edges=tuple(edges),
+        unit="s",
+        windows="hits" if windows.aligned else "even",
+        before=told["before"][0],
+        after=last[0],
+        expected=EXPECTED,
+        worst=last[1],
+        worst_before=told["before"][1],
+        says=_says({name: worst for name, (_, worst) in told.items()}, windows.aligned, len(windows)),
+        peaks=Peaks(tuple(hit.peak for hit in hits), "N") if windows.aligned else None,
+    )
 
 
 def _windows(observation: Observation, squares: Mapping[str, Array], hits: Sequence[Hit]) -> Windows:
@@ -92,23 +101,16 @@ def _windows(observation: Observation, squares: Mapping[str, Array], hits: Seque
     return even_windows(observation.samples, observation.period, shortest=max(shortest, SHORTEST))
 
 
-Judged = tuple[list[float | None], dict[str, Any]]
-
-
-def _judged(squares: Array, windows: Windows, edges: Sequence[float], rng: np.random.Generator, level: float) -> Judged:
+def _judged(
+    squares: Array, windows: Windows, edges: Sequence[float], rng: np.random.Generator, level: float
+) -> tuple[tuple[float, ...], WorstWindow]:
     """Return the disagreement in each window, and the window that stands out most with its p-value."""
     means = means_of(squares, windows)
     p = beyond_chance(squares, windows, rng)
     at = int(np.nanargmax(means)) if p is None else _most(means, p)
-    worst = {
-        "window": at,
-        "begin": edges[at],
-        "end": edges[at + 1],
-        "ratio": float(means[at]),
-        "p": None if p is None else float(p[at]),
-        "beyond_chance": bool(p is not None and p[at] <= level),
-    }
-    return [float(m) if math.isfinite(m) else None for m in means], worst
+    chance_of_it = math.nan if p is None else float(p[at])
+    worst = WorstWindow(at, edges[at], edges[at + 1], float(means[at]), chance_of_it, chance_of_it <= level)
+    return tuple(means.tolist()), worst
 
 
 def _most(means: Array, p: Array) -> int:
@@ -117,11 +119,11 @@ def _most(means: Array, p: Array) -> int:
     return order[0]
 
 
-def _says(worst: Mapping[str, Mapping[str, Any]], hits: bool, count: int) -> str:
+def _says(worst: Mapping[str, WorstWindow], hits: bool, count: int) -> str:
     """Return where a model disagrees most, the last model first; an empty string where that is not beyond chance."""
-    if "after" in worst and worst["after"]["beyond_chance"]:
+    if "after" in worst and worst["after"].beyond_chance:
         return f"The model disagrees most {_place(worst['after'], hits, count)}."
-    if not worst["before"]["beyond_chance"]:
+    if not worst["before"].beyond_chance:
         return ""
     if "after" not in worst:
         return f"The model disagrees most {_place(worst['before'], hits, count)}."
@@ -131,11 +133,11 @@ def _says(worst: Mapping[str, Mapping[str, Any]], hits: bool, count: int) -> str
     )
 
 
-def _place(worst: Mapping[str, Any], hits: bool, count: int) -> str:
-    ratio = f"{worst['ratio']:.2g} times the variance expected, {chance(worst['p'])} over {count}"
+def _place(worst: WorstWindow, hits: bool, count: int) -> str:
+    ratio = f"{worst.ratio:.2g} times the variance expected, {chance(worst.p)} over {count}"
     if hits:
-        return f"after hit {worst['window'] + 1}, at {worst['begin']:.4g} s ({ratio} hits)"
-    return f"between {worst['begin']:.3g} and {worst['end']:.3g} s ({ratio} windows)"
+        return f"after hit {worst.window + 1}, at {worst.begin:.4g} s ({ratio} hits)"
+    return f"between {worst.begin:.3g} and {worst.end:.3g} s ({ratio} windows)"
 
 
 def by_recording(
@@ -145,7 +147,7 @@ def by_recording(
     motion: str,
     rng: np.random.Generator,
     level: float = DEFAULT.locate.level,
-) -> dict[str, Any]:
+) -> ByRecording:
     """Return one row for each recording, the first `fitted` of which went into the fit, and what goes with the level.
 
     The level of a recording is the rms of its drive about its mean, or of its response where nothing drives it.
@@ -154,37 +156,37 @@ def by_recording(
     first = recordings[0]
     unit = unit_of(first.channel if first.free else _driver(first), motion)
     last = squares.get("after", squares["before"])
-    rows = [
-        {
-            "name": one.name,
-            "level": float(level),
-            "unit": unit,
-            "fitted": i < fitted,
-            "before": float(np.nanmean(squares["before"][i])),
-            "after": float(np.nanmean(last[i])),
-        }
-        for i, (one, level) in enumerate(zip(recordings, levels, strict=True))
-    ]
-    told = {"after": last, "before": squares["before"]}
-    worst = {when: _stands_out(rows, when, between(parts, rng), level) for when, parts in told.items()}
-    tends = {when: trend(parts, levels, rng) for when, parts in told.items()}
-    return {
-        "rows": rows,
-        "level_of": "response" if first.free else "drive",
-        "expected": EXPECTED,
-        "trend": {when: None if t is None else {"correlation": t[0], "p": t[1]} for when, t in tends.items()},
-        "says": _level_says(rows, worst, tends, level),
-    }
+    p_after, p_before = between(last, rng), between(squares["before"], rng)
+    measured = zip(recordings, levels, _means(squares["before"]), _means(last), strict=True)
+    rows = tuple(
+        RecordingMismatch(
+            name=one.name,
+            level=float(strength),
+            unit=unit,
+            fitted=i < fitted,
+            before=float(before),
+            after=float(after),
+            p_after=_at(p_after, i),
+            p_before=_at(p_before, i),
+        )
+        for i, (one, strength, before, after) in enumerate(measured)
+    )
+    trends = BothTrends(after=_trend(last, levels, rng), before=_trend(squares["before"], levels, rng))
+    says = _level_says(rows, "after", p_after, trends, level) or _level_says(rows, "before", p_before, trends, level)
+    return ByRecording(rows, "response" if first.free else "drive", EXPECTED, trends, says)
 
 
-def _stands_out(rows: Sequence[dict[str, Any]], when: str, p: Array | None, level: float) -> int | None:
-    """Return the recording in which a model disagrees most beyond chance, after noting all p-values in the rows."""
-    if p is None:
-        return None
-    for row, one in zip(rows, p, strict=True):
-        row[f"p_{when}"] = float(one)
-    worst = _most(np.array([row[when] for row in rows]), p)
-    return worst if p[worst] <= level else None
+def _means(parts: Sequence[Array]) -> Array:
+    return np.array([np.nanmean(part) for part in parts])
+
+
+def _at(values: Array | None, index: int) -> float | None:
+    return None if values is None else float(values[index])
+
+
+def _trend(parts: Sequence[Array], levels: Array, rng: np.random.Generator) -> LevelTrend | None:
+    found = trend(parts, levels, rng)
+    return LevelTrend(*found) if found else None
 
 
 def _driver(observation: Observation) -> str:
@@ -195,23 +197,20 @@ def _level(observation: Observation) -> float:
     return float(np.nanstd(observation.response if observation.free else observation.excitation))
 
 
-def _level_says(
-    rows: Sequence[Mapping[str, Any]],
-    worst: Mapping[str, int | None],
-    tends: Mapping[str, tuple[float, float] | None],
-    level: float,
-) -> str:
-    """Return in which recording a model disagrees most, the last model first; empty where that is not beyond chance."""
-    when = next((name for name in ("after", "before") if worst[name] is not None), None)
-    at = worst[when] if when else None
-    if when is None or at is None:
+def _level_says(rows: Sequence[RecordingMismatch], when: str, p: Array | None, tends: BothTrends, level: float) -> str:
+    """Return in which recording the model "before" or "after" disagrees most; empty where that is not beyond chance."""
+    if p is None:
         return ""
-    row, tend = rows[at], tends[when]
+    means = np.array([row.after if when == "after" else row.before for row in rows])
+    at = _most(means, p)
+    if p[at] > level:
+        return ""
+    row, tend = rows[at], tends.after if when == "after" else tends.before
     model = "model" if when == "after" else "nominal model"
     said = (
-        f"Of {len(rows)} recordings the {model} disagrees most in {row['name']} (level {row['level']:.3g} {row['unit']}"
-        f" rms, {row[when]:.2g} times the variance expected, {chance(row[f'p_{when}'])})"
+        f"Of {len(rows)} recordings the {model} disagrees most in {row.name} (level {row.level:.3g} {row.unit}"
+        f" rms, {means[at]:.2g} times the variance expected, {chance(float(p[at]))})"
     )
-    if tend and tend[1] <= level:
-        said += f"; the disagreement {'grows' if tend[0] > 0.0 else 'falls'} with the level ({chance(tend[1])})"
+    if tend and tend.p <= level:
+        said += f"; the disagreement {'grows' if tend.correlation > 0.0 else 'falls'} with the level ({chance(tend.p)})"
     return f"{said}."

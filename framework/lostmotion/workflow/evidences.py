@@ -2,28 +2,26 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict
-from typing import Any
-
 import numpy as np
 
-from lostmotion.inference.evidence import Check, checked
-from lostmotion.stages.diagnose import Diagnosis
+from lostmotion.inference.evidence import checked
+from lostmotion.results.diagnosis import EvidenceCheck, SampledEvidence
+from lostmotion.stages.diagnose import Diagnosed
 
 FEWEST = 15.0
 """With fewer effective draws the sampled evidence says nothing."""
 APART = 3.0
 
 
-def evidence_of(diagnosis: Diagnosis, rng: np.random.Generator) -> dict[str, Any]:
+def evidence_of(diagnosis: Diagnosed, rng: np.random.Generator) -> EvidenceCheck:
     """Return the log evidence of the models before and after by both methods; nothing where nothing was found."""
     if diagnosis.after is diagnosis.before:
-        return {}
+        return EvidenceCheck()
     before, after = (checked(fit, rng) for fit in (diagnosis.before, diagnosis.after))
-    return {"before": asdict(before), "after": asdict(after), "says": _says(before, after)}
+    return EvidenceCheck(before, after, _says(before, after))
 
 
-def _says(before: Check, after: Check) -> str:
+def _says(before: SampledEvidence, after: SampledEvidence) -> str:
     laplace, sampled = after.laplace - before.laplace, after.sampled - before.sampled
     error = float(np.hypot(before.error, after.error))
     if min(before.effective, after.effective) < FEWEST:

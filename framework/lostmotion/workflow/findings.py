@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
-from typing import Any
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -17,9 +16,10 @@ from lostmotion.inference.natural import term_of
 from lostmotion.likelihood.predict import Horizon
 from lostmotion.quantities import unit_of
 from lostmotion.results import Interval, percent
+from lostmotion.results.diagnosis import Mechanism
 from lostmotion.stages.compare import Prediction
-from lostmotion.stages.diagnose import Diagnosis, base_keys
-from lostmotion.workflow.states import LIKELY, NAMED, OPEN, doubts_of, holds
+from lostmotion.stages.diagnose import Diagnosed, base_keys
+from lostmotion.workflow.states import LIKELY, NAMED, doubts_of, holds
 from lostmotion.workflow.unknowns import learned_entry, unnamed_entry
 
 DRAWS = 2000
@@ -32,7 +32,7 @@ class Outcome:
     `unconfirmed` tells by term, in a sentence, that held-out data are predicted no better with it than without it.
     """
 
-    diagnosis: Diagnosis
+    diagnosis: Diagnosed
     before: Prediction
     after: Prediction
     horizon: Horizon
@@ -58,19 +58,19 @@ def intervals(fit: Fit, draws: Array) -> dict[str, Interval]:
     return {k: Interval(float(median[i]), float(low[i]), float(high[i]), units[k]) for i, k in enumerate(keys)}
 
 
-def found_in(outcome: Outcome) -> list[dict[str, Any]]:
+def found_in(outcome: Outcome) -> tuple[Mechanism, ...]:
     """Return the entries of `found`: terms, marks in the stored values, and what no term explains."""
     d = outcome.diagnosis
     after = intervals(d.after, outcome.draws_after)
     entries = [_entry(outcome, key, after) for key in d.named] + [_mark(d, key) for key in d.marks]
     if d.learned:
-        entries.append({**learned_entry(d), "state": OPEN})
+        entries.append(learned_entry(d))
     elif d.unexplained and (not d.found or _shapeless(d)):
-        entries.append({**unnamed_entry(d), "state": OPEN})
+        entries.append(unnamed_entry(d))
     why = why_withheld(outcome)
     if why and not d.found and not d.unexplained:
-        entries.append({**unnamed_entry(d), "probability": 1.0, "state": OPEN, "says": why})
-    return [{**entry, "parameters": shown(entry["parameters"], why)} for entry in entries]
+        entries.append(replace(unnamed_entry(d), probability=1.0, says=why))
+    return tuple(replace(entry, parameters=shown(entry.parameters, why)) for entry in entries)
 
 
 def noise_floor(outcome: Outcome) -> float:
@@ -92,19 +92,19 @@ def why_withheld(outcome: Outcome) -> str:
     )
 
 
-def shown(parameters: Mapping[str, Mapping[str, Any]], why: str) -> dict[str, dict[str, Any]]:
-    """Return parameters as they are told: without their intervals where there is a reason to withhold them."""
+def shown(parameters: Mapping[str, Interval], why: str) -> Mapping[str, Interval]:
+    """Return parameters as they are told: with bounds of NaN where there is a reason to withhold their intervals."""
     if not why:
-        return {name: dict(one) for name, one in parameters.items()}
-    return {name: {**one, "low": None, "high": None, "withheld": why} for name, one in parameters.items()}
+        return parameters
+    return {name: replace(one, low=math.nan, high=math.nan, withheld=why) for name, one in parameters.items()}
 
 
-def _shapeless(d: Diagnosis) -> bool:
+def _shapeless(d: Diagnosed) -> bool:
     """Return whether what is left beside terms is a random force: with no structure, and no memory that was doubted."""
     return not (d.left and d.left.structure) and not d.selection.declined
 
 
-def _entry(outcome: Outcome, key: str, after: Mapping[str, Interval]) -> dict[str, Any]:
+def _entry(outcome: Outcome, key: str, after: Mapping[str, Interval]) -> Mechanism:
     d = outcome.diagnosis
     term, slots = term_of(d.after.problem, key)
     system, known = d.after.problem.system, d.after.problem.known
@@ -121,19 +121,18 @@ def _entry(outcome: Outcome, key: str, after: Mapping[str, Interval]) -> dict[st
         sentence += f", since {late}"
     share = float(np.max(np.abs(d.laws[key]))) / d.after.problem.scales.force
     doubts = doubts_of(d, key) + [doubt for doubt in (outcome.unconfirmed.get(key), why) if doubt]
-    return {
-        "mechanism": term.name,
-        "at": term.at,
-        "probability": d.selection.inclusion(key),
-        "state": LIKELY if doubts else NAMED,
-        "doubts": doubts,
-        "parameters": {name: i.as_dict() for name, i in (own | _derived(outcome, term, held)).items()},
-        "share_of_drive": share,
-        **({"since": late.as_dict()} if late else {}),
-        "says": f"{sentence}."
-        if isinstance(term, SensorTerm)
-        else f"{sentence}, up to {percent(share)} of {d.yardstick}.",
-    }
+    size = "" if isinstance(term, SensorTerm) else f", up to {percent(share)} of {d.yardstick}"
+    return Mechanism(
+        mechanism=term.name,
+        at=term.at,
+        probability=d.selection.inclusion(key),
+        state=LIKELY if doubts else NAMED,
+        doubts=tuple(doubts),
+        parameters=own | _derived(outcome, term, held),
+        share_of_drive=share,
+        since=late,
+        says=f"{sentence}{size}.",
+    )
 
 
 def elsewhere(model: Model) -> set[str]:
@@ -142,7 +141,7 @@ def elsewhere(model: Model) -> set[str]:
     return {place.name for place in model.interfaces if place.row != first.row or place.against != first.against}
 
 
-def _mark(d: Diagnosis, key: str) -> dict[str, Any]:
+def _mark(d: Diagnosed, key: str) -> Mechanism:
     """Return the entry of a term that the stored values themselves betray."""
     term, slots = term_of(d.selection.nominal.problem, key)
     rows = zip(slots, *d.marks[key], strict=True)
@@ -150,17 +149,17 @@ def _mark(d: Diagnosis, key: str) -> dict[str, Any]:
     unit = unit_of(channel, d.after.problem.system.model.motion)
     own = {s.param.name: Interval(v, v - 1.96 * sd, v + 1.96 * sd, unit) for s, v, sd in rows}
     sentence = term.physics.format(**{name: f"{i.median:.3g} {i.unit}" for name, i in own.items()}) + _whose(d, term)
-    return {
-        "mechanism": term.name,
-        "at": term.at,
-        "probability": 1.0,
-        "state": NAMED,
-        "parameters": {name: i.as_dict() for name, i in own.items()},
-        "says": f"{sentence}: the stored values themselves tell.",
-    }
+    return Mechanism(
+        mechanism=term.name,
+        at=term.at,
+        probability=1.0,
+        state=NAMED,
+        parameters=own,
+        says=f"{sentence}: the stored values themselves tell.",
+    )
 
 
-def _whose(d: Diagnosis, term: Term) -> str:
+def _whose(d: Diagnosed, term: Term) -> str:
     """Return at which of several sensors a term acts, as a sentence on it ends; nothing for other terms."""
     if not isinstance(term, SensorTerm) or len(d.shown.sensors) < 2:
         return ""

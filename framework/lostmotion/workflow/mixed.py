@@ -10,7 +10,7 @@ import numpy as np
 
 from lostmotion.contracts import Array
 from lostmotion.inference.setup import polish
-from lostmotion.stages.diagnose import Diagnosis, base_keys
+from lostmotion.stages.diagnose import Diagnosed, base_keys
 from lostmotion.workflow.findings import draws_of
 
 OPEN = 0.05
@@ -18,7 +18,7 @@ OPEN = 0.05
 MOST = 3
 
 
-def draws_after(diagnosis: Diagnosis, rng: np.random.Generator) -> Array:
+def draws_after(diagnosis: Diagnosed, rng: np.random.Generator) -> Array:
     """Return draws (draws, keys) of the parameters of the model after the diagnosis.
 
     Those of the machine are a mixture over the chosen terms and their rivals, by posterior probability (Hoeting et al.,
@@ -43,7 +43,7 @@ def draws_after(diagnosis: Diagnosis, rng: np.random.Generator) -> Array:
     return made
 
 
-def _rivals(diagnosis: Diagnosis) -> list[tuple[frozenset[str], float]]:
+def _rivals(diagnosis: Diagnosed) -> list[tuple[frozenset[str], float]]:
     """Return the sets of terms beside the chosen one that have a share of the posterior, largest first."""
     shares = diagnosis.selection.probabilities()
     here = diagnosis.selection.chosen.problem.active

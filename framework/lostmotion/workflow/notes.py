@@ -12,7 +12,7 @@ from lostmotion.inference.unseen import place_of_body
 from lostmotion.likelihood.initial import placed
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.space import LEVELS
-from lostmotion.stages.diagnose import Diagnosis
+from lostmotion.stages.diagnose import Diagnosed
 from lostmotion.workflow.decays import note_anew
 from lostmotion.workflow.findings import Outcome
 from lostmotion.workflow.repetitions import repetition_notes
@@ -41,12 +41,12 @@ def notes_of(outcome: Outcome, said: Sequence[str]) -> list[str]:
     return [*said, *_unrecorded(d), *doubts, *again, *vague(d.after, d.shown)]
 
 
-def _recordings(d: Diagnosis) -> tuple[Observation, ...]:
+def _recordings(d: Diagnosed) -> tuple[Observation, ...]:
     """Return the recordings as a whole."""
     return (*d.train, *d.held) if d.shown is d.held[0] else (d.shown,)
 
 
-def _unrecorded(d: Diagnosis) -> list[str]:
+def _unrecorded(d: Diagnosed) -> list[str]:
     """Return a note for each recording without an input that something drove all the same."""
     return [note for observation in _recordings(d) for note in note_anew(observation)]
 
@@ -69,7 +69,7 @@ def fleeting(fit: Fit) -> list[str]:
     return notes
 
 
-def _slow(d: Diagnosis) -> list[str]:
+def _slow(d: Diagnosed) -> list[str]:
     """Return a note for each sensor whose noise has a memory, which white noise and a random force would imitate."""
     problem, theta, notes = d.after.problem, d.after.theta, []
     for i, sensor in enumerate(d.shown.sensors):
@@ -102,7 +102,7 @@ def drowned(outcome: Outcome) -> list[str]:
     return told
 
 
-def _declined(d: Diagnosis) -> list[str]:
+def _declined(d: Diagnosed) -> list[str]:
     declined = sorted(d.selection.declined - set(d.found))
     if not declined:
         return []
@@ -112,7 +112,7 @@ def _declined(d: Diagnosis) -> list[str]:
     ]
 
 
-def _on_the_edge(d: Diagnosis) -> list[str]:
+def _on_the_edge(d: Diagnosed) -> list[str]:
     """Return a note for each parameter that presses against a bound of its prior."""
     notes = []
     for f, at in zip(d.after.problem.free, d.after.theta, strict=True):

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
 
 import numpy as np
 
@@ -16,7 +15,8 @@ from lostmotion.inference.prices import related
 from lostmotion.likelihood.system import key_of
 from lostmotion.quantities import unit_of
 from lostmotion.report.words import sentence, spoken
-from lostmotion.stages.diagnose import Diagnosis
+from lostmotion.results.diagnosis import Confusion, DecidingExcitation
+from lostmotion.stages.diagnose import Diagnosed
 from lostmotion.stages.experiment import Limits, Proposal, natural_of, propose, usual_limits
 from lostmotion.workflow.verdict import other_level
 
@@ -28,7 +28,7 @@ LITTLE = 3.0
 Proposals = Mapping[str, Proposal | None]
 
 
-def rivals_of(d: Diagnosis) -> dict[str, Visit]:
+def rivals_of(d: Diagnosed) -> dict[str, Visit]:
     """Return the best set of terms with each term that may be at work in place of what was found, heaviest first.
 
     There is none where more was found than the selection chose: a force without a name has no rivals with one.
@@ -57,7 +57,7 @@ def rivals_of(d: Diagnosis) -> dict[str, Visit]:
 
 
 def proposed(
-    d: Diagnosis, allowed: Experiment | None, *, rng: np.random.Generator, say: Callable[[str], None] = lambda _: None
+    d: Diagnosed, allowed: Experiment | None, *, rng: np.random.Generator, say: Callable[[str], None] = lambda _: None
 ) -> dict[str, Proposal | None]:
     """Return the experiment that would decide between what was found and each of its heaviest rivals, by key.
 
@@ -75,47 +75,46 @@ def proposed(
     }
 
 
-def confused_with(d: Diagnosis, rows: Sequence[Mapping[str, Any]], proposals: Proposals) -> list[dict[str, Any]]:
+def confused_with(d: Diagnosed, rows: Sequence[Confusion], proposals: Proposals) -> tuple[Confusion, ...]:
     """Return the `rows` of what a verdict cannot tell apart, with close relatives, and the experiments that decide."""
     told = {}
     for key, proposal in proposals.items():
         term, _ = term_of(d.selection.chosen.problem, key)
         p = d.selection.inclusion(key)
-        row = {"mechanism": term.name, "at": term.at, "probability": p}
-        if proposal is None:
-            told[term.name, term.at] = {
-                **row,
-                "says": f"{_opening(d, term, p)} {sentence(other_level(d))} would decide.",
-            }
-        else:
-            says = _says(d, term, p, proposal)
-            told[term.name, term.at] = {**row, "excitation": _excitation(d, proposal), "says": says}
-    rest = [dict(row) for row in rows if (row["mechanism"], row["at"]) not in told]
-    return [*told.values(), *rest]
+        says = f"{_opening(d, term, p)} {sentence(other_level(d))} would decide."
+        told[term.name, term.at] = Confusion(
+            mechanism=term.name,
+            at=term.at,
+            probability=p,
+            excitation=_excitation(d, proposal) if proposal else None,
+            says=_says(d, term, p, proposal) if proposal else says,
+        )
+    rest = (row for row in rows if (row.mechanism, row.at) not in told)
+    return (*told.values(), *rest)
 
 
-def _unit(d: Diagnosis) -> str:
+def _unit(d: Diagnosed) -> str:
     """Return the SI unit of what moves the machine."""
     model = d.selection.chosen.problem.system.model
     return unit_of(model.inputs[0], model.motion)
 
 
-def _excitation(d: Diagnosis, proposal: Proposal) -> dict[str, Any]:
+def _excitation(d: Diagnosed, proposal: Proposal) -> DecidingExcitation:
     e = proposal.excitation
-    return {
-        "waveform": e.waveform,
-        "level": e.level,
-        "frequency": e.band[1],
-        "band": list(e.band),
-        "unit": _unit(d),
-        "expected_log_gain": proposal.gain,
-        "repeat_log_gain": proposal.repeat,
-        "if_found_is_true": proposal.ways[0],
-        "if_this_is_true": proposal.ways[1],
-    }
+    return DecidingExcitation(
+        waveform=e.waveform,
+        level=e.level,
+        frequency=e.band[1],
+        band=e.band,
+        unit=_unit(d),
+        expected_log_gain=proposal.gain,
+        repeat_log_gain=proposal.repeat,
+        if_found_is_true=proposal.ways[0],
+        if_this_is_true=proposal.ways[1],
+    )
 
 
-def _opening(d: Diagnosis, term: Term, p: float) -> str:
+def _opening(d: Diagnosed, term: Term, p: float) -> str:
     if p > d.settings.name.worth:
         return f"This recording gives {_called(term)} a probability of {p:.2f}."
     return (
@@ -128,7 +127,7 @@ def _called(term: Term) -> str:
     return spoken(term.name)
 
 
-def _says(d: Diagnosis, term: Term, p: float, proposal: Proposal) -> str:
+def _says(d: Diagnosed, term: Term, p: float, proposal: Proposal) -> str:
     opening = _opening(d, term, p)
     gain, repeat = proposal.gain, proposal.repeat
     if gain < LITTLE:
@@ -147,7 +146,7 @@ def _says(d: Diagnosis, term: Term, p: float, proposal: Proposal) -> str:
     )
 
 
-def _asked(d: Diagnosis, proposal: Proposal) -> str:
+def _asked(d: Diagnosed, proposal: Proposal) -> str:
     """Return the experiment in the imperative."""
     e, old = proposal.excitation, d.selection.chosen.problem.observations[0].travel
     change = e.level / old if old else 1.0

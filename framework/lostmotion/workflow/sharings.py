@@ -2,48 +2,57 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
-from typing import Any
+from dataclasses import replace
 
 from lostmotion.inference.natural import term_of
-from lostmotion.inference.sharing import Shared, Sharing, sharing_of
+from lostmotion.inference.sharing import Shared, SharedValues, sharing_of
 from lostmotion.likelihood.problem import Problem
 from lostmotion.quantities import unit_of
 from lostmotion.report.words import chance, figures, sentence, spoken
 from lostmotion.results import Interval
-from lostmotion.stages.diagnose import Diagnosis
+from lostmotion.results.diagnosis import Mechanism
+from lostmotion.results.sharing import (
+    Comparison,
+    FullComparison,
+    OwnParameters,
+    OwnValue,
+    SharedParameter,
+    Sharing,
+)
+from lostmotion.stages.diagnose import Diagnosed
 
-Entry = dict[str, Any]
 UNNAMED = ("unknown", "random_force")
 """Entries of what no term explains: what differs from recording to recording may be all there is to it."""
 
 
-def shared_in(d: Diagnosis, found: Sequence[Entry]) -> dict[str, Any]:
-    """Return `sharing`, and `found` with what recordings share of each term; nothing where there is one recording.
+def shared_in(d: Diagnosed, found: Sequence[Mechanism]) -> tuple[tuple[Mechanism, ...], Sharing | None]:
+    """Return `found` with what recordings share of each term, and `sharing`; None where there is one recording.
 
     A term gets `by_recording` and `shared`; one that holds neither with one value nor with a power of the level gets a
     sentence more in `doubts`. Only recordings that were fitted are compared.
     """
     if d.shown is not d.held[0]:
-        return {}
+        return tuple(found), None
     sharing = sharing_of(d.after)
     if sharing is None:
-        return {"sharing": _nothing(len(d.train) + len(d.held))}
+        return tuple(found), _nothing(len(d.train) + len(d.held))
     problem = d.after.problem
     terms = dict(enumerate(d.named))
     told = [_told(entry, terms[i], problem, sharing) if i in terms else entry for i, entry in enumerate(found)]
-    for entry in told:
-        if entry["mechanism"] in UNNAMED and sharing.released:
-            entry["doubts"] = [*entry.get("doubts", ()), _released(sharing, problem)]
-    return {"found": told, "sharing": sharing_entry(sharing, problem)}
+    if sharing.released:
+        doubt = _released(sharing, problem)
+        told = [replace(e, doubts=(*e.doubts, doubt)) if e.mechanism in UNNAMED else e for e in told]
+    return tuple(told), sharing_entry(sharing, problem)
 
 
-def _nothing(many: int) -> Entry:
+def _nothing(many: int) -> Sharing:
     says = f"Of {many} recordings one was fitted and the rest is held out, so no values can be compared: record more."
-    return {"parameters": {}, "says": [says]}
+    return Sharing(parameters={}, says=(says,))
 
 
-def sharing_entry(sharing: Sharing, problem: Problem) -> Entry:
+def sharing_entry(sharing: SharedValues, problem: Problem) -> Sharing:
     """Return the content of `sharing`: recordings with their levels, each parameter in each of them, and sentences."""
     motion, levels = problem.system.model.motion, sharing.levels
     names = {key: name_of(key, problem) for key in sharing.parameters}
@@ -53,79 +62,68 @@ def sharing_entry(sharing: Sharing, problem: Problem) -> Entry:
     differ = [sentences[key] for key, one in sharing.parameters.items() if not one.holds]
     released = [_released(sharing, problem)] if sharing.released else []
     failed = [f"No fit came out with {name_of(key, problem)} of each recording's own." for key in sharing.failed]
-    return {
-        "recordings": list(sharing.recordings),
-        "levels": list(levels.values),
-        "level_of": levels.of,
-        "level_unit": unit_of(levels.channel, motion),
-        "parameters": {
-            key: {
-                "by_recording": [
-                    {"recording": name, "level": level, **value.as_dict()}
-                    for name, level, value in zip(sharing.recordings, levels.values, one.values, strict=True)
-                ],
-                "shared": _shared(one, sentences[key], sharing),
-            }
-            for key, one in sharing.parameters.items()
-        },
-        "says": [
-            *(opening if kept else []),
-            *differ,
-            *failed,
-            *released,
-        ],
+    compared = {
+        key: SharedParameter(_own_values(one, sharing), _shared(one, sentences[key], sharing))
+        for key, one in sharing.parameters.items()
     }
+    return Sharing(
+        recordings=sharing.recordings,
+        levels=levels.values,
+        level_of=levels.of,
+        level_unit=unit_of(levels.channel, motion),
+        parameters=compared,
+        says=(*(opening if kept else []), *differ, *failed, *released),
+    )
 
 
-def _released(sharing: Sharing, problem: Problem) -> str:
+def _own_values(one: Shared, sharing: SharedValues) -> tuple[OwnValue, ...]:
+    rows = zip(sharing.recordings, sharing.levels.values, one.values, strict=True)
+    return tuple(OwnValue(name, level, v.median, v.low, v.high, v.unit) for name, level, v in rows)
+
+
+def _released(sharing: SharedValues, problem: Problem) -> str:
     """Return what values of each recording's own are worth, and whether a learned curve is needed beside them."""
     others = " and ".join(name_of(key, problem) for key in sharing.released)
     curve = ", and no learned curve is needed beside them" if sharing.dropped else ""
     return f"Values of each recording's own for {others} raise the log evidence by {figures(sharing.gain)}{curve}."
 
 
-def _shared(one: Shared, said: str, sharing: Sharing) -> Entry:
-    power = {"exponent": one.power.exponent, "error": one.power.error, "p": one.power.p} if one.power else None
+def _shared(one: Shared, said: str, sharing: SharedValues) -> FullComparison:
     odd = None if one.odd is None else sharing.recordings[one.odd]
-    return {"holds": one.holds, "p": one.p, "says": said, "power_of_level": power, "differs_in": odd}
+    return FullComparison(one.holds, one.p, said, one.power, odd)
 
 
-def _told(entry: Entry, key: str, problem: Problem, sharing: Sharing) -> Entry:
+def _told(entry: Mechanism, key: str, problem: Problem, sharing: SharedValues) -> Mechanism:
     """Return the entry of a term with what recordings share of it; as it is where none of its values was compared."""
     slots = {s.key: s.param.name for s in term_of(problem, key)[1] if s.key in sharing.parameters}
     if not slots:
         return entry
     own = {slot: sharing.parameters[slot] for slot in slots}
     names = {slot: name_of(slot, problem) for slot in sharing.parameters}
-    by_recording = [
-        {
-            "recording": name,
-            "level": sharing.levels.values[i],
-            "parameters": {slots[slot]: one.values[i].as_dict() for slot, one in own.items()},
-        }
+    by_recording = tuple(
+        OwnParameters(name, sharing.levels.values[i], {slots[slot]: one.values[i] for slot, one in own.items()})
         for i, name in enumerate(sharing.recordings)
-    ]
+    )
     worst = min(own.values(), key=lambda one: one.p)
     told = [says(one, names, sharing) for one in own.values() if not one.holds] or [says(worst, names, sharing)]
     doubts = [says(one, names, sharing) for one in own.values() if not one.told]
-    doubts += [_moved(one, entry["parameters"][slots[slot]], names, sharing) for slot, one in own.items()]
-    shared = {"holds": worst.holds, "p": worst.p, "says": " ".join(told)}
-    doubts = [doubt for doubt in doubts if doubt]
-    more = {"by_recording": by_recording, "shared": shared}
-    return {**entry, **more, **({"doubts": [*entry.get("doubts", ()), *doubts]} if doubts else {})}
+    doubts += [_moved(one, entry.parameters[slots[slot]], names, sharing) for slot, one in own.items()]
+    shared = Comparison(worst.holds, worst.p, " ".join(told))
+    every = (*entry.doubts, *(doubt for doubt in doubts if doubt))
+    return replace(entry, doubts=every, by_recording=by_recording, shared=shared)
 
 
-def _moved(one: Shared, before: Mapping[str, Any], names: Mapping[str, str], sharing: Sharing) -> str:
+def _moved(one: Shared, before: Interval, names: Mapping[str, str], sharing: SharedValues) -> str:
     """Return that a value which holds is another one once what differs is released; empty where it is not."""
-    if before["low"] is None:
+    if math.isnan(before.low):
         return ""
-    apart = before["low"] > one.common.high or before["high"] < one.common.low
+    apart = before.low > one.common.high or before.high < one.common.low
     if not (one.holds and sharing.released and apart):
         return ""
     others = " and ".join(names[key] for key in sharing.released)
     return (
         f"{sentence(names[one.key])} is {one.common} where {others} may differ from recording to recording, and"
-        f" {figures(before['median'])} where not."
+        f" {figures(before.median)} where not."
     )
 
 
@@ -139,7 +137,7 @@ def name_of(key: str, problem: Problem) -> str:
     return f"{spoken(own)} of {spoken(law.name)}{place}"
 
 
-def says(one: Shared, names: Mapping[str, str], sharing: Sharing) -> str:
+def says(one: Shared, names: Mapping[str, str], sharing: SharedValues) -> str:
     """Return what is said of one parameter: that one value holds, or how values differ."""
     name, many = sentence(names[one.key]) if "." in one.key else one.key, len(sharing.recordings)
     if one.holds:
@@ -147,7 +145,7 @@ def says(one: Shared, names: Mapping[str, str], sharing: Sharing) -> str:
     return f"{_difference(one, name, sharing)}.{_rivals(one, names)}"
 
 
-def _difference(one: Shared, name: str, sharing: Sharing) -> str:
+def _difference(one: Shared, name: str, sharing: SharedValues) -> str:
     medians = [value.median for value in one.values]
     low, high = (one.values[medians.index(end)] for end in (min(medians), max(medians)))
     if one.power is not None:

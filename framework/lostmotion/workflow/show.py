@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
@@ -14,9 +13,21 @@ from lostmotion.defaults import DIMENSION, EMBEDDER
 from lostmotion.errors import LostMotionError
 from lostmotion.inference.fit import Fit
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.predict import observed
+from lostmotion.likelihood.predict import Horizon, observed
 from lostmotion.registry import Registry
 from lostmotion.results import Estimate
+from lostmotion.results.behaviour import (
+    Behaviour,
+    Chance,
+    DimensionInterval,
+    Distance,
+    ExponentInterval,
+    HorizonLength,
+    MeasureTexts,
+    ModelBehaviour,
+    NoiseFloor,
+    ValidTime,
+)
 from lostmotion.signals import checked
 from lostmotion.stages.compare import Prediction, exponent_blocks
 from lostmotion.stages.embed import embed
@@ -34,6 +45,16 @@ LONGEST = 50_000
 STUDENT = 2.262
 """What a mean of ten blocks may be off, in standard errors, at 95 %."""
 FEWEST = 50
+UNITS = MeasureTexts(
+    heldout_log_score="1",
+    free_run_error="1",
+    valid_prediction_time="",
+    attractor_distance="standard deviations of the motion",
+    largest_exponent="1/s",
+    d2="1",
+    whiteness="1",
+)
+"""Units of the measures; that of the valid prediction time is the unit of the horizon."""
 PERIODIC = "The motion repeats itself: it is a closed line, and no dimension is estimated."
 
 
@@ -47,8 +68,8 @@ class Seen:
     registry: Registry
 
 
-def shown(seen: Seen, rng: np.random.Generator) -> dict[str, Any]:
-    """Return the `show` of `diagnosis.json`: measures by name under "before", "after" and "noise_floor"."""
+def shown(seen: Seen, rng: np.random.Generator) -> Behaviour:
+    """Return the measures of the motion: before, after where something was found, and of noise alone."""
     outcome, d = seen.outcome, seen.outcome.diagnosis
     both = {"before": (outcome.before, d.before)}
     if d.found:
@@ -56,40 +77,42 @@ def shown(seen: Seen, rng: np.random.Generator) -> dict[str, Any]:
     dies = bool(stretches_of(d.shown))
     apart, strobed = (_no_distances(both), False) if dies else distances_between(seen.motions, d.shown, rng)
     dimensions = _no_dimensions(both) if dies else _dimensions(seen, rng)
-    table: dict[str, Any] = {}
-    for name, (prediction, _) in both.items():
-        table[name] = {
-            "heldout_log_score": prediction.log_score,
-            "free_run_error": prediction.nrmse,
-            "valid_prediction_time": {
-                "value": prediction.valid_time / outcome.horizon.unit_time,
-                "or_longer": bool(prediction.valid_time >= prediction.lead[-1]),
-            },
-            "attractor_distance": _distance(apart[name]),
-            "largest_exponent": _exponent(prediction),
-            "d2": _estimate(dimensions[name]),
-            "whiteness": {"p": prediction.white},
-        }
-    last = both.get("after", both["before"])
-    noise = math.sqrt(last[1].problem.measurement(last[1].theta))
-    table["noise_floor"] = {
-        "heldout_log_score": last[0].expected_score,
-        "free_run_error": noise / last[0].scales[0],
-        "attractor_distance": _distance(apart["noise_floor"]),
-        "d2": _estimate(dimensions["recorded"]),
+    models = {
+        name: _behaviour(prediction, outcome.horizon, apart[name], dimensions[name])
+        for name, (prediction, _) in both.items()
     }
-    unit = outcome.horizon.unit
-    table["units"] = {
-        "heldout_log_score": "1",
-        "free_run_error": "1",
-        "valid_prediction_time": unit,
-        "attractor_distance": "standard deviations of the motion",
-        "largest_exponent": "1/s",
-        "d2": "1",
-        "whiteness": "1",
-    }
-    table["horizon"] = {"value": outcome.horizon.number, "unit": unit}
-    return {**table, "says": said(table, strobed, driven=not d.shown.free, white=d.settings.name.white)}
+    prediction, fit = both.get("after", both["before"])
+    noise = math.sqrt(fit.problem.measurement(fit.theta))
+    floor = NoiseFloor(
+        heldout_log_score=prediction.expected_score,
+        free_run_error=noise / prediction.scales[0],
+        attractor_distance=_distance(apart["noise_floor"]),
+        d2=_dimension_of(dimensions["recorded"]),
+    )
+    horizon = HorizonLength(outcome.horizon.number, outcome.horizon.unit)
+    last = models.get("after", models["before"])
+    return Behaviour(
+        before=models["before"],
+        after=models.get("after"),
+        noise_floor=floor,
+        units=replace(UNITS, valid_prediction_time=horizon.unit),
+        horizon=horizon,
+        says=said(last, floor, horizon, strobed, driven=not d.shown.free, white=d.settings.name.white),
+    )
+
+
+def _behaviour(prediction: Prediction, horizon: Horizon, apart: Apart, dimension: Estimate) -> ModelBehaviour:
+    return ModelBehaviour(
+        heldout_log_score=prediction.log_score,
+        free_run_error=prediction.nrmse,
+        valid_prediction_time=ValidTime(
+            prediction.valid_time / horizon.unit_time, bool(prediction.valid_time >= prediction.lead[-1])
+        ),
+        attractor_distance=_distance(apart),
+        largest_exponent=_exponent(prediction),
+        d2=_dimension_of(dimension),
+        whiteness=Chance(prediction.white),
+    )
 
 
 def _no_distances(names: Iterable[str]) -> dict[str, Apart]:
@@ -101,22 +124,21 @@ def _no_dimensions(names: Iterable[str]) -> dict[str, Estimate]:
     return dict.fromkeys((*names, "recorded"), Estimate.refused(TRANSIENT, "The motion dies away."))
 
 
-def _distance(apart: Apart) -> dict[str, Any]:
-    return {"value": apart.value, "p": apart.chance, "status": apart.status}
+def _distance(apart: Apart) -> Distance:
+    return Distance(apart.value, apart.chance, apart.status)
 
 
-def _exponent(prediction: Prediction) -> dict[str, Any]:
+def _exponent(prediction: Prediction) -> ExponentInterval:
     """Return the exponent with an interval from the scatter over blocks of the recording."""
     value, blocks = prediction.exponent, exponent_blocks(prediction.rates)
     if not len(blocks) or not math.isfinite(value):
-        return {"value": value, "low": math.nan, "high": math.nan, "status": "too_short"}
+        return ExponentInterval(value, math.nan, math.nan, "too_short")
     half = STUDENT * float(np.std(blocks, ddof=1)) / math.sqrt(len(blocks))
-    return {"value": value, "low": value - half, "high": value + half, "status": "ok"}
+    return ExponentInterval(value, value - half, value + half, "ok")
 
 
-def _estimate(estimate: Estimate) -> dict[str, Any]:
-    interval = {"value": estimate.value, "low": estimate.low, "high": estimate.high}
-    return {**interval, "status": estimate.status, "says": estimate.says}
+def _dimension_of(estimate: Estimate) -> DimensionInterval:
+    return DimensionInterval(estimate.value, estimate.low, estimate.high, estimate.status, estimate.says)
 
 
 def _dimensions(seen: Seen, rng: np.random.Generator) -> dict[str, Estimate]:

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from typing import Any
+from dataclasses import replace
 
 import numpy as np
 
+from lostmotion.contracts import Term
 from lostmotion.inference.natural import term_of
 from lostmotion.quantities import TIME
 from lostmotion.report.words import spoken
+from lostmotion.results.diagnosis import Mechanism, OpenTerm
 from lostmotion.settings import DEFAULT, Name
 from lostmotion.stages.compare import Prediction
-from lostmotion.stages.diagnose import Diagnosis
+from lostmotion.stages.diagnose import Diagnosed
 
 NAMED, LIKELY, OPEN = "named", "likely", "open"
 
@@ -23,7 +25,7 @@ def holds(after: Prediction, floor: float, limits: Name = DEFAULT.name) -> bool:
     return math.isfinite(after.nrmse) and not after.nrmse > max(limits.error, limits.error_noise * floor)
 
 
-def probability_of(d: Diagnosis, key: str) -> float:
+def probability_of(d: Diagnosed, key: str) -> float:
     """Return the probability that a term is at work, or one that no recording of this kind can tell from it."""
     term, _ = term_of(d.after.problem, key)
     kin = [
@@ -32,11 +34,11 @@ def probability_of(d: Diagnosis, key: str) -> float:
     return min(sum(d.selection.inclusion(k) for k in {key, *kin}), 1.0)
 
 
-def _same(term: Any, other: Any) -> bool:
+def _same(term: Term, other: Term) -> bool:
     return other.name in term.equals or term.name in other.equals
 
 
-def doubts_of(d: Diagnosis, key: str) -> list[str]:
+def doubts_of(d: Diagnosed, key: str) -> list[str]:
     """Return why a term that was found is no more than likely, in sentences; none where it is named."""
     term, _ = term_of(d.after.problem, key)
     imitates = term.unlikely > 0.0 or term.acts != "motion"
@@ -44,7 +46,7 @@ def doubts_of(d: Diagnosis, key: str) -> list[str]:
     return [*_less_sure(d, key), *_decided_late(d, key), *_beside(d, key), *steady, *_unusual(d, key)]
 
 
-def _less_sure(d: Diagnosis, key: str) -> Iterator[str]:
+def _less_sure(d: Diagnosed, key: str) -> Iterator[str]:
     p = probability_of(d, key)
     if p > d.settings.name.sure:
         return
@@ -53,7 +55,7 @@ def _less_sure(d: Diagnosis, key: str) -> Iterator[str]:
     yield f"Its probability is {p:.2g}{rivals}."
 
 
-def _decided_late(d: Diagnosis, key: str) -> Iterator[str]:
+def _decided_late(d: Diagnosed, key: str) -> Iterator[str]:
     """Yield a sentence where held-out data had to decide between a term and a smooth force."""
     chosen = d.selection.chosen.problem.active
     if chosen in d.selection.scored and key in d.selection.unbeaten:
@@ -63,7 +65,7 @@ def _decided_late(d: Diagnosis, key: str) -> Iterator[str]:
         )
 
 
-def _beside(d: Diagnosis, key: str) -> Iterator[str]:
+def _beside(d: Diagnosed, key: str) -> Iterator[str]:
     """Yield a sentence where much has no name beside a term: as a learned curve, or as a random force."""
     limits = d.settings.name
     if d.learned and won_by(d, key) < limits.beside * d.learned.gain:
@@ -77,14 +79,14 @@ def _beside(d: Diagnosis, key: str) -> Iterator[str]:
             yield f"Of the force that was missing, {share:.0%} is still missing with it."
 
 
-def won_by(d: Diagnosis, key: str) -> float:
+def won_by(d: Diagnosed, key: str) -> float:
     """Return the log weight that a found term adds to the other found ones; to the nominal model where no one knows."""
     visits, terms = d.selection.visits, frozenset(d.named)
     here, less = visits.get(terms), visits.get(terms - {key})
     return here.weight - less.weight if here and less else d.selection.gain(key)
 
 
-def _others(d: Diagnosis, key: str) -> list[str]:
+def _others(d: Diagnosed, key: str) -> list[str]:
     """Return the terms of other sets without this one that have a share of the posterior, in words."""
     found = d.selection.chosen.problem.active
     sets = [terms for terms, p in d.selection.probabilities().items() if key not in terms and p > d.settings.name.rival]
@@ -92,7 +94,7 @@ def _others(d: Diagnosis, key: str) -> list[str]:
     return [spoken(term_of(d.before.problem, k)[0].name) for k in names]
 
 
-def unsteady(d: Diagnosis, key: str) -> Iterator[str]:
+def unsteady(d: Diagnosed, key: str) -> Iterator[str]:
     """Yield a sentence for each level of another found term that moves far when this one comes in."""
     chosen = d.selection.chosen
     without = d.selection.visits.get(chosen.problem.active - {key})
@@ -111,12 +113,12 @@ def unsteady(d: Diagnosis, key: str) -> Iterator[str]:
             )
 
 
-def _called(d: Diagnosis, key: str) -> str:
+def _called(d: Diagnosed, key: str) -> str:
     name = spoken(term_of(d.before.problem, key)[0].name)
     return name[:1].upper() + name[1:]
 
 
-def _unusual(d: Diagnosis, key: str) -> Iterator[str]:
+def _unusual(d: Diagnosed, key: str) -> Iterator[str]:
     """Yield a sentence on a delay that is longer than acquisition systems have, or that one frequency cannot show."""
     term, slots = term_of(d.after.problem, key)
     late = [s for s in slots if s.param.dimension == TIME and s.key in d.after.values]
@@ -128,20 +130,20 @@ def _unusual(d: Diagnosis, key: str) -> Iterator[str]:
         yield f"A delay of {share:.0%} of a natural period is unusual: measure the time between the channels by itself."
 
 
-def doubted(entry: dict[str, Any], sure: float = DEFAULT.name.sure) -> dict[str, Any]:
+def doubted(entry: Mechanism, sure: float = DEFAULT.name.sure) -> Mechanism:
     """Return an entry of what was found: with a doubt it is likely, with a probability of `sure` at most."""
-    if not entry.get("doubts") or entry.get("state") not in (NAMED, LIKELY):
+    if not entry.doubts or entry.state not in (NAMED, LIKELY):
         return entry
-    return {**entry, "state": LIKELY, "probability": min(entry["probability"], sure)}
+    return replace(entry, state=LIKELY, probability=min(entry.probability, sure))
 
 
-def in_order(found: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
+def in_order(found: Sequence[Mechanism]) -> tuple[Mechanism, ...]:
     """Return the entries of what was found, what is named first and what is open last."""
     order = (NAMED, LIKELY, OPEN)
-    return sorted(found, key=lambda entry: order.index(entry["state"]))
+    return tuple(sorted(found, key=lambda entry: order.index(entry.state)))
 
 
-def open_of(d: Diagnosis) -> list[dict[str, Any]]:
+def open_of(d: Diagnosed) -> tuple[OpenTerm, ...]:
     """Return the terms that stay open: they would raise the likelihood, and something speaks against a name.
 
     What was found and taken back comes first: it came closest.
@@ -151,17 +153,13 @@ def open_of(d: Diagnosis) -> list[dict[str, Any]]:
         (d.selection.unbeaten, "a small smooth force that nobody has named explains as much"),
         (d.selection.declined, "what is left over has a memory, so that this gain is not believed"),
     ]
-    rows: dict[str, dict[str, Any]] = {}
+    rows: dict[str, OpenTerm] = {}
     for keys, why in reasons:
         for key in sorted(keys - set(d.found) - set(rows)):
             if key not in d.before.problem.system.keys:
                 continue
             term, _ = term_of(d.before.problem, key)
+            p = d.selection.inclusion(key) if key not in d.withdrawn else 0.0
             says = f"{_called(d, key)} would raise the likelihood, but {why}."
-            rows[key] = {
-                "mechanism": term.name,
-                "at": term.at,
-                "probability": d.selection.inclusion(key) if key not in d.withdrawn else 0.0,
-                "says": says,
-            }
-    return list(rows.values())
+            rows[key] = OpenTerm(term.name, term.at, p, says)
+    return tuple(rows.values())

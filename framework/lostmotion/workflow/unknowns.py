@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any
+from dataclasses import replace
 
 import numpy as np
 from scipy.ndimage import maximum_filter
 
+from lostmotion.codec import Cells
 from lostmotion.contracts import Array, place_of
 from lostmotion.inference.curves import Band, band_of, motions_of
 from lostmotion.inference.learned import names_of
@@ -23,7 +24,10 @@ from lostmotion.inference.unexplained import Unknown
 from lostmotion.quantities import LENGTH, NUMBER, SPEED, TIME, Dimension
 from lostmotion.report.words import spoken
 from lostmotion.results import Interval
-from lostmotion.stages.diagnose import Diagnosis, Located
+from lostmotion.results.diagnosis import LearnedCurve, LookAlike, Mechanism, ProposedFormula
+from lostmotion.results.mismatch import ForceDependence
+from lostmotion.stages.diagnose import Diagnosed, Located
+from lostmotion.workflow.states import OPEN
 
 OVER: dict[str, tuple[str, Dimension]] = {
     "position": ("x", LENGTH),
@@ -40,38 +44,40 @@ BAND = 1.96
 RATIO = "the robust likelihood ratio of a curve over each covariate in the filter"
 
 
-def learned_entry(d: Diagnosis) -> dict[str, Any]:
+def learned_entry(d: Diagnosed) -> Mechanism:
     """Return the entry of a mismatch that learned curves explain where the library does not."""
     unknown = d.learned
     if unknown is None:
         raise ValueError("a diagnosis without learned curves has no entry for them")
     bands = [band_of(unknown.fit, key) for key in unknown.keys]
-    curves = [_curve(d, key, band) for key, band in zip(unknown.keys, bands, strict=True)]
+    curves = tuple(_curve(d, key, band) for key, band in zip(unknown.keys, bands, strict=True))
     rms, sd = _size(d, unknown.keys, bands)
     unit = _unit_of(d, Dimension(1, 0, 0))
     size = Interval(rms, max(rms - BAND * sd, 0.0), rms + BAND * sd, unit)
     depends = names_of(unknown.terms)
     share = rms / d.after.problem.scales.force
     size_of = f"{rms:.3g} {unit} rms, {share:.2%} of {d.yardstick}"
-    alike, looks = _looks(d)
+    alike, share_of_likeness, looks = _looks(d)
     text = f"A force of {size_of}, is missing {_why_unnamed(d, unknown)}"
-    return {
-        "mechanism": "unknown",
-        "at": unknown.terms[0].at,
-        "probability": unknown.probability,
-        "log_odds": unknown.gain,
-        "depends_on": depends,
-        "parameters": {"rms": size.as_dict()},
-        "curve": curves[0],
-        "curves": curves,
-        "proposal": _proposal(d, bands),
-        **alike,
-        "share_of_drive": share,
-        "says": f"{text}: it depends on {listed(depends)}{looks} and is modelled by a learned curve.",
-    }
+    return Mechanism(
+        mechanism="unknown",
+        at=unknown.terms[0].at,
+        probability=unknown.probability,
+        state=OPEN,
+        log_odds=unknown.gain,
+        depends_on=tuple(depends),
+        parameters={"rms": size},
+        curve=curves[0],
+        curves=curves,
+        proposal=_proposal(d, bands),
+        looks_like=alike,
+        share_of_likeness=share_of_likeness,
+        share_of_drive=share,
+        says=f"{text}: it depends on {listed(depends)}{looks} and is modelled by a learned curve.",
+    )
 
 
-def _why_unnamed(d: Diagnosis, unknown: Unknown) -> str:
+def _why_unnamed(d: Diagnosed, unknown: Unknown) -> str:
     """Return why a learned force has no name: none explains it, or a smooth force explains as much as the best one."""
     selection = d.selection
     as_good = [key for key in selection.unbeaten if selection.gain(key) > unknown.gain - d.settings.select.decisive]
@@ -83,23 +89,26 @@ def _why_unnamed(d: Diagnosis, unknown: Unknown) -> str:
     return f"that has no certain name, since {name} explains it and a smooth force explains as much"
 
 
-def _looks(d: Diagnosis) -> tuple[dict[str, Any], str]:
-    """Return what a learned force looks like along the recorded motion: as an entry, and in words; or nothing."""
+def _looks(d: Diagnosed) -> tuple[tuple[LookAlike, ...], float | None, str]:
+    """Return which terms a learned force looks like along the motion, their share of its variance, and both in words.
+
+    Where it looks like none there is no share either.
+    """
     if d.learned is None or d.left is None:
-        return {}, ""
+        return (), None, ""
     force = np.sum([d.laws[key] for key in d.learned.keys], axis=0)
     problem = d.after.problem.on((d.shown,))
     found = likeness(problem, d.after.theta, d.left.missing.states, force)
     if found is None:
-        return {}, ""
+        return (), None, ""
     terms = [term_of(problem, key)[0] for key in found.keys]
     several = len(problem.system.model.interfaces) > 1
     names = [spoken(term.name) + (f" at {term.at}" if several else "") for term in terms]
-    entry = {"looks_like": [{"mechanism": t.name, "at": t.at} for t in terms], "share_of_likeness": found.share}
-    return entry, f", looks like {' and '.join(names)} ({found.share:.0%} of its variance)"
+    alike = tuple(LookAlike(term.name, term.at) for term in terms)
+    return alike, found.share, f", looks like {' and '.join(names)} ({found.share:.0%} of its variance)"
 
 
-def unnamed_entry(d: Diagnosis) -> dict[str, Any]:
+def unnamed_entry(d: Diagnosed) -> Mechanism:
     """Return the entry of a force that neither a term nor a curve explains: structured ("unknown") or not."""
     located = d.left or d.located
     depends = [] if d.found else located.structure
@@ -108,20 +117,21 @@ def unnamed_entry(d: Diagnosis) -> dict[str, Any]:
     share = rms / d.after.problem.scales.force
     size = f"{rms:.3g} {unit} rms, {share:.1%} of {d.yardstick}"
     on = f"depends on {listed(depends)}" if depends else "depends on nothing that was recorded"
-    return {
-        "mechanism": "unknown" if depends else "random_force",
-        "probability": 1.0 - math.exp(-d.random_gain),
-        "parameters": {"rms": Interval(rms, rms, rms, unit).as_dict()},
-        "depends_on": depends,
-        "says": f"A force of {size}, is missing; no term explains it; it {on}.",
-    }
+    return Mechanism(
+        mechanism="unknown" if depends else "random_force",
+        probability=1.0 - math.exp(-d.random_gain),
+        state=OPEN,
+        depends_on=tuple(depends),
+        parameters={"rms": Interval(rms, rms, rms, unit)},
+        says=f"A force of {size}, is missing; no term explains it; it {on}.",
+    )
 
 
-def _unit_of(d: Diagnosis, dimension: Dimension) -> str:
+def _unit_of(d: Diagnosed, dimension: Dimension) -> str:
     return dimension.unit(d.after.problem.system.model.motion)
 
 
-def _size(d: Diagnosis, keys: Sequence[str], bands: Sequence[Band]) -> tuple[float, float]:
+def _size(d: Diagnosed, keys: Sequence[str], bands: Sequence[Band]) -> tuple[float, float]:
     """Return the rms of the learned force along the recording, and its standard error: that of the least sure curve."""
     law = np.sum([d.laws[key] for key in keys], axis=0)
     rms = float(np.sqrt(np.mean(law**2)))
@@ -135,35 +145,38 @@ def _doubt(band: Band) -> float:
     return math.sqrt(max(float(direction @ band.covariance @ direction), 0.0)) / norm
 
 
-def _curve(d: Diagnosis, key: str, band: Band) -> dict[str, Any]:
-    """Return a learned curve with its band of 95 %, as lists in SI units; a surface as lists of lists.
-
-    One with a memory tells in which time (s) it forgets.
-    """
-    term, shape = band.term, (len(band.at), -1) if band.beside is not None else (len(band.at),)
-    low, high = band.mean - BAND * band.sd, band.mean + BAND * band.sd
-    entry = {
-        "over": term.over,
-        "at_place": term.at,
-        "unit": _unit_of(d, OVER[term.over][1]),
-        "force_unit": _unit_of(d, term.params[0].dimension),
-        "times": term.times,
-        "at": band.at.tolist(),
-        "force": band.mean.reshape(shape).tolist(),
-        "low": low.reshape(shape).tolist(),
-        "high": high.reshape(shape).tolist(),
-    }
+def _curve(d: Diagnosed, key: str, band: Band) -> LearnedCurve:
+    """Return a learned curve with its band of 95 %; of a surface, tables. One with a memory tells when it forgets."""
+    term, half = band.term, BAND * band.sd
+    curve = LearnedCurve(
+        over=term.over,
+        at_place=term.at,
+        unit=_unit_of(d, OVER[term.over][1]),
+        force_unit=_unit_of(d, term.params[0].dimension),
+        times=term.times,
+        at=tuple(band.at.tolist()),
+        force=_cells(band, band.mean),
+        low=_cells(band, band.mean - half),
+        high=_cells(band, band.mean + half),
+    )
     if band.beside is not None and isinstance(term, Surface):
-        unit = _unit_of(d, OVER[term.beside][1])
-        entry |= {"over_too": term.beside, "unit_too": unit, "at_too": band.beside.tolist()}
-        entry["visited"] = _visited(d, band, term).tolist()
+        unit, at_too = _unit_of(d, OVER[term.beside][1]), tuple(band.beside.tolist())
+        seen = tuple(map(tuple, _visited(d, band, term).tolist()))
+        curve = replace(curve, over_too=term.beside, unit_too=unit, at_too=at_too, visited=seen)
     if isinstance(term, OverHistory):
         problem = d.after.problem
-        entry["forgets_in"] = float(problem.known[problem.system.index[f"{key}.time"]])
-    return entry
+        curve = replace(curve, forgets_in=float(problem.known[problem.system.index[f"{key}.time"]]))
+    return curve
 
 
-def _visited(d: Diagnosis, band: Band, term: Surface) -> Array:
+def _cells(band: Band, values: Array) -> tuple[Cells, ...]:
+    """Return the values of a curve (points,), or those of a surface in rows over its first axis."""
+    if band.beside is None:
+        return tuple(values.tolist())
+    return tuple(map(tuple, values.reshape(len(band.at), -1).tolist()))
+
+
+def _visited(d: Diagnosed, band: Band, term: Surface) -> Array:
     """Return which cells (points, points) of the grid of a surface the motion came to, and their neighbours."""
     problem, beside = d.after.problem, np.asarray(band.beside)
     place = place_of(problem.system.model, term)
@@ -178,19 +191,19 @@ def _visited(d: Diagnosis, band: Band, term: Surface) -> Array:
     return np.asarray(maximum_filter(seen, size=3))
 
 
-def _proposal(d: Diagnosis, bands: list[Band]) -> dict[str, Any]:
+def _proposal(d: Diagnosed, bands: list[Band]) -> ProposedFormula:
     """Return the formula that a sparse regression proposes for each curve, marked as no more than that."""
     parts, shares = [], []
     for band in bands:
         formula = _formula(d, band)
         if formula is None:
-            return {"formula": None, "says": NONE_FITS}
+            return ProposedFormula(formula=None, says=NONE_FITS)
         parts.append(formula[0])
         shares.append(formula[1])
-    return {"formula": " + ".join(parts), "share_of_curve": min(shares), "says": NOT_FOUND}
+    return ProposedFormula(formula=" + ".join(parts), share_of_curve=min(shares), says=NOT_FOUND)
 
 
-def _formula(d: Diagnosis, band: Band) -> tuple[str, float] | None:
+def _formula(d: Diagnosed, band: Band) -> tuple[str, float] | None:
     if band.beside is not None or band.term.over == "history":
         return None
     axis = Axis(*OVER[band.term.over], band.term.params[0].dimension, d.after.problem.system.model.motion)
@@ -200,7 +213,7 @@ def _formula(d: Diagnosis, band: Band) -> tuple[str, float] | None:
     return (f"{band.term.times} ({found.text})" if band.term.times else found.text), found.share
 
 
-def unknown_odds(d: Diagnosis) -> tuple[float, float]:
+def unknown_odds(d: Diagnosed) -> tuple[float, float]:
     """Return the probability that something is at work which the library does not have, and the log evidence for it."""
     if d.learned:
         return d.learned.probability, d.learned.gain
@@ -209,21 +222,21 @@ def unknown_odds(d: Diagnosis) -> tuple[float, float]:
     return 1.0 - math.exp(-d.random_gain), d.random_gain
 
 
-def where(located: Located, learned: Unknown | None = None) -> dict[str, Any]:
+def where(located: Located, learned: Unknown | None = None) -> ForceDependence:
     """Return what a force depends on: a sentence, shares of its variance, and which covariates are beyond chance."""
     explained, summary = located.explained, located.summary
     if learned:
         summary = f"a function of {listed(names_of(learned.terms))}, as the learned curve has it; by itself: {summary}"
     by_share = {name: share.p for name, share in explained.items()}
     against = RATIO if located.odds else f"{SURROGATES} phase-randomised surrogates"
-    return {
-        "summary": summary,
-        "explained_by": located.shares,
-        "standard_error": {name: share.error for name, share in explained.items()},
-        "log_likelihood_ratio": {name: ratio.log for name, ratio in located.odds.items()},
-        "robust_log_likelihood_ratio": {name: ratio.robust for name, ratio in located.odds.items()},
-        "p_value": p_values(located.odds) if located.odds else by_share,
-        "p_value_of_share": by_share,
-        "significant": located.significant,
-        "against": f"{against}, at {located.limits.level:.0%} over all covariates together",
-    }
+    return ForceDependence(
+        summary=summary,
+        explained_by=located.shares,
+        standard_error={name: share.error for name, share in explained.items()},
+        log_likelihood_ratio={name: ratio.log for name, ratio in located.odds.items()},
+        robust_log_likelihood_ratio={name: ratio.robust for name, ratio in located.odds.items()},
+        p_value=p_values(located.odds) if located.odds else by_share,
+        p_value_of_share=by_share,
+        significant=tuple(located.significant),
+        against=f"{against}, at {located.limits.level:.0%} over all covariates together",
+    )

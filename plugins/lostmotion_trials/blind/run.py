@@ -14,7 +14,6 @@ from lostmotion.errors import LostMotionError, PlaceError
 from lostmotion.provenance import digest, provenance
 from lostmotion.registry import Registry
 from lostmotion.storage import folder_for, save_json
-from lostmotion.workflow.answer import read_answer
 from lostmotion.workflow.campaign import Campaign, Trial
 from lostmotion.workflow.diagnose import run_diagnosis
 from lostmotion_trials.blind.commitment import Blind, concealed, label, publish
@@ -41,7 +40,7 @@ class Diagnoser:
         place = self.cases / label(number)
         shutil.rmtree(place / "diagnosis", ignore_errors=True)
         try:
-            run_diagnosis(
+            found = run_diagnosis(
                 place / "case.toml", place / "diagnosis", _registry(self.plugins), seed=number, jobs=1, propose=False
             )
         except PlaceError:
@@ -50,7 +49,7 @@ class Diagnoser:
             shutil.rmtree(place / "diagnosis", ignore_errors=True)
             return DiagnosedCase(label(number), "failed", " ".join(str(err).split()))
         (place / "diagnosis" / "arrays.nc").unlink()
-        return DiagnosedCase(label(number), "ok", " ".join(read_answer(place / "diagnosis").says))
+        return DiagnosedCase(label(number), "ok", " ".join(found.says))
 
 
 @dataclass(frozen=True)
