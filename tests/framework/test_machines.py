@@ -32,7 +32,7 @@ def test_leapfrog_goes_with_the_model(name):
     forces = {f"{key}.force": f for key, f in zip(system.keys, friction.values(), strict=True)}
     full, samples = system.vector({**values, **forces}), 120
     drive = signal_of(text, duration=10.0, rng=np.random.default_rng(0))
-    moved = machines._mover(system)(system, full, machines._Run(drive, rate, samples), np.array([0.5, 0.3]))
+    moved = machines._mover(system)(system, full, machines._DrivenRun(drive, rate, samples), np.array([0.5, 0.3]))
     assert machines.moved_by(system) == machines.INDEPENDENT
     known = {"force": drive.value, "base_position": drive.value, "base_velocity": drive.slope}
     inputs = [known[name] for name in system.model.driven]
@@ -70,7 +70,7 @@ def test_another_term_is_moved_by_the_model_itself():
     assert machines.moved_by(system) == machines.OWN
     drive = signal_of(FORCE, duration=10.0, rng=np.random.default_rng(0))
     bare = System(system.model)
-    run = machines._Run(drive, 600.0, 100)
+    run = machines._DrivenRun(drive, 600.0, 100)
     start = np.array([0.5, 0.0])
     own = machines._own(system, system.vector(LIN), run, start)
     assert np.abs(own - machines._lin(bare, bare.vector(LIN), run, start)).max() < 3e-5 * own.std()
