@@ -1,11 +1,13 @@
 """Distances between clouds of points, growth rates in blocks, and the table of before, after and noise floor."""
 
+from dataclasses import astuple
+
 import numpy as np
 import pytest
+import report_fixture as made
 
 from lostmotion.likelihood.observation import Observation
 from lostmotion.report import show
-from lostmotion.report.evidence import Evidence
 from lostmotion.signals.distances import distances, energy_distance, same_chance
 from lostmotion.workflow.attractors import MOST, distances_between, section
 from lostmotion.workflow.show_words import said
@@ -93,25 +95,11 @@ def test_sections_are_taken_at_the_phase_asked_for():
     assert MOST >= 200
 
 
-def made(augmented=True):
-    def measures(error, p):
-        return {
-            "heldout_log_score": 4.0,
-            "free_run_error": error,
-            "valid_prediction_time": {"value": 3.0, "or_longer": error < 0.1},
-            "attractor_distance": {"value": error, "p": p, "status": "ok"},
-            "largest_exponent": {"value": 1.0, "low": 0.8, "high": 1.2, "status": "ok"},
-            "d2": {"value": 2.1, "low": 2.0, "high": 2.2, "status": "ok", "says": ""},
-            "whiteness": {"p": p},
-        }
-
-    table = {"before": measures(0.3, 0.005), "noise_floor": measures(0.01, 0.5)}
-    del table["noise_floor"]["whiteness"], table["noise_floor"]["valid_prediction_time"]
-    if augmented:
-        table["after"] = measures(0.02, 0.4)
-    table["units"] = {"valid_prediction_time": "Lyapunov times", "largest_exponent": "1/s", "d2": "1"}
-    table["horizon"] = {"value": 0.5, "unit": "Lyapunov times"}
-    return {"found": [{}] if augmented else [], "show": {**table, "says": said(table, True)}}
+def facts_with(augmented=True):
+    """Return a diagnosis with the sentences of the measures as they are written."""
+    facts = (made.mismatch if augmented else made.adequate)()
+    facts["show"]["says"] = said(facts["show"], True)
+    return facts
 
 
 def plain(text):
@@ -120,24 +108,24 @@ def plain(text):
 
 @pytest.mark.parametrize(("free", "how"), [(False, "under the recorded drive"), (True, "left to itself")])
 def test_an_exponent_says_what_drove_the_model(free, how):
-    table = made()["show"]
+    table = made.show()
     assert said(table, not free, driven=not free)["largest_exponent"].startswith(f"Of the model {how}")
 
 
 def test_what_could_not_be_measured_keeps_its_sentence():
-    facts = made()
+    facts = facts_with()
     refused = {"value": None, "low": None, "high": None, "status": "too_short", "says": "Too few periods."}
     for column in ("before", "after", "noise_floor"):
         facts["show"][column]["d2"] = refused
     facts["show"]["says"] = said(facts["show"], True)
-    row = next(r for r in show.table(Evidence(facts, {}, {}, {})).rows if r[0] == "Correlation dimension")
+    row = next(r for r in show.table(made.evidence(facts)).rows if r[0] == "Correlation dimension")
     assert row[1:4] == ["–"] * 3
     assert "Too few periods." in row[4]
 
 
 def test_table_of_the_report_has_every_measure_with_a_sentence():
-    table = show.table(Evidence(made(), {}, {}, {}))
-    assert [row[0].partition(" (")[0] for row in table.rows] == list(show.NAMES.values())
+    table = show.table(made.evidence(facts_with()))
+    assert [row[0].partition(" (")[0] for row in table.rows] == list(astuple(show.NAMES))
     assert all(row[-1].endswith(".") for row in table.rows)
     distance = next(row for row in table.rows if row[0] == "Distance between attractors")
     assert [plain(cell) for cell in distance[1:4]] == ["0.3 (p = 0.005)", "0.02 (p = 0.4)", "0.01 (p = 0.5)"]
@@ -146,10 +134,14 @@ def test_table_of_the_report_has_every_measure_with_a_sentence():
 
 
 def test_table_of_an_adequate_model_has_one_model():
-    table = show.table(Evidence(made(augmented=False), {}, {}, {}))
+    table = show.table(made.evidence(facts_with(augmented=False)))
     assert table.head[1] == "Model as it stands"
     assert all(len(row) == len(table.head) for row in table.rows)
 
 
-def test_report_without_a_show_has_no_table():
-    assert show.table(Evidence({"found": []}, {}, {}, {})).rows == []
+def test_a_model_whose_motion_was_not_measured_has_dashes():
+    facts = facts_with()
+    del facts["show"]["after"]
+    table = show.table(made.evidence(facts))
+    assert table.head[1:4] == ["Before", "After", "Noise floor or recording"]
+    assert {row[2] for row in table.rows} == {"–"}

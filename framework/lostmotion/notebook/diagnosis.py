@@ -11,11 +11,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from lostmotion.codec import from_plain
 from lostmotion.notebook.machine import FittedModel, fitted_of, machine_of
 from lostmotion.registry import Registry, default
 from lostmotion.report import learned, missing, page, portraits, posteriors, prediction, ranking, style
 from lostmotion.report.evidence import Evidence, evidence_with
 from lostmotion.results import FoundMechanism, HeldOut, Interval, Ranked
+from lostmotion.results.diagnosis import Diagnosis
 from lostmotion.storage import finite, folder_for, load_arrays, load_json, save_datasets, save_json, save_text
 from lostmotion.workflow.diagnose import Told
 
@@ -142,9 +144,8 @@ class DiagnosisResult:
 
     @cached_property
     def evidence(self) -> Evidence:
-        """Facts and arrays as figures take them."""
-        facts: Any = finite(self.content)
-        return evidence_with(facts, self.arrays)
+        """The result and its arrays as figures take them."""
+        return evidence_with(from_plain(Diagnosis, finite(self.content), "the diagnosis"), self.arrays)
 
     @property
     def plot(self) -> DiagnosisPlots:
