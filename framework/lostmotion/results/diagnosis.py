@@ -60,7 +60,7 @@ class Mechanism:
 
     mechanism: str = told("name of the mechanism; `unknown` or `random_force` where it has none")
     probability: float = told("posterior probability among the library, nothing missing and unknown")
-    state: str = told("named, likely or open")
+    state: str = told("`named`, `likely` or `open`")
     parameters: Mapping[str, Interval] = told("its parameters by name")
     says: str = told("the finding, in a sentence")
     at: str = told(
@@ -154,7 +154,7 @@ class HeldOutScores:
 
     before: HeldOutScore = told("of the nominal model")
     after: HeldOutScore = told("of the model with what was found")
-    noise_floor_nrmse: float = told("the share of the held-out readings that is noise")
+    noise_floor_nrmse: float = told("the error that measurement noise alone gives")
     horizon_unit: str = told("Lyapunov times, drive periods or natural periods")
     horizon_unit_time: float = told("length of that unit", unit="s")
 
@@ -203,7 +203,7 @@ class SensorFacts:
     channel: str = told("the channel of the model that it measures")
     unit: str = told("its unit")
     noise_sd: float = told("standard deviation of all its measurement noise, in `unit`")
-    kind: str = told("white, ar1 (slow) or quantised")
+    kind: str = told("`white`, `ar1` (slow) or `quantised`")
 
 
 @dataclass(frozen=True)
@@ -285,10 +285,12 @@ class Diagnosis:
 
     schema: str = told("name and number of this format", default=SCHEMA)
     title: str = told("title of the case")
-    verdict: str = told("adequate or mismatch")
+    verdict: str = told("`adequate`: nothing is missing that this recording can show; or `mismatch`")
     says: tuple[str, ...] = told("the answer, in sentences")
-    found: tuple[Mechanism, ...] = told("what the model leaves out, named ones first")
-    open: tuple[OpenTerm, ...] = told("terms that stay open")
+    found: tuple[Mechanism, ...] = told(
+        "what the model leaves out, named ones first; empty where the verdict is `adequate`"
+    )
+    open: tuple[OpenTerm, ...] = told("terms that would raise the likelihood and stay without a name")
     ranking: tuple[Candidate, ...] = told("every candidate, the most probable first")
     confused_with: tuple[Confusion, ...] = told("what this recording cannot tell from what was found")
     unexplained: Missing = told("the random force that is left")
@@ -312,5 +314,5 @@ class Diagnosis:
     recordings: tuple[RecordingFacts, ...] = told("the recordings of the case")
     notes: tuple[str, ...] = told("what makes the answer less certain, in sentences")
     provenance: Origin = told("where the result comes from")
-    decay: Decays | None = told("free decays, where the recording has any", default=None)
-    sharing: Sharing | None = told("what several recordings share", default=None)
+    decay: Decays | None = told("free decays, of recordings that nothing drives and of hammer tests", default=None)
+    sharing: Sharing | None = told("what several recordings share; absent of one recording", default=None)
