@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import xarray as xr
 
 from lostmotion.errors import DataError
 from lostmotion.report.analysis import SECTIONS, render, write_analysis
@@ -68,8 +69,18 @@ def _words(page):
     return html.unescape(re.sub(r"<[^>]+>", " ", re.sub(r"<(svg|style).*?</\1>", "", page, flags=re.DOTALL)))
 
 
+def _holding(evidence, arrays):
+    """Return evidence with these arrays in place of its own, each with dimensions of its own."""
+    text = {name: values.to_numpy() for name, values in evidence.data.variables.items() if name not in evidence.arrays}
+    held = {
+        name: ([f"{name} {axis}" for axis in range(values.ndim)], values, evidence.data[name].attrs)
+        for name, values in {**arrays, **text}.items()
+    }
+    return replace(evidence, data=xr.Dataset(held))
+
+
 def _said(evidence, **facts):
-    return replace(evidence, facts={**evidence.facts, **facts}, arrays={})
+    return replace(_holding(evidence, {}), facts={**evidence.facts, **facts})
 
 
 def test_page_is_written_into_the_folder(folders):
@@ -118,15 +129,15 @@ def test_figures_without_arrays_are_left_out(pages, kind, absent):
 def test_any_group_of_arrays_may_be_absent(whole, start):
     exact = start in ("x", "section")
     gone = [name for name in whole.arrays if name == start or (not exact and name.startswith(start))]
-    less = replace(whole, arrays={name: v for name, v in whole.arrays.items() if name not in gone})
+    less = _holding(whole, {name: v for name, v in whole.arrays.items() if name not in gone})
     drawn = [section.name for section in SECTIONS if section.draw(less) is not None]
     assert gone
     assert [name for name in ALL if name not in drawn] == [n for n in ALL if n in NEEDS[start] and n != "section"]
 
 
 def test_facts_alone_make_a_page(whole):
-    assert _sections(render(replace(whole, arrays={}))) == []
-    assert "Undecided" in render(replace(whole, facts={}, arrays={}))
+    assert _sections(render(_holding(whole, {}))) == []
+    assert "Undecided" in render(replace(_holding(whole, {}), facts={}))
 
 
 def test_numbers_stand_with_their_interval_and_unit(pages):
@@ -194,9 +205,9 @@ def test_same_results_give_the_same_page(folders, pages):
 
 def test_single_points_and_nothing_but_nan_are_borne(whole):
     empty = {name: np.full_like(values, np.nan) for name, values in whole.arrays.items()}
-    assert _sections(render(replace(whole, arrays=empty))) == []
+    assert _sections(render(_holding(whole, empty))) == []
     short = {name: values[..., :1] for name, values in whole.arrays.items() if name.startswith(("d2", "lyap", "emb"))}
-    assert render(replace(whole, arrays=short))
+    assert render(_holding(whole, short))
 
 
 def test_folder_without_an_analysis_is_refused(tmp_path):

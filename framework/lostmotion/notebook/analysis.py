@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from lostmotion.report import analysis as page
-from lostmotion.report.evidence import evidence_with
+from lostmotion.report.analysis_facts import AnalysisEvidence
 from lostmotion.storage import finite, folder_for, load_arrays, load_json, save_datasets, save_json, save_text
 
 if TYPE_CHECKING:
@@ -47,7 +47,7 @@ class AnalysisResult:
 
     def report(self, path: str | Path = "report.html") -> Path:
         """Return the path of the page that was written: self-contained HTML."""
-        return save_text(Path(path), page.render(evidence_with(self.to_dict(), self.arrays)))
+        return save_text(Path(path), page.render(AnalysisEvidence(self.arrays, self.to_dict())))
 
     def save(self, folder: str | Path) -> Path:
         """Return the folder into which `analysis.json`, `analysis.nc` and `report.html` were written."""

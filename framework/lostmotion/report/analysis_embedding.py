@@ -10,8 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from lostmotion.report import style
-from lostmotion.report.analysis_facts import Shown, listed, versions
-from lostmotion.report.evidence import Evidence
+from lostmotion.report.analysis_facts import AnalysisEvidence, Shown, listed, versions
 from lostmotion.report.words import DASH, figures, shortened, spoken
 
 CLEAN, RAW = "embedding_", "embedding_raw_"
@@ -20,7 +19,7 @@ CAO = (("e1", "E1", "o", "-"), ("e2", "E2", "s", (0, (4, 2))))
 UNITS = {"nat": "nat", "bit": "bit"}
 
 
-def delay(evidence: Evidence) -> Figure | None:
+def delay(evidence: AnalysisEvidence) -> Figure | None:
     """Return mutual information and autocorrelation over the lag, with the chosen one marked."""
     names = [name for name in ("ami", "autocorrelation") if _able(evidence, name, "lag")]
     if not names:
@@ -43,7 +42,7 @@ def delay(evidence: Evidence) -> Figure | None:
     return figure
 
 
-def delay_caption(evidence: Evidence) -> str:
+def delay_caption(evidence: AnalysisEvidence) -> str:
     """Return what the figure of the delay shows."""
     seconds, method = evidence.number("delay", "seconds"), evidence.fact("delay", "method")
     chosen = (
@@ -60,7 +59,7 @@ def delay_caption(evidence: Evidence) -> str:
     )
 
 
-def dimension(evidence: Evidence) -> Figure | None:
+def dimension(evidence: AnalysisEvidence) -> Figure | None:
     """Return Cao's E1 and E2 and the share of false neighbours over the dimension, raw and cleaned."""
     able = [name for name, axis in (("e1", "dim"), ("fnn", "dim_fnn")) if _able(evidence, name, axis)]
     if not able:
@@ -78,7 +77,7 @@ def dimension(evidence: Evidence) -> Figure | None:
     return figure
 
 
-def dimension_caption(evidence: Evidence) -> str:
+def dimension_caption(evidence: AnalysisEvidence) -> str:
     """Return what the figure of the dimension shows."""
     value = figures(evidence.number("dimension", "value"))
     chosen = f"dashed upright: the chosen dimension, {value}." if value != DASH else "no dimension was chosen."
@@ -99,15 +98,15 @@ def dimension_caption(evidence: Evidence) -> str:
     )
 
 
-def _able(evidence: Evidence, name: str, axis: str) -> bool:
+def _able(evidence: AnalysisEvidence, name: str, axis: str) -> bool:
     return any(evidence.has(prefix + name, prefix + axis) for prefix in (CLEAN, RAW))
 
 
-def _versions(evidence: Evidence, name: str) -> list[Shown]:
+def _versions(evidence: AnalysisEvidence, name: str) -> list[Shown]:
     return versions(evidence, RAW + name, CLEAN + name)
 
 
-def _draw_over(axes: Axes, evidence: Evidence, name: str, axis: str) -> None:
+def _draw_over(axes: Axes, evidence: AnalysisEvidence, name: str, axis: str) -> None:
     for key, words, colour in _versions(evidence, name):
         prefix = key.removesuffix(name)
         if evidence.has(prefix + axis):
@@ -115,14 +114,14 @@ def _draw_over(axes: Axes, evidence: Evidence, name: str, axis: str) -> None:
             axes.plot(evidence.arrays[prefix + axis], evidence.arrays[key], color=colour, label=label)
 
 
-def _longest(evidence: Evidence) -> float:
+def _longest(evidence: AnalysisEvidence) -> float:
     """Return the lag (s) up to which curves are drawn: some delays, so that the chosen one can be seen."""
     lags = np.concatenate([evidence.arrays[p + "lag"] for p in (CLEAN, RAW) if evidence.has(p + "lag")])
     seconds, last = evidence.number("delay", "seconds"), float(np.nanmax(lags))
     return min(last, DELAYS * seconds) if seconds > 0 else last or 1.0
 
 
-def _lower_start(axes: Axes, evidence: Evidence, name: str) -> None:
+def _lower_start(axes: Axes, evidence: AnalysisEvidence, name: str) -> None:
     """Cut off what a value tells about itself at lag 0, which would dwarf the rest."""
     keys = [shown.key for shown in _versions(evidence, name)]
     later = [np.nanmax(evidence.arrays[key][1:]) for key in keys if np.isfinite(evidence.arrays[key][1:]).any()]
@@ -130,13 +129,13 @@ def _lower_start(axes: Axes, evidence: Evidence, name: str) -> None:
         axes.set_ylim(0.0, 1.08 * float(max(later)))
 
 
-def _mark_delay(axes: Axes, evidence: Evidence) -> None:
+def _mark_delay(axes: Axes, evidence: AnalysisEvidence) -> None:
     seconds = evidence.number("delay", "seconds")
     if math.isfinite(seconds):
         axes.axvline(seconds, color=style.LAW, linewidth=1.2, linestyle=(0, (4, 2)), zorder=0.8, label="chosen")
 
 
-def _draw_floor(axes: Axes, evidence: Evidence, name: str) -> None:
+def _draw_floor(axes: Axes, evidence: AnalysisEvidence, name: str) -> None:
     if name == "autocorrelation":
         for level in (0.0, 1.0 / math.e):
             axes.axhline(level, color=style.QUIET, linewidth=0.8, linestyle=(0, (1, 2)), zorder=0.8)
@@ -148,7 +147,7 @@ def _draw_floor(axes: Axes, evidence: Evidence, name: str) -> None:
                   label="independent values")  # fmt: skip
 
 
-def _draw_cao(axes: Axes, evidence: Evidence) -> None:
+def _draw_cao(axes: Axes, evidence: AnalysisEvidence) -> None:
     for name, words, marker, line in CAO:
         found = _versions(evidence, name)
         for key, version, colour in found:
@@ -163,7 +162,7 @@ def _draw_cao(axes: Axes, evidence: Evidence) -> None:
     axes.legend(loc="lower right")
 
 
-def _draw_false(axes: Axes, evidence: Evidence) -> None:
+def _draw_false(axes: Axes, evidence: AnalysisEvidence) -> None:
     found = _versions(evidence, "fnn")
     for key, words, colour in found:
         prefix = key.removesuffix("fnn")

@@ -11,22 +11,21 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from lostmotion.report import style
-from lostmotion.report.analysis_facts import listed, period_of
-from lostmotion.report.evidence import Evidence
+from lostmotion.report.analysis_facts import AnalysisEvidence, listed, period_of
 from lostmotion.report.words import figures, pretty, shortened
 from lostmotion.results import STATUSES, Array
 
 DIMENSIONS = mpl.colormaps["viridis"]
 
 
-def natural(evidence: Evidence, value: float) -> float:
+def natural(evidence: AnalysisEvidence, value: float) -> float:
     """Return an exponent of the stated unit (1/s, bit/s, 1/period, bit/period) in 1/s, natural logarithm."""
     unit = str(evidence.fact("lyapunov", "unit") or "1/s")
     per_second = value / period_of(evidence) if unit.endswith("/period") else value
     return per_second * math.log(2.0) if unit.startswith("bit") else per_second
 
 
-def divergence(evidence: Evidence) -> Figure | None:
+def divergence(evidence: AnalysisEvidence) -> Figure | None:
     """Return the mean logarithm of the distance of neighbours over time with the fitted line, and its local slopes."""
     if not evidence.has("lyapunov_time", "lyapunov_divergence"):
         return None
@@ -40,7 +39,7 @@ def divergence(evidence: Evidence) -> Figure | None:
     return figure
 
 
-def divergence_caption(evidence: Evidence) -> str:
+def divergence_caption(evidence: AnalysisEvidence) -> str:
     """Return what the figure of the divergence shows."""
     members = (
         "thin: neighbours of other distances, as measured and shifted upright onto it; inside the shaded piece the "
@@ -55,7 +54,7 @@ def divergence_caption(evidence: Evidence) -> str:
     )
 
 
-def draw_divergence(axes: Axes, evidence: Evidence) -> None:
+def draw_divergence(axes: Axes, evidence: AnalysisEvidence) -> None:
     """Draw the curve, its variants, and the line that was fitted to it."""
     time, curve = evidence.arrays["lyapunov_time"], evidence.arrays["lyapunov_divergence"]
     members = evidence.arrays.get("lyapunov_members")
@@ -85,7 +84,7 @@ def draw_divergence(axes: Axes, evidence: Evidence) -> None:
     style.few_ticks(axes, 6, 6)
 
 
-def _draw_slopes(axes: Axes, evidence: Evidence) -> None:
+def _draw_slopes(axes: Axes, evidence: AnalysisEvidence) -> None:
     time, slope = evidence.arrays["lyapunov_time"], evidence.arrays["lyapunov_slope"]
     if slope.shape != time.shape:
         return
@@ -115,15 +114,15 @@ def _calm(slope: Array, inside: Array, value: float) -> tuple[float, float]:
     return (low - 0.15 * (top - low) if low < 0 else -0.1 * top, top + 0.6 * abs(top) + 1e-12)
 
 
-def _unit(evidence: Evidence) -> str:
+def _unit(evidence: AnalysisEvidence) -> str:
     return str(evidence.fact("lyapunov", "unit") or "1/s")
 
 
-def _fitted(evidence: Evidence) -> bool:
+def _fitted(evidence: AnalysisEvidence) -> bool:
     return all(map(math.isfinite, _line(evidence)))
 
 
-def _line(evidence: Evidence) -> tuple[float, float, float]:
+def _line(evidence: AnalysisEvidence) -> tuple[float, float, float]:
     """Return both ends (s) of the fitted piece, and its slope (1/s)."""
     begin, end = (evidence.number("lyapunov", "details", key) for key in ("fit_begin", "fit_end"))
     return begin, end, natural(evidence, evidence.number("lyapunov", "value"))
@@ -135,12 +134,12 @@ def _shift(member: Array, curve: Array) -> float:
     return float(np.mean(curve[both] - member[both])) if both.any() else 0.0
 
 
-def _refusal(evidence: Evidence, key: str) -> str:
+def _refusal(evidence: AnalysisEvidence, key: str) -> str:
     status = str(evidence.fact(key, "status") or "ok")
     return "" if status == "ok" else f"no number was read from it: {STATUSES.get(status, status)}."
 
 
-def correlation(evidence: Evidence) -> Figure | None:
+def correlation(evidence: AnalysisEvidence) -> Figure | None:
     """Return correlation sums and their slopes over the radius, one curve a dimension, and D2 over the dimension."""
     sums = evidence.has("d2_radius", "d2_log_correlation")
     slopes = evidence.has("d2_radius", "d2_slope")
@@ -155,7 +154,7 @@ def correlation(evidence: Evidence) -> Figure | None:
     return figure
 
 
-def correlation_caption(evidence: Evidence) -> str:
+def correlation_caption(evidence: AnalysisEvidence) -> str:
     """Return what the figure of the correlation dimension shows."""
     sums = "the share of pairs of states closer than a radius, one curve for each embedding dimension, and its slope."
     low, _, value = _plateau(evidence)
@@ -174,12 +173,12 @@ def correlation_caption(evidence: Evidence) -> str:
     )
 
 
-def _plateau(evidence: Evidence) -> tuple[float, float, float]:
+def _plateau(evidence: AnalysisEvidence) -> tuple[float, float, float]:
     low, high = (evidence.number("d2", "details", key) for key in ("r_low", "r_high"))
     return low, high, evidence.number("d2", "value")
 
 
-def _each(evidence: Evidence, name: str) -> list[tuple[Array, str, tuple[float, ...]]]:
+def _each(evidence: AnalysisEvidence, name: str) -> list[tuple[Array, str, tuple[float, ...]]]:
     """Return the curve of each dimension with its name and colour."""
     curves = np.atleast_2d(evidence.arrays[name])
     dims = evidence.arrays.get("d2_dim")
@@ -188,7 +187,7 @@ def _each(evidence: Evidence, name: str) -> list[tuple[Array, str, tuple[float, 
     return [(curve, f"{dim:g}", DIMENSIONS(shade)) for curve, dim, shade in zip(curves, dims, shades, strict=False)]
 
 
-def _draw_sums(axes: Axes, evidence: Evidence) -> None:
+def _draw_sums(axes: Axes, evidence: AnalysisEvidence) -> None:
     for curve, name, colour in _each(evidence, "d2_log_correlation"):
         axes.plot(evidence.arrays["d2_radius"], curve, color=colour, linewidth=1.1, label=name)
     _over_radius(axes, evidence)
@@ -199,7 +198,7 @@ def _draw_sums(axes: Axes, evidence: Evidence) -> None:
                 handlelength=1.2, columnspacing=0.8, frameon=True, framealpha=0.85, edgecolor="none")  # fmt: skip
 
 
-def _draw_local(axes: Axes, evidence: Evidence) -> None:
+def _draw_local(axes: Axes, evidence: AnalysisEvidence) -> None:
     tallest, least = 1.0, _smallest(evidence, evidence.arrays["d2_radius"])
     for curve, _, colour in _each(evidence, "d2_slope"):
         axes.plot(evidence.arrays["d2_radius"], curve, color=colour, linewidth=1.1)
@@ -211,7 +210,7 @@ def _draw_local(axes: Axes, evidence: Evidence) -> None:
     axes.set_ylabel("local slope")
 
 
-def _draw_interval(axes: Axes, evidence: Evidence) -> None:
+def _draw_interval(axes: Axes, evidence: AnalysisEvidence) -> None:
     low, high, value = (evidence.number("d2", key) for key in ("low", "high", "value"))
     if math.isfinite(low) and math.isfinite(high):
         axes.axhspan(low, high, color=style.BEFORE, alpha=0.22, linewidth=0, zorder=0.7)
@@ -219,7 +218,7 @@ def _draw_interval(axes: Axes, evidence: Evidence) -> None:
         axes.axhline(value, color=style.BEFORE, linewidth=1.4, linestyle=(0, (5, 2)))
 
 
-def _over_radius(axes: Axes, evidence: Evidence) -> None:
+def _over_radius(axes: Axes, evidence: AnalysisEvidence) -> None:
     radius = evidence.arrays["d2_radius"]
     unit = evidence.units.get("d2_radius") or evidence.units.get("x", "")
     axes.set_xscale("log")
@@ -233,7 +232,7 @@ def _over_radius(axes: Axes, evidence: Evidence) -> None:
     axes.set_xlabel(f"radius ({said})" if said else "radius")
 
 
-def _smallest(evidence: Evidence, radius: Array) -> float:
+def _smallest(evidence: AnalysisEvidence, radius: Array) -> float:
     """Return the radius from which most curves say something, a little less than that of the highest dimension."""
     name = "d2_log_correlation" if evidence.has("d2_log_correlation") else "d2_slope"
     last = np.atleast_2d(evidence.arrays[name])[-1]
@@ -244,7 +243,7 @@ def _smallest(evidence: Evidence, radius: Array) -> float:
     return max(least, wanted) if math.isfinite(wanted) else least
 
 
-def draw_dimensions(axes: Axes, evidence: Evidence) -> None:
+def draw_dimensions(axes: Axes, evidence: AnalysisEvidence) -> None:
     """Draw D2 with its interval over the embedding dimension, and that of surrogates."""
     dims, values = evidence.arrays["d2_dim"], evidence.arrays["d2_dimension_by_dim"]
     top = float(np.nanmax(dims)) + 0.5
@@ -267,7 +266,7 @@ def draw_dimensions(axes: Axes, evidence: Evidence) -> None:
     axes.legend(loc="upper left", fontsize=8)
 
 
-def _errors(evidence: Evidence, values: Array) -> Array | None:
+def _errors(evidence: AnalysisEvidence, values: Array) -> Array | None:
     if not evidence.has("d2_low_by_dim", "d2_high_by_dim"):
         return None
     low, high = evidence.arrays["d2_low_by_dim"], evidence.arrays["d2_high_by_dim"]

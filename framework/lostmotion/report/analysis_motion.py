@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 
 from lostmotion.report import style
 from lostmotion.report.analysis_facts import (
+    AnalysisEvidence,
     beat,
     delayed,
     folded,
@@ -22,7 +23,6 @@ from lostmotion.report.analysis_facts import (
     thinned,
     versions,
 )
-from lostmotion.report.evidence import Evidence
 from lostmotion.report.words import Scale, figures, pretty, shortened, with_unit
 from lostmotion.results import Array
 
@@ -35,7 +35,7 @@ BINS = 1200
 HARMONICS = 12
 
 
-def course(evidence: Evidence) -> Figure | None:
+def course(evidence: AnalysisEvidence) -> Figure | None:
     """Return some periods of the recording, with its excitation below if there is one, beside its phase portrait."""
     if not evidence.has("x"):
         return None
@@ -58,7 +58,7 @@ def course(evidence: Evidence) -> Figure | None:
     return figure
 
 
-def course_caption(evidence: Evidence) -> str:
+def course_caption(evidence: AnalysisEvidence) -> str:
     """Return what the figure of the course shows."""
     period = period_of(evidence)
     marks = f"dotted: the same phase of each period ({figures(period, 5)} s)." if math.isfinite(period) else ""
@@ -73,12 +73,12 @@ def course_caption(evidence: Evidence) -> str:
     )
 
 
-def _times(evidence: Evidence) -> Array:
+def _times(evidence: AnalysisEvidence) -> Array:
     time = evidence.arrays.get("time")
     return time if time is not None and time.size else np.arange(evidence.arrays["x"].size, dtype=float)
 
 
-def _window(evidence: Evidence) -> slice:
+def _window(evidence: AnalysisEvidence) -> slice:
     """Return the samples that are shown: some periods, or so many delays, from the middle of the recording."""
     time, period = _times(evidence), period_of(evidence)
     step = (time[-1] - time[0]) / max(1, time.size - 1)
@@ -88,7 +88,7 @@ def _window(evidence: Evidence) -> slice:
     return slice(first, first + length)
 
 
-def _draw_course(axes: Axes, evidence: Evidence, name: str, colour: str) -> None:
+def _draw_course(axes: Axes, evidence: AnalysisEvidence, name: str, colour: str) -> None:
     window, period = _window(evidence), period_of(evidence)
     time, values = _times(evidence)[window], evidence.arrays[name][window]
     shown = style.scale_of(values, shortened(evidence.units.get(name, ""), 12))
@@ -106,7 +106,9 @@ def _draw_course(axes: Axes, evidence: Evidence, name: str, colour: str) -> None
     axes.grid(visible=False, axis="x")
 
 
-def draw_portrait(axes: Axes, evidence: Evidence, what: tuple[str, str], shown: Scale, *, most: int = ORBIT) -> None:
+def draw_portrait(
+    axes: Axes, evidence: AnalysisEvidence, what: tuple[str, str], shown: Scale, *, most: int = ORBIT
+) -> None:
     """Draw a series against itself one delay later, from the middle of the recording."""
     key, colour = what
     values, lag = evidence.arrays[key], lag_of(evidence)
@@ -119,7 +121,7 @@ def draw_portrait(axes: Axes, evidence: Evidence, what: tuple[str, str], shown: 
     style.few_ticks(axes, 4, 5)
 
 
-def portraits(evidence: Evidence) -> Figure | None:
+def portraits(evidence: AnalysisEvidence) -> Figure | None:
     """Return the phase portrait before and after noise reduction on the same axes, or None without both."""
     both = versions(evidence, "x", "cleaned")
     if len(both) < 2:
@@ -140,7 +142,7 @@ PORTRAITS = (
 )
 
 
-def spectra(evidence: Evidence) -> Figure | None:
+def spectra(evidence: AnalysisEvidence) -> Figure | None:
     """Return the spectral density with the harmonics of the drive marked, and what is left without them."""
     if not evidence.has("frequency", "density"):
         return None
@@ -182,7 +184,7 @@ def _draw_whole(axes: Axes, frequency: Array, density: Array, edge: float) -> No
     axes.set_xlabel("frequency (Hz), up to half the sampling rate; shaded: the part above")
 
 
-def spectra_caption(evidence: Evidence) -> str:
+def spectra_caption(evidence: AnalysisEvidence) -> str:
     """Return what the figure of the spectrum shows."""
     parts = ["one-sided power spectral density of the recording."]
     if math.isfinite(period_of(evidence)):
@@ -224,7 +226,7 @@ def _tall(density: Array) -> tuple[float, float]:
     return max(float(np.quantile(positive, 0.002)) / 3.0, 1e-14 * top), 6.0 * top
 
 
-def _mark_harmonics(axes: Axes, evidence: Evidence, highest: float) -> None:
+def _mark_harmonics(axes: Axes, evidence: AnalysisEvidence, highest: float) -> None:
     period, said = period_of(evidence), f"harmonics of the {beat(evidence)}"
     if not math.isfinite(period):
         return
@@ -234,7 +236,7 @@ def _mark_harmonics(axes: Axes, evidence: Evidence, highest: float) -> None:
               transform=axes.get_xaxis_transform(), label=said)  # fmt: skip
 
 
-def sections(evidence: Evidence) -> Figure | None:
+def sections(evidence: AnalysisEvidence) -> Figure | None:
     """Return the section before and after noise reduction on the same axes, or the one there is."""
     both = versions(evidence, "section", "section_cleaned")
     if not both:
@@ -252,7 +254,7 @@ def sections(evidence: Evidence) -> Figure | None:
     return figure
 
 
-def draw_section(axes: Axes, evidence: Evidence, what: tuple[str, str], shown: Scale) -> None:
+def draw_section(axes: Axes, evidence: AnalysisEvidence, what: tuple[str, str], shown: Scale) -> None:
     """Draw the points (hits, 2) of one section."""
     key, colour = what
     points = thinned(shown.factor * evidence.arrays[key].reshape(-1, 2), ORBIT)
@@ -264,13 +266,13 @@ def draw_section(axes: Axes, evidence: Evidence, what: tuple[str, str], shown: S
     style.few_ticks(axes, 5, 5)
 
 
-def _later(evidence: Evidence, shown: Scale) -> tuple[str, str]:
+def _later(evidence: AnalysisEvidence, shown: Scale) -> tuple[str, str]:
     """Return the names of the axes of a section at a level that the recording crosses."""
     said = quantity(evidence)
     return with_unit(f"{said}, one delay later", shown.unit), with_unit(f"{said}, two delays later", shown.unit)
 
 
-def sections_caption(evidence: Evidence) -> str:
+def sections_caption(evidence: AnalysisEvidence) -> str:
     """Return what the figure of the section shows."""
     hits = len(evidence.arrays["section" if evidence.has("section") else "section_cleaned"])
     driven = math.isfinite(period_of(evidence))

@@ -9,12 +9,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from lostmotion.report import style
-from lostmotion.report.analysis_facts import read_analysis, scale
+from lostmotion.report.analysis_facts import AnalysisEvidence, read_analysis, scale
 from lostmotion.report.analysis_measures import draw_dimensions, draw_divergence
 from lostmotion.report.analysis_motion import draw_portrait, draw_section
-from lostmotion.report.evidence import Evidence
 
-Panel = Callable[[Axes, Evidence], None]
+Panel = Callable[[Axes, AnalysisEvidence], None]
 
 
 def figure_summary(folder: Path) -> Path:
@@ -23,7 +22,7 @@ def figure_summary(folder: Path) -> Path:
         return style.save(draw(read_analysis(folder)), folder / "summary.png")
 
 
-def draw(evidence: Evidence) -> Figure:
+def draw(evidence: AnalysisEvidence) -> Figure:
     """Return the panels side by side; one whose arrays are absent stays out."""
     panels = _panels(evidence)
     figure = style.blank(3.5, width=3.5 * max(1, len(panels)))
@@ -37,7 +36,7 @@ def draw(evidence: Evidence) -> Figure:
     return figure
 
 
-def _panels(evidence: Evidence) -> list[tuple[str, Panel]]:
+def _panels(evidence: AnalysisEvidence) -> list[tuple[str, Panel]]:
     able: tuple[tuple[str, Panel, bool], ...] = (
         ("Phase portrait", _portrait, evidence.has("x")),
         ("Poincaré section", _section, evidence.has("section")),
@@ -47,18 +46,18 @@ def _panels(evidence: Evidence) -> list[tuple[str, Panel]]:
     return [(title, panel) for title, panel, can in able if can]
 
 
-def _cleanest(evidence: Evidence, name: str, cleaned: str) -> str:
+def _cleanest(evidence: AnalysisEvidence, name: str, cleaned: str) -> str:
     return cleaned if evidence.has(cleaned) else name
 
 
-def _portrait(axes: Axes, evidence: Evidence) -> None:
+def _portrait(axes: Axes, evidence: AnalysisEvidence) -> None:
     draw_portrait(axes, evidence, (_cleanest(evidence, "x", "cleaned"), style.AFTER), scale(evidence))
 
 
-def _section(axes: Axes, evidence: Evidence) -> None:
+def _section(axes: Axes, evidence: AnalysisEvidence) -> None:
     draw_section(axes, evidence, (_cleanest(evidence, "section", "section_cleaned"), style.AFTER), scale(evidence))
 
 
-def _divergence(axes: Axes, evidence: Evidence) -> None:
+def _divergence(axes: Axes, evidence: AnalysisEvidence) -> None:
     draw_divergence(axes, evidence)
     axes.legend(loc="lower right", fontsize=8)

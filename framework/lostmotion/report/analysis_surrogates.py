@@ -10,8 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from lostmotion.report import style
-from lostmotion.report.analysis_facts import rows_of
-from lostmotion.report.evidence import Evidence
+from lostmotion.report.analysis_facts import AnalysisEvidence, rows_of
 from lostmotion.report.words import probability, shortened, spoken
 from lostmotion.results import Array
 
@@ -19,7 +18,7 @@ ABREAST = 3
 CELLS = 24
 
 
-def tests(evidence: Evidence) -> Figure | None:
+def tests(evidence: AnalysisEvidence) -> Figure | None:
     """Return one panel for each test: the statistic of the surrogates, and that of the recording."""
     values = _values(evidence)
     if values is None:
@@ -37,7 +36,7 @@ def tests(evidence: Evidence) -> Figure | None:
     return figure
 
 
-def tests_caption(evidence: Evidence) -> str:
+def tests_caption(evidence: AnalysisEvidence) -> str:
     """Return what the figure of the tests shows."""
     refused = int(np.sum(~np.isfinite(evidence.arrays["surrogate_values"])))
     lost = f" {refused} values could not be had and are not drawn." if refused else ""
@@ -47,14 +46,14 @@ def tests_caption(evidence: Evidence) -> str:
     )
 
 
-def _values(evidence: Evidence) -> Array | None:
+def _values(evidence: AnalysisEvidence) -> Array | None:
     values = evidence.arrays.get("surrogate_values")
     if values is None or not values.size or not np.isfinite(values).any():
         return None
     return np.atleast_2d(values)
 
 
-def _draw_test(axes: Axes, evidence: Evidence, place: int, values: Array) -> None:
+def _draw_test(axes: Axes, evidence: AnalysisEvidence, place: int, values: Array) -> None:
     rows = rows_of(evidence, "surrogates")
     facts = rows[place] if place < len(rows) else {}
     original, finite = _original(evidence, place), values[np.isfinite(values)]
@@ -74,6 +73,6 @@ def _draw_test(axes: Axes, evidence: Evidence, place: int, values: Array) -> Non
     axes.set_title(f"{name}: p = {probability(facts.get('p'))}".replace("= <", "<").replace("= >", ">"))
 
 
-def _original(evidence: Evidence, place: int) -> float:
+def _original(evidence: AnalysisEvidence, place: int) -> float:
     found = np.atleast_1d(evidence.arrays.get("surrogate_original", np.array([])))
     return float(found[place]) if place < found.size else math.nan

@@ -7,8 +7,7 @@ import re
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
-from lostmotion.report.analysis_facts import beat, entry, period_of, rows_of, whole
-from lostmotion.report.evidence import Evidence
+from lostmotion.report.analysis_facts import AnalysisEvidence, beat, entry, period_of, rows_of, whole
 from lostmotion.report.words import (
     DASH,
     figures,
@@ -70,14 +69,14 @@ class Test(NamedTuple):
     says: str
 
 
-def verdict(evidence: Evidence) -> tuple[str, str]:
+def verdict(evidence: AnalysisEvidence) -> tuple[str, str]:
     """Return kind (a style of the page) and word of the verdict, which says where some signs are silent."""
     kind, word = VERDICTS.get(str(evidence.fact("verdict")), ("unknown", "Undecided"))
     likely = evidence.fact("strength") == "likely" and kind != "unknown"
     return kind, f"Probably {word[0].lower()}{word[1:]}" if likely else word
 
 
-def signs(evidence: Evidence) -> list[SignRow]:
+def signs(evidence: AnalysisEvidence) -> list[SignRow]:
     """Return the rows of the table of signs: those for chaos first, then those against it, then the silent ones."""
     rows = rows_of(evidence, "signs")
     order = list(STATES)
@@ -89,7 +88,7 @@ def signs(evidence: Evidence) -> list[SignRow]:
     ]  # fmt: skip
 
 
-def tally(evidence: Evidence) -> str:
+def tally(evidence: AnalysisEvidence) -> str:
     """Return how many signs are in which state, in words, or nothing without signs."""
     states = [str(row.get("state")) for row in rows_of(evidence, "signs")]
     if not states:
@@ -97,7 +96,7 @@ def tally(evidence: Evidence) -> str:
     return f"{states.count('for')} for chaos, {states.count('against')} against it, {states.count('silent')} silent"
 
 
-def opening(evidence: Evidence) -> list[str]:
+def opening(evidence: AnalysisEvidence) -> list[str]:
     """Return what the analysis says: its first sentence, and the rest of it."""
     says = evidence.fact("says")
     parts = [str(part) for part in says] if isinstance(says, list) else [str(says or "")]
@@ -106,7 +105,7 @@ def opening(evidence: Evidence) -> list[str]:
     return [whole(part) for part in (head, tail, *rest) if part]
 
 
-def numbers(evidence: Evidence) -> list[Row]:
+def numbers(evidence: AnalysisEvidence) -> list[Row]:
     """Return the rows of the table of numbers."""
     named = [
         ("Largest Lyapunov exponent", entry(evidence, "lyapunov")),
@@ -155,7 +154,7 @@ def _is_number(value: Any) -> bool:
     return isinstance(value, int | float) and math.isfinite(value)
 
 
-def _drive(evidence: Evidence) -> list[Row]:
+def _drive(evidence: AnalysisEvidence) -> list[Row]:
     period = period_of(evidence)
     if not math.isfinite(period):
         return []
@@ -172,7 +171,7 @@ def _drive(evidence: Evidence) -> list[Row]:
     ]
 
 
-def _delay(evidence: Evidence) -> Row:
+def _delay(evidence: AnalysisEvidence) -> Row:
     facts = entry(evidence, "delay")
     how = _method(facts)
     if not _is_number(facts.get("seconds")):
@@ -182,7 +181,7 @@ def _delay(evidence: Evidence) -> Row:
     return Row("Delay", f"{figures(facts['seconds'])} s{said}", how, str(facts.get("says") or ""))
 
 
-def _dimension(evidence: Evidence) -> Row:
+def _dimension(evidence: AnalysisEvidence) -> Row:
     facts = entry(evidence, "dimension")
     how, said = _method(facts), str(facts.get("says") or "")
     if not _is_number(facts.get("value")):
@@ -190,7 +189,7 @@ def _dimension(evidence: Evidence) -> Row:
     return Row("Embedding dimension", figures(facts["value"]), how, said)
 
 
-def _noise(evidence: Evidence) -> list[Row]:
+def _noise(evidence: AnalysisEvidence) -> list[Row]:
     facts = entry(evidence, "noise")
     how, said = _method(facts), str(facts.get("says") or "")
     unit = str(facts.get("unit") or "")
@@ -211,7 +210,7 @@ def _of(unit: str) -> str:
     return unit.replace("share of the", "of the", 1) if unit.startswith("share of the") else unit
 
 
-def tests(evidence: Evidence) -> list[Test]:
+def tests(evidence: AnalysisEvidence) -> list[Test]:
     """Return the rows of the table of surrogate tests."""
     return [_test(row) for row in rows_of(evidence, "surrogates")]
 

@@ -15,6 +15,7 @@ from lostmotion.report import style
 from lostmotion.report.identification_facts import AGAIN, Sampled, read_sampled
 from lostmotion.report.pages import template, written
 from lostmotion.report.words import DASH, Scale, figures, interval, pretty, readable
+from lostmotion.results import Interval
 
 LEADING = 3
 """Parameters that are told in the headline."""
@@ -59,14 +60,17 @@ def _answer(sampled: Sampled) -> list[str]:
     rows = dict(list(sampled.facts["parameters"].items())[:LEADING])
     if not (sampled.converged and rows):
         return says
-    return [", ".join(f"{sampled.word(name)} = {interval(row)}" for name, row in rows.items()), " ".join(says)]
+    return [
+        ", ".join(f"{sampled.word(name)} = {interval(Interval.of(row))}" for name, row in rows.items()),
+        " ".join(says),
+    ]
 
 
 def _derived(sampled: Sampled) -> list[list[str]]:
     """Return the rows of what follows from the parameters."""
     known = [DASH, DASH] if sampled.facts.get("truth") else []
     rows = sampled.facts.get("derived") or {}
-    return [[f"{name} (follows)", interval(row), *known, DASH, DASH] for name, row in rows.items()]
+    return [[f"{name} (follows)", interval(Interval.of(row)), *known, DASH, DASH] for name, row in rows.items()]
 
 
 def _figures(sampled: Sampled) -> list[Drawn]:
@@ -88,7 +92,7 @@ def _head(sampled: Sampled) -> list[str]:
 def _row(sampled: Sampled, name: str) -> list[str]:
     entry = sampled.rows[name]
     scale = readable(float(entry["median"] if entry["median"] is not None else entry["at_maximum"]), entry["unit"])
-    said = interval(entry, scale) if sampled.converged else "no interval: not converged"
+    said = interval(Interval.of(entry), scale) if sampled.converged else "no interval: not converged"
     reached = [figures(entry["ess"], 4), f"{entry['rhat']:.3f}" if entry["rhat"] is not None else DASH]
     return [sampled.word(name), said, *_known(sampled, name, scale), *reached]
 
