@@ -15,7 +15,16 @@ author = "the lostmotion contributors"
 project_copyright = author
 release = version = lostmotion.__version__
 
-extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx_click", "captions", "mathml", "listings", "pictures"]
+extensions = [
+    "myst_parser",
+    "sphinx.ext.autodoc",
+    "sphinx_click",
+    "captions",
+    "mathml",
+    "listings",
+    "pictures",
+    "schemas",
+]
 exclude_patterns = ["_ext", "_pictures"]
 smartquotes = False
 nitpicky = True

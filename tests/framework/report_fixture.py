@@ -5,6 +5,7 @@ Run it to look at a report: `python tests/framework/report_fixture.py FOLDER`.
 
 from __future__ import annotations
 
+import copy
 import json
 import math
 import sys
@@ -14,6 +15,10 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
+
+from lostmotion.codec import from_plain
+from lostmotion.report.evidence import Evidence, evidence_with
+from lostmotion.results.diagnosis import Diagnosis
 
 OMEGA, DRIVE, MASS, STIFF, GAP = 40.0, 100.0, 1.0, 4e4, 5e-3
 PERIOD, PER_PERIOD, SUBSTEPS = 2 * math.pi / OMEGA, 120, 3
@@ -206,7 +211,67 @@ NOTHING = [
 ]
 
 
+def score(log_score, error):
+    return {"heldout_log_score": log_score, "heldout_nrmse": error, "heldout_nrmse_by_sensor": {}, "horizon": 2.0}
+
+
+def row(mechanism, gain, p):
+    return {"mechanism": mechanism, "at": "", "log_evidence_gain": gain, "probability": p, "fitted": gain is not None}
+
+
+def place(summary, **explained_by):
+    """Return what a missing force depends on; no p-values, and nothing beyond chance."""
+    parts = ("standard_error", "log_likelihood_ratio", "robust_log_likelihood_ratio", "p_value", "p_value_of_share")
+    told = {"summary": summary, "explained_by": explained_by, "significant": [], "against": "", "bodies": 1}
+    return told | {part: {} for part in parts}
+
+
+def measures(score, error, p):
+    """Return how a model behaves."""
+    return {
+        "heldout_log_score": score,
+        "free_run_error": error,
+        "valid_prediction_time": {"value": 3.0, "or_longer": error < 0.1},
+        "attractor_distance": {"value": error, "p": p, "status": "ok"},
+        "largest_exponent": {"value": 1.0, "low": 0.8, "high": 1.2, "status": "ok"},
+        "d2": {"value": 2.1, "low": 2.0, "high": 2.2, "status": "ok", "says": ""},
+        "whiteness": {"p": p},
+    }
+
+
+MEASURES = tuple(measures(0.0, 0.0, 0.0))
+UNITS = {"valid_prediction_time": "Lyapunov times", "largest_exponent": "1/s"}
+
+
+def show(augmented=True):
+    """Return the measures of the motion, before, after and of noise alone."""
+    floor = measures(4.4, 0.01, 0.5)
+    del floor["whiteness"], floor["valid_prediction_time"], floor["largest_exponent"]
+    after = {"after": measures(4.37, 0.02, 0.4)} if augmented else {}
+    return {
+        "before": measures(4.02, 0.3, 0.005),
+        "noise_floor": floor,
+        "units": {name: UNITS.get(name, "1") for name in MEASURES},
+        "horizon": {"value": 2.0, "unit": "Lyapunov times"},
+        "says": dict.fromkeys(MEASURES, "It is measured."),
+        **after,
+    }
+
+
+MACHINE = {
+    "model": "lin_backlash",
+    "equations": [],
+    "units": {},
+    "motion": "translation",
+    "terms": [{"key": "coulomb_friction", "name": "coulomb_friction", "at": "ground"}],
+    "learned": [],
+    "sensors": [{"name": "position", "channel": "position"}],
+    "values": {"c": 8.01, "x0": 5e-3, "coulomb_friction.force": 3.01},
+}
+
+
 def mismatch():
+    """Return a whole `diagnosis.json`."""
     return {
         "schema": "lostmotion.diagnosis/1",
         "verdict": "mismatch",
@@ -219,12 +284,14 @@ def mismatch():
         "found": [
             {
                 "mechanism": "coulomb_friction",
+                "state": "named",
                 "probability": 0.9991,
                 "parameters": {"force": band(3.01, 0.04, "N")},
                 "says": "Dry friction of 3.01 N [2.97, 3.05] opposes the motion, 3.0 % of the drive.",
             }
         ],
-        "ranking": [{"mechanism": m, "log_evidence_gain": g, "probability": p} for m, g, p in RANKING],
+        "open": [],
+        "ranking": [row(*one) for one in RANKING],
         "confused_with": [
             {
                 "mechanism": "stribeck_friction",
@@ -232,11 +299,9 @@ def mismatch():
             }
         ],
         "unexplained": {"significant": False, "rms": 0.05, "unit": "N", "share_of_drive": 5e-4},
-        "unexplained_before": {"rms": 3.1, "unit": "N"},
-        "where": {
-            "summary": "odd in velocity, absent from position",
-            "explained_by": {"velocity": 0.93, "position": 0.01, "phase": 0.02, "time": 0.0},
-        },
+        "unexplained_before": {"significant": True, "rms": 3.1, "unit": "N", "share_of_drive": None},
+        "where": place("odd in velocity, absent from position", velocity=0.93, position=0.01, phase=0.02, time=0.0),
+        "where_after": place("nowhere above the noise"),
         "parameters": {
             "before": {"c": band(13.0, 0.18, "N s/m"), "x0": band(5.01e-3, 8e-6, "m")},
             "after": {
@@ -246,22 +311,29 @@ def mismatch():
             },
         },
         "fit": {
-            "before": {"heldout_log_score": 4.02, "heldout_nrmse": 0.31, "horizon": 2.0},
-            "after": {"heldout_log_score": 4.37, "heldout_nrmse": 0.012, "horizon": 2.0},
+            "before": score(4.02, 0.31),
+            "after": score(4.37, 0.012),
             "noise_floor_nrmse": 0.010,
+            "horizon_unit": "Lyapunov times",
+            "horizon_unit_time": 1.0 / 7.2,
         },
         "model": {"before": "lin_backlash", "after": "lin_backlash + coulomb_friction"},
-        "drive": {"amplitude": 100.0, "unit": "N", "frequency": OMEGA / 2 / math.pi},
+        "drive": {"amplitude": 100.0, "unit": "N", "of": "the drive", "frequency": OMEGA / 2 / math.pi, "free": False},
         "units": {"position": "m", "velocity": "m/s", "force": "N", "time": "s"},
         "response": {"quantity": "position"},
+        "sensors": [{"name": "position", "channel": "position", "unit": "m", "noise_sd": 4e-5, "kind": "white"}],
+        "show": show(),
+        "evidence": {},
+        "machine": MACHINE,
+        "recordings": [{"name": "run 1", "samples": 7200, "rate": 764.0, "start": None, "inputs": ["force"]}],
         "truth": {"c": 8.0, "x0": 5e-3, "coulomb_friction.force": 3.0},
         "lyapunov": {"before": 7.9, "after": 7.2, "unit": "1/s"},
         "valid_prediction_time": {
             "before": 0.19,
             "after": 0.55,
-            "floor": 0.58,
             "unit": "s",
-            "in_lyapunov_times": {"before": 1.4, "after": 4.0, "floor": 4.2},
+            "or_longer": {"before": False, "after": False},
+            "in_lyapunov_times": {"before": 1.4, "after": 4.0},
         },
         "whiteness": {
             "before": {"p": 1e-9, "says": "The innovations remember their past."},
@@ -269,7 +341,8 @@ def mismatch():
         },
         "notes": ["Viscous damping soaks up dry friction: the interval of c without the term is narrow and wrong."],
         "provenance": {
-            "version": "0.1.0",
+            "component": "lostmotion.diagnose",
+            "versions": {"lostmotion": "0.1.0"},
             "seed": 1,
             "inputs": {"recording.csv": "sha256:0f3c"},
             "settings": {"substeps": 3},
@@ -279,16 +352,15 @@ def mismatch():
 
 def adequate():
     facts = mismatch()
-    pairs = ("fit", "parameters", "lyapunov", "valid_prediction_time", "whiteness", "model")
-    facts |= {key: {k: v for k, v in facts[key].items() if k != "after"} for key in pairs}
-    facts |= {"verdict": "adequate", "found": [], "says": [], "confused_with": [], "title": "Nothing hidden"}
-    whole = mismatch()
-    facts["fit"]["before"], facts["whiteness"]["before"] = whole["fit"]["after"], whole["whiteness"]["after"]
-    facts["valid_prediction_time"]["before"] = whole["valid_prediction_time"]["after"]
-    facts["valid_prediction_time"]["in_lyapunov_times"] = {"before": 4.0, "floor": 4.2}
-    facts["parameters"]["before"] = {key: whole["parameters"]["after"][key] for key in ("c", "x0")}
-    facts["ranking"] = [{"mechanism": m, "log_evidence_gain": g, "probability": p} for m, g, p in NOTHING]
-    return facts | {"where": {"summary": "nowhere above the noise"}, "unexplained_before": {"rms": 0.05, "unit": "N"}}
+    says = ["Nothing is missing that this recording can show."]
+    facts |= {"verdict": "adequate", "found": [], "says": says, "confused_with": [], "title": "Nothing hidden"}
+    del facts["parameters"]["after"]["coulomb_friction.force"]
+    both = ("fit", "parameters", "valid_prediction_time", "whiteness")
+    for told in (*(facts[key] for key in both), facts["valid_prediction_time"]["in_lyapunov_times"]):
+        told["before"] = copy.deepcopy(told["after"])
+    facts["model"] = {"before": "lin_backlash", "after": "lin_backlash"}
+    facts |= {"ranking": [row(*one) for one in NOTHING], "show": show(augmented=False)}
+    return facts | {"where": place("nowhere above the noise"), "unexplained_before": facts["unexplained"]}
 
 
 def alone(data):
@@ -305,12 +377,18 @@ def unknown():
     facts = mismatch()
     entry = {
         "mechanism": "unknown",
+        "state": "open",
         "probability": 0.97,
         "depends_on": ["position", "velocity"],
         "parameters": {},
-        "says": "",
+        "says": "Something is missing that no mechanism of the library explains.",
     }
-    return facts | {"found": [entry], "says": []}
+    return facts | {"found": [entry], "says": [entry["says"]]}
+
+
+def evidence(facts: dict[str, Any], data: xr.Dataset | None = None) -> Evidence:
+    """Return what a page is drawn from, without a folder."""
+    return evidence_with(from_plain(Diagnosis, facts), xr.Dataset() if data is None else data)
 
 
 def write(folder: Path, facts: dict[str, Any], data: xr.Dataset | None = None) -> Path:

@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-import importlib.util
-from pathlib import Path
-from types import ModuleType
-
 import numpy as np
 import pytest
+import report_fixture as made
 
 from lostmotion.report import sensors, style, write_report
 from lostmotion.report.evidence import read_evidence
@@ -18,21 +15,10 @@ ROWS = [
 ]
 
 
-def _load() -> ModuleType:
-    spec = importlib.util.spec_from_file_location("report_fixture", Path(__file__).with_name("report_fixture.py"))
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
-
-made = _load()
-
-
 def facts(base=made.mismatch):
     found = base() | {"sensors": ROWS}
     for when, errors in (("before", (0.19, 0.23)), ("after", (0.012, 0.013))):
-        if when in found["fit"]:
-            found["fit"][when]["heldout_nrmse_by_sensor"] = dict(zip(["motor <b>", "load"], errors, strict=True))
+        found["fit"][when]["heldout_nrmse_by_sensor"] = dict(zip(["motor <b>", "load"], errors, strict=True))
     return found
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import pytest
 
 from lostmotion.report.words import (
@@ -19,6 +21,7 @@ from lostmotion.report.words import (
     spoken,
     typeset,
 )
+from lostmotion.results import Interval
 
 
 @pytest.mark.parametrize(
@@ -42,18 +45,22 @@ def test_figures(value, said):
 
 
 def test_an_interval_has_as_many_decimals_as_it_deserves():
-    entry = {"median": 1.0184, "low": 0.9902, "high": 1.0531, "unit": "N"}
-    assert interval(entry) == "1.02 [0.99, 1.05] N"
+    assert interval(Interval(1.0184, 0.9902, 1.0531, "N")) == "1.02 [0.99, 1.05] N"
 
 
 def test_small_lengths_are_read_in_millimetres():
-    assert interval({"median": 5e-3, "low": 4.998e-3, "high": 5.002e-3, "unit": "m"}) == "5.000 [4.998, 5.002] mm"
+    assert interval(Interval(5e-3, 4.998e-3, 5.002e-3, "m")) == "5.000 [4.998, 5.002] mm"
 
 
 def test_an_interval_without_width_or_without_numbers_is_borne():
-    assert interval({"median": 2.0, "low": 2.0, "high": 2.0, "unit": "1"}) == "2.000 [2.000, 2.000]"
+    assert interval(Interval(2.0, 2.0, 2.0, "1")) == "2.000 [2.000, 2.000]"
     assert interval(None) == DASH
-    assert interval({"median": None}) == DASH
+    assert interval(Interval(math.nan, math.nan, math.nan, "N")) == DASH
+
+
+def test_a_median_stands_alone_where_its_interval_is_withheld():
+    told = Interval(2.0, math.nan, math.nan, "N", withheld="The model does not hold.")
+    assert interval(told) == "2 N, interval withheld"
 
 
 @pytest.mark.parametrize(

@@ -1,28 +1,17 @@
 """Distances between clouds of points, growth rates in blocks, and the table of before, after and noise floor."""
 
-from dataclasses import replace
+from dataclasses import astuple
 
 import numpy as np
 import pytest
+import report_fixture as made
 
-from lostmotion.codec import to_plain
+from lostmotion.codec import from_plain, to_plain
 from lostmotion.likelihood.observation import Observation
 from lostmotion.report import show
-from lostmotion.report.evidence import Evidence
-from lostmotion.results.behaviour import (
-    Behaviour,
-    Chance,
-    DimensionInterval,
-    Distance,
-    ExponentInterval,
-    HorizonLength,
-    ModelBehaviour,
-    NoiseFloor,
-    ValidTime,
-)
+from lostmotion.results.behaviour import Behaviour
 from lostmotion.signals.distances import distances, energy_distance, same_chance
 from lostmotion.workflow.attractors import MOST, distances_between, section
-from lostmotion.workflow.show import UNITS
 from lostmotion.workflow.show_words import said
 
 PERIOD = 40.0
@@ -108,35 +97,18 @@ def test_sections_are_taken_at_the_phase_asked_for():
     assert MOST >= 200
 
 
-ABOUT_TWO = DimensionInterval(2.1, 2.0, 2.2, "ok", "")
+def facts_with(augmented=True, d2=None):
+    """Return a diagnosis with the sentences of the measures as they are written; `d2` in place of its dimensions."""
+    facts = (made.mismatch if augmented else made.adequate)()
+    columns = [name for name in ("before", "after", "noise_floor") if name in facts["show"]]
+    facts["show"] |= {name: facts["show"][name] | ({"d2": d2} if d2 else {}) for name in columns}
+    facts["show"]["says"] = to_plain(sentences(from_plain(Behaviour, facts["show"])))
+    return facts
 
 
-def measures(error, p, d2=ABOUT_TWO):
-    return ModelBehaviour(
-        heldout_log_score=4.0,
-        free_run_error=error,
-        valid_prediction_time=ValidTime(3.0, error < 0.1),
-        attractor_distance=Distance(error, p, "ok"),
-        largest_exponent=ExponentInterval(1.0, 0.8, 1.2, "ok"),
-        d2=d2,
-        whiteness=Chance(p),
-    )
-
-
-def behaviour(augmented=True, **given):
-    """Measures before and after, as a diagnosis has them."""
-    before, after = measures(0.3, 0.005, **given), measures(0.02, 0.4, **given)
-    like, horizon = measures(0.01, 0.5, **given), HorizonLength(0.5, "Lyapunov times")
-    floor = NoiseFloor(like.heldout_log_score, like.free_run_error, like.attractor_distance, like.d2)
-    last = after if augmented else before
-    units, says = replace(UNITS, valid_prediction_time=horizon.unit), said(last, floor, horizon, True)
-    return Behaviour(
-        before=before, after=after if augmented else None, noise_floor=floor, units=units, horizon=horizon, says=says
-    )
-
-
-def made(augmented=True, **given):
-    return {"found": [{}] if augmented else [], "show": to_plain(behaviour(augmented, **given))}
+def sentences(measured, strobed=True, **options):
+    """Return a sentence on each measure of the last model."""
+    return said(measured.after or measured.before, measured.noise_floor, measured.horizon, strobed, **options)
 
 
 def plain(text):
@@ -145,22 +117,21 @@ def plain(text):
 
 @pytest.mark.parametrize(("free", "how"), [(False, "under the recorded drive"), (True, "left to itself")])
 def test_an_exponent_says_what_drove_the_model(free, how):
-    table = behaviour()
-    says = said(table.after, table.noise_floor, table.horizon, not free, driven=not free)
+    says = sentences(from_plain(Behaviour, made.show()), not free, driven=not free)
     assert says.largest_exponent.startswith(f"Of the model {how}")
 
 
 def test_what_could_not_be_measured_keeps_its_sentence():
-    nothing = float("nan")
-    facts = made(d2=DimensionInterval(nothing, nothing, nothing, "too_short", "Too few periods."))
-    row = next(r for r in show.table(Evidence(facts, {}, {}, {})).rows if r[0] == "Correlation dimension")
+    refused = {"value": None, "low": None, "high": None, "status": "too_short", "says": "Too few periods."}
+    facts = facts_with(d2=refused)
+    row = next(r for r in show.table(made.evidence(facts)).rows if r[0] == "Correlation dimension")
     assert row[1:4] == ["–"] * 3
     assert "Too few periods." in row[4]
 
 
 def test_table_of_the_report_has_every_measure_with_a_sentence():
-    table = show.table(Evidence(made(), {}, {}, {}))
-    assert [row[0].partition(" (")[0] for row in table.rows] == list(show.NAMES.values())
+    table = show.table(made.evidence(facts_with()))
+    assert [row[0].partition(" (")[0] for row in table.rows] == list(astuple(show.NAMES))
     assert all(row[-1].endswith(".") for row in table.rows)
     distance = next(row for row in table.rows if row[0] == "Distance between attractors")
     assert [plain(cell) for cell in distance[1:4]] == ["0.3 (p = 0.005)", "0.02 (p = 0.4)", "0.01 (p = 0.5)"]
@@ -169,10 +140,14 @@ def test_table_of_the_report_has_every_measure_with_a_sentence():
 
 
 def test_table_of_an_adequate_model_has_one_model():
-    table = show.table(Evidence(made(augmented=False), {}, {}, {}))
+    table = show.table(made.evidence(facts_with(augmented=False)))
     assert table.head[1] == "Model as it stands"
     assert all(len(row) == len(table.head) for row in table.rows)
 
 
-def test_report_without_a_show_has_no_table():
-    assert show.table(Evidence({"found": []}, {}, {}, {})).rows == []
+def test_a_model_whose_motion_was_not_measured_has_dashes():
+    facts = facts_with()
+    del facts["show"]["after"]
+    table = show.table(made.evidence(facts))
+    assert table.head[1:4] == ["Before", "After", "Noise floor or recording"]
+    assert {row[2] for row in table.rows} == {"–"}

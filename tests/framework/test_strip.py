@@ -5,7 +5,6 @@ import pytest
 import report_fixture as made
 
 from lostmotion.report import strip, style
-from lostmotion.report.evidence import Evidence
 
 WORST = {"window": 1, "begin": 1.0, "end": 2.0, "ratio": 4.3, "p": 0.001, "beyond_chance": True}
 TOLD = {
@@ -16,6 +15,7 @@ TOLD = {
     "after": [1.0, 1.2, 0.9],
     "expected": 1.0,
     "worst": WORST,
+    "worst_before": WORST,
     "says": "The model disagrees most between 1 and 2 s (4.3 times the variance expected, p = 0.001 over 3 windows).",
 }
 ROWS = [
@@ -24,8 +24,17 @@ ROWS = [
 ]
 
 
+RECORDINGS = {
+    "rows": ROWS,
+    "level_of": "drive",
+    "expected": 1.0,
+    "trend": {"after": None, "before": None},
+    "says": "",
+}
+
+
 def evidence(facts=None, **where):
-    return Evidence((facts or made.mismatch()) | {"where": where}, {}, {}, {})
+    return made.evidence((facts or made.mismatch()) | {"where": made.place("everywhere") | where})
 
 
 @pytest.mark.parametrize("facts", [made.mismatch(), made.adequate()], ids=["mismatch", "adequate"])
@@ -41,7 +50,7 @@ def test_there_is_a_row_of_colours_for_each_model_over_one_step_plot(facts):
 
 
 def test_the_caption_says_what_stands_out_and_what_chance_is():
-    told = strip.caption(evidence(over_time=TOLD, by_recording={"says": "Of 2 recordings one disagrees."}))
+    told = strip.caption(evidence(over_time=TOLD, by_recording=RECORDINGS | {"says": "Of 2 recordings one disagrees."}))
     assert told.startswith(TOLD["says"] + " It is shaded.")
     assert "For each window: " in told
     assert told.endswith("Of 2 recordings one disagrees.")
@@ -52,8 +61,8 @@ def test_the_caption_says_what_stands_out_and_what_chance_is():
 
 def test_nothing_is_drawn_without_windows_and_a_table_has_a_row_for_each_recording():
     assert strip.draw(evidence()) is None
-    assert strip.table(evidence()).rows == []
-    table = strip.table(evidence(by_recording={"rows": ROWS, "level_of": "drive"}))
+    assert strip.table(evidence()) is None
+    table = strip.table(evidence(by_recording=RECORDINGS))
     assert table.head[1] == "Drive level (rms)"
     assert table.rows[0] == ["low", "1 N", "fitted", "1.1", "1", "0.6"]
     assert table.rows[1][2:] == ["held out", "3", "2", "–"]

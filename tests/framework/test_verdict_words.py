@@ -4,11 +4,11 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+import report_fixture as made
 
 from lostmotion.errors import DataError
 from lostmotion.inference.setup import lasting
 from lostmotion.likelihood.observation import Observation, Sensor
-from lostmotion.report.evidence import Evidence
 from lostmotion.report.opening import badge
 from lostmotion.results import Interval
 from lostmotion.results.diagnosis import Mechanism
@@ -78,8 +78,9 @@ def test_noise_that_may_be_motion_is_doubted():
 @pytest.mark.parametrize(("mechanism", "words"), [("random_force", "open"), ("unknown", "open"),
                                                   ("coulomb_friction", "named")])  # fmt: skip
 def test_a_force_without_a_name_is_not_called_explained(mechanism, words):
-    facts = {"verdict": "mismatch", "found": [{"mechanism": mechanism}]}
-    assert badge(Evidence(facts, {}, {}, {})).words == f"Mismatch, {words}"
+    facts = made.mismatch()
+    facts["found"][0] |= {"mechanism": mechanism, "state": words}
+    assert badge(made.evidence(facts).result).words == f"Mismatch, {words}"
 
 
 def test_a_number_without_a_dimension_has_no_unit():

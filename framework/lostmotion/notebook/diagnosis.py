@@ -140,8 +140,8 @@ class DiagnosisResult:
 
     @cached_property
     def evidence(self) -> Evidence:
-        """Facts and arrays as figures take them."""
-        return evidence_with(self.to_dict(), self.arrays)
+        """The result and its arrays as figures take them."""
+        return evidence_with(self.result, self.arrays)
 
     @property
     def plot(self) -> DiagnosisPlots:

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 from lostmotion.report import style
 from lostmotion.report.evidence import Evidence
 
+T = TypeVar("T")
+
 
 class Version(NamedTuple):
-    """A model as figures show it: its key in arrays and facts, the word that tells it apart, and its colour."""
+    """A model as figures show it: its key in arrays, the word that tells it apart, and its colour."""
 
     key: str
     word: str
@@ -18,6 +20,10 @@ class Version(NamedTuple):
     def named(self, noun: str) -> str:
         """Return `noun before`, `noun after`, or the noun alone where there is one model only."""
         return f"{noun} {self.word}".rstrip()
+
+    def of(self, before: T, after: T) -> T:
+        """Return which of two values is that of this model."""
+        return after if self.key == "after" else before
 
 
 def versions(evidence: Evidence) -> tuple[Version, ...]:

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import NamedTuple
+from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -13,6 +12,7 @@ from lostmotion.report import style
 from lostmotion.report.evidence import Evidence
 from lostmotion.report.words import Scale, with_unit
 from lostmotion.results import Array
+from lostmotion.results.behaviour import DecayCycles
 
 WIDE = 8.0
 """Ratio of amplitudes from which on their axis is logarithmic."""
@@ -23,46 +23,36 @@ FEW = 80
 """Cycles of a decay up to which its dots are drawn large."""
 
 
-class Curve(NamedTuple):
-    """A decay, cycle by cycle: amplitude (unit of the signal), frequency (Hz) and logarithmic decrement, (cycles,)."""
-
-    amplitude: Array
-    frequency: Array
-    decrement: Array
-
-
-def figure_of(evidence: Evidence) -> Figure | None:
+def draw(evidence: Evidence) -> Figure | None:
     """Return the figure of the decays of a diagnosis, or None where none was measured."""
-    measured, before, after = (curves_of(evidence, name) for name in ("measured", "before", "after"))
-    unit = str(evidence.fact("decay", "unit") or evidence.response_unit)
-    return draw(measured, before, after, quantity=f"{evidence.response} amplitude", unit=unit)
+    decays = evidence.result.decay
+    if decays is None:
+        return None
+    measured, before, after = (_whole(one) for one in (decays.measured, decays.before, decays.after))
+    quantity, unit = f"{evidence.result.response.quantity} amplitude", decays.unit or evidence.response_unit
+    return draw_cycles(measured, before, after, quantity=quantity, unit=unit)
 
 
-def caption_of(evidence: Evidence) -> str:
+def caption(evidence: Evidence) -> str:
     """Return what to see in the figure of the decays of a diagnosis."""
-    return caption(len(curves_of(evidence, "measured")), struck=not evidence.fact("drive", "free"))
+    decays = evidence.result.decay
+    return caption_of(len(_whole(decays.measured)) if decays else 0, struck=not evidence.result.drive.free)
 
 
 def words(evidence: Evidence) -> str:
     """Return what a diagnosis says of free decays, or why it measured none; an empty string where it says nothing."""
-    return str(evidence.fact("decay", "says") or "")
+    return evidence.result.decay.says if evidence.result.decay else ""
 
 
-def curves_of(evidence: Evidence, name: str) -> list[Curve]:
-    """Return the decays of the recording ("measured") or of a model ("before", "after"), those of equal lists only."""
-    found = []
-    for entry in evidence.fact("decay", name) or []:
-        lists = [entry.get(field) for field in Curve._fields] if isinstance(entry, Mapping) else []
-        lengths = {len(one) if isinstance(one, list) else 0 for one in lists}
-        if len(lengths) == 1 and lengths != {0}:
-            found.append(Curve(*(np.array(one, dtype=float) for one in lists)))
-    return found
+def _whole(decays: Sequence[DecayCycles] | None) -> list[DecayCycles]:
+    """Return the decays that have cycles, and lists of one length."""
+    return [one for one in decays or () if len(one.amplitude) == len(one.frequency) == len(one.decrement) > 0]
 
 
-def draw(
-    measured: Sequence[Curve],
-    before: Sequence[Curve] = (),
-    after: Sequence[Curve] = (),
+def draw_cycles(
+    measured: Sequence[DecayCycles],
+    before: Sequence[DecayCycles] = (),
+    after: Sequence[DecayCycles] = (),
     *,
     quantity: str = "amplitude",
     unit: str,
@@ -85,7 +75,7 @@ def draw(
         for words, colour, curves in groups:
             _draw(axes, curves, field, scale, colour=colour, words=words)
         shown = np.concatenate([getattr(curve, field) for curve in measured])
-        _limit(axes, shown, [getattr(curve, field) for curve in (*before, *after)])
+        _limit(axes, shown, [np.array(getattr(curve, field)) for curve in (*before, *after)])
         _finish(axes, scale.factor * np.concatenate([curve.amplitude for curve in measured]))
         axes.set_xlabel(with_unit(quantity, scale.unit))
         axes.set_ylabel(name)
@@ -93,7 +83,7 @@ def draw(
     return figure
 
 
-def caption(decays: int = 1, *, struck: bool = True) -> str:
+def caption_of(decays: int = 1, *, struck: bool = True) -> str:
     """Return what to see in the figure of so many decays, after hits of a hammer if the machine was `struck`."""
     which = f"of {decays} decays" if decays > 1 else "of the decay"
     after = (", one after each hit" if decays > 1 else " after the hit") if struck else ""
@@ -106,16 +96,16 @@ def caption(decays: int = 1, *, struck: bool = True) -> str:
     )
 
 
-def _draw(axes: Axes, curves: Sequence[Curve], field: str, scale: Scale, *, colour: str, words: str) -> None:
+def _draw(axes: Axes, curves: Sequence[DecayCycles], field: str, scale: Scale, *, colour: str, words: str) -> None:
     """Draw measured cycles as dots and those of models as lines."""
     is_measured = colour == style.RECORDED
     for count, curve in enumerate(curves):
         axes.plot(
-            scale.factor * curve.amplitude,
+            scale.factor * np.array(curve.amplitude),
             getattr(curve, field),
             "." if is_measured else "-",
             color=colour,
-            markersize=6.0 if curve.amplitude.size < FEW else 3.5,
+            markersize=6.0 if len(curve.amplitude) < FEW else 3.5,
             alpha=0.55 if is_measured else 1.0,
             linewidth=1.8,
             label=None if count else words,

@@ -38,30 +38,20 @@ def draw(evidence: Evidence) -> Figure | None:
 
 def caption(evidence: Evidence) -> str:
     """Return what to see in the figure."""
-    valid = evidence.fact("valid_prediction_time")
     floor = (
         " The noise floor is what the right model would reach from states known no better than these: a curve that "
         "keeps to it has nothing left to gain."
     )
-    floor = floor if evidence.has("growth_floor") else ""
-    marks = "; the dotted lines mark how long each prediction is valid" if valid else ""
     return (
         "Error of free-running predictions of held-out data over the standard deviation of the response, against the "
-        f"time since the last filtered state{marks}." + floor
-    )
+        "time since the last filtered state; the dotted lines mark how long each prediction is valid."
+    ) + (floor if evidence.has("growth_floor") else "")
 
 
 def clock_of(evidence: Evidence) -> Clock:
-    """Return the unit of the horizon; without it Lyapunov times in chaos, else drive periods, else seconds."""
-    unit_time = evidence.number("fit", "horizon_unit_time")
-    if unit_time > 0:
-        return Clock(1.0 / unit_time, str(evidence.fact("fit", "horizon_unit")))
-    for when in ("after", "before"):
-        exponent = evidence.number("lyapunov", when)
-        if exponent > 0:
-            return Clock(exponent, "Lyapunov times")
-    frequency = evidence.number("drive", "frequency")
-    return Clock(frequency, "drive periods") if frequency > 0 else Clock(1.0, "s")
+    """Return the unit of the horizon."""
+    fit = evidence.result.fit
+    return Clock(1.0 / fit.horizon_unit_time, fit.horizon_unit)
 
 
 def draw_growth(axes: Axes, evidence: Evidence, clock: Clock) -> None:
@@ -81,10 +71,9 @@ def draw_growth(axes: Axes, evidence: Evidence, clock: Clock) -> None:
     axes.set_ylim(low, high)
     axes.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if high < FEW_DECADES * low else (1.0,)))
     _mark_validity(axes, evidence, clock)
-    if clock.name != "s":
-        turns = (lambda lead: np.asarray(lead, float) / clock.rate, lambda at: np.asarray(at, float) * clock.rate)
-        above = axes.secondary_xaxis("top", functions=turns)
-        above.set_xlabel("lead (s)")
+    turns = (lambda lead: np.asarray(lead, float) / clock.rate, lambda at: np.asarray(at, float) * clock.rate)
+    above = axes.secondary_xaxis("top", functions=turns)
+    above.set_xlabel("lead (s)")
 
 
 def _curves(evidence: Evidence) -> list[tuple[str, str, str]]:
@@ -93,9 +82,11 @@ def _curves(evidence: Evidence) -> list[tuple[str, str, str]]:
 
 
 def _mark_validity(axes: Axes, evidence: Evidence, clock: Clock) -> None:
+    valid = evidence.result.valid_prediction_time
+    times, longer = ({"before": told.before, "after": told.after} for told in (valid, valid.or_longer))
     for row, (name, colour, _) in enumerate(_curves(evidence)):
-        at = clock.rate * evidence.number("valid_prediction_time", name)
-        if not at <= axes.get_xlim()[1] or evidence.fact("valid_prediction_time", "or_longer", name):
+        at = clock.rate * times.get(name, np.nan)
+        if not at <= axes.get_xlim()[1] or longer[name]:
             continue
         axes.axvline(at, color=colour, linestyle=":", linewidth=1.5)
         text = axes.text(at, 0.05 + 0.09 * row, f" {figures(at, 2)}", color=colour, fontsize=8.5)
@@ -121,10 +112,8 @@ def whiteness_caption(evidence: Evidence) -> str:
     """Return what to see in the autocorrelations."""
     said = []
     for who in versions(evidence):
-        words = who.named("model")
-        says, p = evidence.fact("whiteness", who.key, "says"), evidence.number("whiteness", who.key, "p")
-        if says or np.isfinite(p):
-            said.append(f"{words} ({chance(p)}): {says}" if says else f"{words}: {chance(p)}.")
+        told = who.of(evidence.result.whiteness.before, evidence.result.whiteness.after)
+        said.append(f"{who.named('model')} ({chance(told.p)}): {told.says}")
     opening = "Autocorrelation of the innovations, the part of each sample that the model did not expect."
     return " ".join(
         [opening, "White ones stay within the grey band but for one lag in twenty.", *(sentence(part) for part in said)]

@@ -37,7 +37,7 @@ def _panels(evidence: Evidence) -> list[Panel]:
     able = (
         (_draw_prediction, prediction.predicted(evidence)),
         (_draw_force, bool(missing.curve_of(evidence, "before_mean", "velocity").size)),
-        (_draw_ranking, bool(evidence.fact("ranking"))),
+        (_draw_ranking, bool(evidence.result.ranking)),
     )
     return [panel for panel, can in able if can]
 
@@ -59,7 +59,7 @@ def _draw_prediction(figure: Figure, evidence: Evidence, place: Place) -> None:
 
 def _draw_force(figure: Figure, evidence: Evidence, place: Place) -> None:
     axes = figure.add_subplot(place[0][:, place[1]])
-    shares = evidence.fact("where", "explained_by") or {}
+    shares = evidence.result.where.explained_by
     names = [n for n in evidence.labels.get("covariate", ()) if n.startswith("velocity")]
     missing.draw_curve(axes, evidence, max(names, key=lambda n: shares.get(n, 0.0)))
     axes.legend(loc="best", fontsize=8)

@@ -13,7 +13,7 @@ from lostmotion.report import identification_figures as drawing
 from lostmotion.report import identification_levels as leveled
 from lostmotion.report import style
 from lostmotion.report.identification_facts import AGAIN, IdentificationView, read_identification
-from lostmotion.report.pages import DrawnFigure, template, written
+from lostmotion.report.pages import DrawnSection, template, written
 from lostmotion.report.words import DASH, Scale, figures, interval, pretty, readable
 from lostmotion.results.identification import Identification
 
@@ -62,7 +62,7 @@ def _derived(result: Identification) -> list[list[str]]:
     return [[f"{name} (follows)", interval(row), *known, DASH, DASH] for name, row in rows.items()]
 
 
-def _figures(view: IdentificationView) -> list[DrawnFigure]:
+def _figures(view: IdentificationView) -> list[DrawnSection]:
     result = view.result
     known = any(np.isfinite(view.truth(name)) for name in view.names)
     parts = [("trace", "Did the walkers mix?", drawing.trace(view), drawing.TRACE)]
@@ -71,7 +71,7 @@ def _figures(view: IdentificationView) -> list[DrawnFigure]:
     if result.converged and len(view.joint) > 1:
         said = drawing.CORNER + (" Dashed: the known value." if known else "")
         parts.insert(0, ("corner", "How the parameters hang together", drawing.corner(view), said))
-    return [DrawnFigure(name, title, style.embedded(figure, name), said) for name, title, figure, said in parts]
+    return [DrawnSection(name, title, style.embedded(figure, name), said) for name, title, figure, said in parts]
 
 
 def _head(result: Identification) -> list[str]:

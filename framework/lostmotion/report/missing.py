@@ -37,8 +37,7 @@ def draw(evidence: Evidence) -> Figure | None:
 
 def caption(evidence: Evidence) -> str:
     """Return what to see in the figure."""
-    summary = evidence.fact("where", "summary")
-    opening = f"The missing force: {summary}. " if summary else ""
+    opening = f"The missing force: {evidence.result.where.summary}. "
     body = f"Lines are the mean in each bin, bands hold 95 % of the samples. {_tested(evidence)}{_sought(evidence)}"
     if len(versions(evidence)) == 1 or not evidence.has("after_mean"):
         return f"{opening}{body}A force that was left out would show as a curve that leaves zero."
@@ -51,14 +50,14 @@ def caption(evidence: Evidence) -> str:
 
 def _sought(evidence: Evidence) -> str:
     """Return where the force is sought, for machines of several bodies."""
-    several = evidence.number("where", "bodies") > 1
+    several = (evidence.result.where.bodies or 1) > 1
     said = "It is sought on the first body: a force that acts elsewhere shows only through what it does there. "
     return said if several else ""
 
 
 def _tested(evidence: Evidence) -> str:
     """Return what a star means, or an empty string where nothing was tested."""
-    against = evidence.fact("where", "against")
+    against = evidence.result.where.against
     return f"A star marks what is beyond chance by {against}. " if against else ""
 
 
@@ -86,7 +85,7 @@ def draw_curve(axes: Axes, evidence: Evidence, covariate: str) -> None:
     if unit == "rad" and covariate == "phase":
         axes.set_xticks([0, np.pi / 2, np.pi, 1.5 * np.pi, 2 * np.pi], ["0", "π/2", "π", "3π/2", "2π"])
     axes.set_xlabel(with_unit(NAMES.get(covariate, covariate), scale.unit))
-    axes.set_ylabel(with_unit("missing force", evidence.unit("force")))
+    axes.set_ylabel(with_unit("missing force", evidence.result.units.force))
     _name_share(axes, evidence, covariate)
 
 
@@ -105,14 +104,13 @@ on the first one, and yet in the likelihood."""
 
 
 def _name_share(axes: Axes, evidence: Evidence, covariate: str) -> None:
-    share = evidence.number("where", "explained_by", covariate)
+    where = evidence.result.where
+    share = where.explained_by.get(covariate, np.nan)
     if not np.isfinite(share):
         return
-    name, known = NAMES.get(covariate, covariate), evidence.fact("where", "significant")
+    name = NAMES.get(covariate, covariate)
     said = f"{percent(share)} explained by {name}"
-    if known is None:
-        axes.set_title(said, color="#444444")
-    elif covariate in known:
+    if covariate in where.significant:
         shown = said if share >= SHOWN else f"{name}: beyond chance by likelihood"
         axes.set_title(f"{shown} *", color="black", fontweight="bold")
     else:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import Generic, NamedTuple, TypeVar
 
@@ -11,30 +11,64 @@ from markupsafe import Markup
 from matplotlib.figure import Figure
 
 from lostmotion.errors import DataError, LostMotionError
+from lostmotion.report import style
+from lostmotion.report.words import DASH
 from lostmotion.storage import save_text
 
-V = TypeVar("V")
+E = TypeVar("E")
 
 
-class Section(NamedTuple, Generic[V]):
-    """One figure of a page: its name there, heading, drawing (None where its arrays are absent) and caption.
+class Grid(NamedTuple):
+    """A table of a page: headings, and as many words in each row."""
 
-    `V` is what the page is drawn from.
+    head: list[str]
+    rows: list[list[str]]
+
+
+def trimmed(head: list[str], rows: list[list[str]]) -> Grid:
+    """Return the table without rows and columns in which nothing but the name stands."""
+    rows = [row for row in rows if set(row[1:]) - {DASH, ""}]
+    kept = [column for column in range(len(head)) if column == 0 or any(row[column] not in (DASH, "") for row in rows)]
+    return Grid([head[k] for k in kept], [[row[k] for k in kept] for row in rows])
+
+
+class PageSection(NamedTuple, Generic[E]):
+    """A section of a page: its name there, its title, and functions that draw and say it.
+
+    `words` stand above the figure, `caption` below it, then the `table`, of which `look` is a class of the style sheet.
     """
 
     name: str
-    title: str
-    draw: Callable[[V], Figure | None]
-    caption: Callable[[V], str]
+    title: str | Callable[[E], str]
+    draw: Callable[[E], Figure | None] = lambda _: None
+    caption: Callable[[E], str] = lambda _: ""
+    table: Callable[[E], Grid | None] = lambda _: None
+    words: Callable[[E], str] = lambda _: ""
+    look: str = "tight"
 
 
-class DrawnFigure(NamedTuple):
-    """A figure as a template takes it."""
+class DrawnSection(NamedTuple):
+    """A section as the template takes it: markup is empty where there was nothing to draw."""
 
     name: str
     title: str
     markup: Markup
     caption: str
+    table: Grid | None = None
+    words: str = ""
+    look: str = "tight"
+
+
+def drawn(sections: Sequence[PageSection[E]], evidence: E) -> Iterator[DrawnSection]:
+    """Yield the sections that have a figure, a table with rows, or words."""
+    for one in sections:
+        figure, table, words = one.draw(evidence), one.table(evidence), one.words(evidence)
+        if figure is None and not (table and table.rows) and not words:
+            continue
+        title = one.title if isinstance(one.title, str) else one.title(evidence)
+        # The markup is drawn by matplotlib, which escapes the words it is given.
+        markup = style.embedded(figure, one.name) if figure else Markup()
+        yield DrawnSection(one.name, title, markup, one.caption(evidence) if figure else "", table, words, one.look)
 
 
 def written(page: Path, render: Callable[[], str], source: str) -> Path:

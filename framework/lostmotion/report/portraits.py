@@ -55,7 +55,7 @@ def caption(evidence: Evidence) -> str:
     if evidence.has("section_recorded_x"):
         parts.append("Poincaré sections, one point for each drive period (pale dots: the recording)")
     opening = sentence(" and ".join(parts))
-    if evidence.fact("drive", "free"):
+    if evidence.result.drive.free:
         return (
             f"{opening}. All panels share their axes. A model with the right physics winds inwards along the same turns"
             " as the recording, and comes to rest at the same place."
@@ -84,17 +84,18 @@ def draw_panel(axes: Axes, evidence: Evidence, what: tuple[str, tuple[str, str, 
 
 def _distance(evidence: Evidence, key: str) -> str:
     """Return how far the section of a model lies from the recorded one, or of that one's halves from each other."""
-    entry = evidence.fact("show", "noise_floor" if key == "recorded" else key, "attractor_distance") or {}
-    value = entry.get("value")
-    return "" if value is None else f", {'halves ' if key == 'recorded' else ''}{figures(value, 2)} apart"
+    show = evidence.result.show
+    column = show.noise_floor if key == "recorded" else show.before if key == "before" else show.after
+    value = column.attractor_distance.value if column else np.nan
+    return "" if np.isnan(value) else f", {'halves ' if key == 'recorded' else ''}{figures(value, 2)} apart"
 
 
 def frame_of(evidence: Evidence, kind: str) -> Frame:
     """Return the frame that holds the recording and the models, unless a model runs away."""
     keys = [key for key, _, _ in _columns(evidence, kind)]
     x, v = ([evidence.arrays[f"{kind}_{key}_{axis}"] for key in keys] for axis in "xv")
-    position = style.scale_of(np.concatenate(x), evidence.unit("position"))
-    velocity = style.scale_of(np.concatenate(v), evidence.unit("velocity"))
+    position = style.scale_of(np.concatenate(x), evidence.result.units.position)
+    velocity = style.scale_of(np.concatenate(v), evidence.result.units.velocity)
     return Frame(position, velocity, _limits(position.factor, x), _limits(velocity.factor, v))
 
 

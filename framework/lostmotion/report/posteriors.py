@@ -1,9 +1,6 @@
-"""Figure: the parameters before and after, beside the known values where there are any."""
+"""Figure and table: the parameters before and after, beside the known values where there are any."""
 
 from __future__ import annotations
-
-from collections.abc import Mapping
-from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -12,8 +9,10 @@ from matplotlib.figure import Figure
 from lostmotion.report import style
 from lostmotion.report.cast import versions
 from lostmotion.report.evidence import Evidence
-from lostmotion.report.words import Scale, spoken, with_unit
-from lostmotion.results import Array
+from lostmotion.report.pages import Grid, trimmed
+from lostmotion.report.words import DASH, Scale, figures, pretty, readable, spoken, with_unit
+from lostmotion.report.words import interval as in_words
+from lostmotion.results import Array, Interval
 
 BINS = 45
 DIMENSION = {"before": "parameter", "after": "parameter_after"}
@@ -43,7 +42,7 @@ def draw(evidence: Evidence) -> Figure | None:
 
 def caption(evidence: Evidence) -> str:
     """Return what to see in the figure."""
-    known = " The dashed line is the known value." if evidence.fact("truth") else ""
+    known = " The dashed line is the known value." if evidence.result.truth else ""
     both = (
         " A parameter that moves had stood in for what was left out; its interval before is then narrow and wrong."
         if evidence.augmented and evidence.has("posterior_after")
@@ -55,7 +54,8 @@ def caption(evidence: Evidence) -> str:
 def parameters(evidence: Evidence) -> list[str]:
     """Return all names of parameters, those of the model as it stands first."""
     keys = [who.key for who in versions(evidence)]
-    listed = [name for key in keys for name in (evidence.fact("parameters", key) or {})]
+    sets = evidence.result.parameters
+    listed = [name for who in versions(evidence) for name in who.of(sets.before, sets.after)]
     drawn = [name for key in keys for name in evidence.labels.get(DIMENSION[key], ())]
     return list(dict.fromkeys(listed + drawn))
 
@@ -72,13 +72,13 @@ def samples(evidence: Evidence, when: str, name: str) -> Array:
 def draw_density(axes: Axes, evidence: Evidence, name: str) -> None:
     """Draw the densities of one parameter before and after, their intervals, and the known value."""
     drawn = [(who, samples(evidence, who.key, name)) for who in versions(evidence)]
-    entry, truth = entry_of(evidence, name), evidence.number("truth", name)
-    scale = style.scale_of(np.concatenate([values for _, values in drawn]), str(entry.get("unit", "")))
+    last, truth, sets = last_of(evidence, name), evidence.truth(name), evidence.result.parameters
+    scale = style.scale_of(np.concatenate([values for _, values in drawn]), last.unit if last else "")
     for row, (who, values) in enumerate(drawn):
         if values.size:
             _draw_histogram(axes, scale.factor * values, who.colour)
             look = who.colour, -0.1 - 0.12 * row
-            _draw_interval(axes, evidence.fact("parameters", who.key, name), scale, look)
+            _draw_interval(axes, who.of(sets.before, sets.after).get(name), scale, look)
     if np.isfinite(truth):
         axes.axvline(scale.factor * truth, color=style.RECORDED, linestyle=(0, (4, 2)), linewidth=1.3)
     style.few_ticks(axes, 4)
@@ -97,11 +97,11 @@ def _draw_histogram(axes: Axes, values: Array, colour: str) -> None:
     axes.stairs(counts / counts.max(), edges, color=colour, linewidth=1.2)
 
 
-def _draw_interval(axes: Axes, entry: Mapping[str, Any] | None, scale: Scale, look: tuple[str, float]) -> None:
-    if not entry or entry.get("withheld"):
+def _draw_interval(axes: Axes, told: Interval | None, scale: Scale, look: tuple[str, float]) -> None:
+    if told is None or told.withheld:
         return
     colour, height = look
-    low, median, high = (scale.factor * float(entry[key]) for key in ("low", "median", "high"))
+    low, median, high = (scale.factor * end for end in (told.low, told.median, told.high))
     axes.plot([low, high], [height, height], color=colour, linewidth=2.2, solid_capstyle="butt")
     axes.plot([median], [height], "o", color=colour, markersize=4.5)
 
@@ -111,15 +111,35 @@ def _add_legend(figure: Figure, evidence: Evidence) -> None:
     for who in versions(evidence):
         if evidence.has(f"posterior_{who.key}"):
             axes.plot([], [], color=who.colour, linewidth=5, alpha=0.6, label=who.named("posterior"))
-    if evidence.fact("truth"):
+    if evidence.result.truth:
         axes.plot([], [], color=style.RECORDED, linestyle=(0, (4, 2)), label="known value")
     style.legend_above(figure, axes)
 
 
-def entry_of(evidence: Evidence, name: str) -> Mapping[str, Any]:
-    """Return what the diagnosis says of a parameter in the last version of the model that has it."""
-    said = [evidence.fact("parameters", who.key, name) for who in versions(evidence)]
-    return next((entry for entry in reversed(said) if entry), {})
+def last_of(evidence: Evidence, name: str) -> Interval | None:
+    """Return the interval of a parameter in the last version of the model that has it."""
+    sets = evidence.result.parameters
+    told = [who.of(sets.before, sets.after).get(name) for who in versions(evidence)]
+    return next((one for one in reversed(told) if one), None)
+
+
+def table(evidence: Evidence) -> Grid:
+    """Return each parameter before and after, its known value, and whether the last interval holds it."""
+    first = "Before" if evidence.augmented else "Median [95 %]"
+    head = ["Parameter", first, "After", "Known value", "In the last interval"]
+    rows = [_row(evidence, name, last) for name in parameters(evidence) if (last := last_of(evidence, name))]
+    return trimmed(head, rows if evidence.augmented else [[*row[:2], DASH, *row[3:]] for row in rows])
+
+
+def _row(evidence: Evidence, name: str, last: Interval) -> list[str]:
+    scale, truth, sets = readable(last.median, last.unit), evidence.truth(name), evidence.result.parameters
+    row = [words_of(name), *(in_words(told.get(name), scale) for told in (sets.before, sets.after))]
+    if not np.isfinite(truth):
+        return [*row, DASH, DASH]
+    known = f"{figures(scale.factor * truth, 4)} {pretty(scale.unit)}".rstrip()
+    if last.withheld:
+        return [*row, known, DASH]
+    return [*row, known, "inside" if truth in last else "outside"]
 
 
 def words_of(name: str) -> str:

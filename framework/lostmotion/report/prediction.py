@@ -56,7 +56,7 @@ def caption(evidence: Evidence) -> str:
         if len(_forecasts(evidence)) > 1
         else " Where nothing is missing, the prediction stays on the recording until noise and chaos part them."
     )
-    names = [str(one.get("name")) for one in evidence.fact("sensors") or []]
+    names = [one.name for one in evidence.result.sensors]
     whose = f" of the first sensor, {names[0]}" if len(names) > 1 else ""
     return (
         f"Top: the whole recording{whose}, with the part that no fit has seen shaded and the enlarged window outlined. "
@@ -83,9 +83,9 @@ def window_of(evidence: Evidence) -> Window:
 
 def _around(evidence: Evidence, record: NDArray[np.intp], centre: int) -> NDArray[np.intp]:
     time = evidence.arrays["time"][record]
-    frequency = evidence.number("drive", "frequency")
+    frequency = evidence.result.drive.frequency
     whole = float(time[-1] - time[0])
-    cycle = 1.0 / frequency if frequency > 0 else _natural_period(evidence)
+    cycle = 1.0 / frequency if frequency else _natural_period(evidence)
     length = min(whole, PERIODS_SHOWN * cycle if cycle > 0 else whole / 8)
     start = min(max(float(evidence.arrays["time"][centre]) - length / 12, time[0]), time[-1] - length)
     shown: NDArray[np.intp] = record[(time >= start) & (time <= start + length)]
@@ -94,8 +94,8 @@ def _around(evidence: Evidence, record: NDArray[np.intp], centre: int) -> NDArra
 
 def _natural_period(evidence: Evidence) -> float:
     """Return the natural period (s) where predictions are judged over so many of them, else NaN."""
-    is_unit = evidence.fact("fit", "horizon_unit") == "natural periods"
-    return evidence.number("fit", "horizon_unit_time") if is_unit else float("nan")
+    fit = evidence.result.fit
+    return fit.horizon_unit_time if fit.horizon_unit == "natural periods" else float("nan")
 
 
 def draw_overview(axes: Axes, evidence: Evidence, window: Window) -> None:
@@ -139,7 +139,7 @@ def draw_window(axes: Axes, evidence: Evidence, window: Window) -> None:
         axes.plot(at, scale.factor * values, color=colour, label=words)
     others = [scale.factor * evidence.arrays[name][window.shown] for name, _, _ in _forecasts(evidence)]
     axes.set_ylim(style.framed(scale.factor * seen, others, 0.5))
-    _finish(axes, evidence, window, with_unit(evidence.response, scale.unit))
+    _finish(axes, evidence, window, with_unit(evidence.result.response.quantity, scale.unit))
 
 
 def draw_error(axes: Axes, evidence: Evidence, window: Window) -> None:
@@ -183,7 +183,7 @@ def _finish(axes: Axes, evidence: Evidence, window: Window, name: str) -> None:
     axes.plot(at, np.zeros(at.size), "^", color=style.RECORDED, markersize=5, transform=foot, clip_on=False)
     axes.set_xlim(time[window.shown[0]], time[window.shown[-1]])
     style.few_ticks(axes, 8)
-    axes.set_xlabel(with_unit("time", evidence.unit("time") or "s"))
+    axes.set_xlabel(with_unit("time", evidence.result.units.time))
     axes.set_ylabel(name)
 
 

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from typing import Any
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -12,6 +10,7 @@ from matplotlib.figure import Figure
 from lostmotion.report import style
 from lostmotion.report.evidence import Evidence
 from lostmotion.report.words import figures, probability, sentence, spoken
+from lostmotion.results.diagnosis import Candidate, Mechanism
 
 MOST = 16
 MOST_BELOW = 20.0
@@ -30,11 +29,11 @@ def draw(evidence: Evidence) -> Figure | None:
 
 def caption(evidence: Evidence) -> str:
     """Return what to see in the figure."""
-    hidden = len(evidence.fact("ranking") or []) - MOST
-    check = evidence.fact("evidence", "says")
+    hidden = len(evidence.result.ranking) - MOST
+    check = evidence.result.evidence.says
     rest = f" The {hidden} candidates that rank lowest are not drawn." if hidden > 0 else ""
     rest += f" {check}" if check else ""
-    gains = [_gain(entry, 0.0) for entry in ranked(evidence)]
+    gains = [_gain(one, 0.0) for one in ranked(evidence)]
     cut = " ◂ marks a bar that was cut short." if gains and min(gains) < _reach(gains)[1] else ""
     return (
         "Each candidate was fitted with all parameters of the model set free again. The bar is what the log evidence "
@@ -46,7 +45,7 @@ def caption(evidence: Evidence) -> str:
 
 def _priced(evidence: Evidence) -> str:
     """Return what a term costs before the recording is seen, as the end of a sentence."""
-    prices = [float(entry["price"]) for entry in ranked(evidence) if entry.get("price") is not None]
+    prices = [one.price for one in ranked(evidence) if one.price is not None]
     if not prices:
         return ""
     span = f"{min(prices):.1f}" if max(prices) - min(prices) < 0.05 else f"{min(prices):.1f} to {max(prices):.1f}"
@@ -55,21 +54,21 @@ def _priced(evidence: Evidence) -> str:
     )
 
 
-def ranked(evidence: Evidence, most: int = MOST) -> list[Mapping[str, Any]]:
+def ranked(evidence: Evidence, most: int = MOST) -> list[Candidate]:
     """Return the entries of the ranking, largest gain first; candidates without a number stand last."""
-    return sorted(evidence.fact("ranking") or [], key=lambda entry: -_gain(entry, -math.inf))[:most]
+    return sorted(evidence.result.ranking, key=lambda one: -_gain(one, -math.inf))[:most]
 
 
-def draw_bars(axes: Axes, evidence: Evidence, rows: list[Mapping[str, Any]]) -> None:
+def draw_bars(axes: Axes, evidence: Evidence, rows: list[Candidate]) -> None:
     """Draw one bar for each candidate, with its gain and its probability written beside it."""
-    found = {_key(entry) for entry in evidence.fact("found") or []}
-    gains = [_gain(entry, 0.0) for entry in rows]
+    found = {_key(one) for one in evidence.result.found}
+    gains = [_gain(one, 0.0) for one in rows]
     top, left = _reach(gains)
-    colours = [style.AFTER if _key(entry) in found else style.QUIET for entry in rows]
+    colours = [style.AFTER if _key(one) in found else style.QUIET for one in rows]
     axes.barh(range(len(rows)), [max(gain, left) for gain in gains], color=colours, height=0.66)
     axes.axvline(0, color=style.RECORDED, linewidth=0.8)
-    for row, entry in enumerate(rows):
-        _write_beside(axes, row, entry, (left, 0.012 * (top - left)))
+    for row, one in enumerate(rows):
+        _write_beside(axes, row, one, (left, 0.012 * (top - left)))
     axes.set_yticks(range(len(rows)), _labels(evidence, rows))
     axes.invert_yaxis()
     axes.set_xlim(min(1.05 * left, 0), top + 0.2 * (top - left))
@@ -79,15 +78,15 @@ def draw_bars(axes: Axes, evidence: Evidence, rows: list[Mapping[str, Any]]) -> 
     axes.text(1.02, 1.01, "probability", color="#444444", fontsize=8.5, va="bottom", transform=axes.transAxes)
 
 
-def _key(entry: Mapping[str, Any]) -> tuple[str, str]:
+def _key(one: Candidate | Mechanism) -> tuple[str, str]:
     """Return mechanism and place: the same law may act in two places."""
-    return str(entry.get("mechanism", "?")), str(entry.get("at") or "ground")
+    return one.mechanism, one.at or "ground"
 
 
-def _labels(evidence: Evidence, rows: list[Mapping[str, Any]]) -> list[str]:
+def _labels(evidence: Evidence, rows: list[Candidate]) -> list[str]:
     """Return the names of the candidates, with their places where there is more than one."""
-    several = len({entry["at"] for entry in evidence.fact("ranking") or [] if entry.get("at")}) > 1
-    named = [(sentence(spoken(str(entry.get("mechanism", "?")))), entry.get("at")) for entry in rows]
+    several = len({one.at for one in evidence.result.ranking if one.at}) > 1
+    named = [(sentence(spoken(one.mechanism)), one.at) for one in rows]
     return [f"{name} ({at})" if several and at else name for name, at in named]
 
 
@@ -97,17 +96,16 @@ def _reach(gains: list[float]) -> tuple[float, float]:
     return top, min(0.0, max(min(gains), -max(0.25 * top, MOST_BELOW)))
 
 
-def _write_beside(axes: Axes, row: int, entry: Mapping[str, Any], frame: tuple[float, float]) -> None:
+def _write_beside(axes: Axes, row: int, one: Candidate, frame: tuple[float, float]) -> None:
     left, gap = frame
-    gain = _gain(entry, math.nan)
+    gain = _gain(one, math.nan)
     words = "not fitted" if math.isnan(gain) else figures(gain, 4 if abs(gain) >= 1000 else 3)
     words = f"◂ {words}" if gain < left else words
     at = max(gain, 0.0) + gap if math.isfinite(gain) else gap
     axes.text(at, row, words, va="center", fontsize=8.5)
-    beside = axes.text(1.02, row, probability(entry.get("probability")), va="center", fontsize=8.5)
+    beside = axes.text(1.02, row, probability(one.probability), va="center", fontsize=8.5)
     beside.set_transform(axes.get_yaxis_transform())
 
 
-def _gain(entry: Mapping[str, Any], absent: float) -> float:
-    gain = entry.get("log_evidence_gain")
-    return float(gain) if isinstance(gain, int | float) and math.isfinite(gain) else absent
+def _gain(one: Candidate, absent: float) -> float:
+    return one.log_evidence_gain if math.isfinite(one.log_evidence_gain) else absent

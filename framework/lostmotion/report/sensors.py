@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
 from dataclasses import replace
-from typing import Any
 
-import numpy as np
 from matplotlib.figure import Figure
 
 from lostmotion.report import prediction, style
+from lostmotion.report.cast import versions
 from lostmotion.report.evidence import Evidence
-from lostmotion.report.tables import Table
+from lostmotion.report.pages import Grid
 from lostmotion.report.words import DASH, figures, percent, pretty, readable, shortened, spoken
+from lostmotion.results.diagnosis import Response, SensorFacts
 
 KINDS = {"white": "white", "ar1": "with a memory", "quantised": "rounded"}
 
@@ -31,7 +31,7 @@ def draw(evidence: Evidence) -> Figure | None:
         upper.set_title(shortened(name))
         for axes in (upper, lower):
             axes.set_xlabel("")
-    rows[-1].set_xlabel(f"time ({evidence.unit('time') or 's'})")
+    rows[-1].set_xlabel(f"time ({evidence.result.units.time})")
     figure.align_ylabels()
     style.legend_above(figure, rows[0])
     return figure
@@ -46,46 +46,37 @@ def caption(evidence: Evidence) -> str:
     )
 
 
-def table(evidence: Evidence) -> Table:
-    """Return name, channel, noise and held-out errors of each sensor; no rows where there is one sensor or none."""
+def table(evidence: Evidence) -> Grid | None:
+    """Return name, channel, noise and held-out errors of each sensor; None where there is one sensor."""
     models = ["Error before", "Error after"] if evidence.augmented else ["Error"]
     head = ["Sensor", "Channel", "Noise, s.d.", "Kind of noise", *models]
-    sensors = _sensors(evidence)
-    return Table(head, [_row(evidence, sensor) for sensor in sensors] if len(sensors) > 1 else [])
+    rows = [_row(evidence, sensor) for sensor in evidence.result.sensors]
+    return Grid(head, rows) if len(rows) > 1 else None
 
 
-def _sensors(evidence: Evidence) -> list[Mapping[str, Any]]:
-    return [entry for entry in evidence.fact("sensors") or [] if isinstance(entry, Mapping)]
+def _row(evidence: Evidence, sensor: SensorFacts) -> list[str]:
+    fit = evidence.result.fit
+    scores = [who.of(fit.before, fit.after) for who in versions(evidence)]
+    errors = [percent(score.nrmse_by_sensor.get(sensor.name)) for score in scores]
+    return [sensor.name, spoken(sensor.channel), _noise(sensor), KINDS.get(sensor.kind, sensor.kind), *errors]
 
 
-def _row(evidence: Evidence, sensor: Mapping[str, Any]) -> list[str]:
-    name, kind = str(sensor.get("name", "?")), str(sensor.get("kind", ""))
-    errors = [
-        percent(evidence.number("fit", when, "heldout_nrmse_by_sensor", name))
-        for when in (("before", "after") if evidence.augmented else ("before",))
-    ]
-    return [name, spoken(str(sensor.get("channel", "?"))), _noise(sensor), KINDS.get(kind, kind or DASH), *errors]
-
-
-def _noise(sensor: Mapping[str, Any]) -> str:
-    size = sensor.get("noise_sd")
-    if not isinstance(size, int | float):
+def _noise(sensor: SensorFacts) -> str:
+    if math.isnan(sensor.noise_sd):
         return DASH
-    scale = readable(float(size), str(sensor.get("unit", "")))
-    return f"{figures(scale.factor * size)} {pretty(scale.unit)}".rstrip()
+    scale = readable(sensor.noise_sd, sensor.unit)
+    return f"{figures(scale.factor * sensor.noise_sd)} {pretty(scale.unit)}".rstrip()
 
 
 def each(evidence: Evidence) -> list[tuple[str, Evidence]]:
     """Return the name of each sensor with the evidence as it would be if this sensor were the first one."""
-    sensors = _sensors(evidence)
-    return [(str(one.get("name", "?")), _seen_by(evidence, number, one)) for number, one in enumerate(sensors, 1)]
+    return [(one.name, _seen_by(evidence, number, one)) for number, one in enumerate(evidence.result.sensors, 1)]
 
 
-def _seen_by(evidence: Evidence, number: int, sensor: Mapping[str, Any]) -> Evidence:
-    channel = str(sensor.get("channel", "response"))
-    facts = {**evidence.facts, "response": {"quantity": spoken(channel)}}
-    if number == 1:
-        return replace(evidence, facts=facts)
-    names = ("response", "forecast_before", "forecast_after")
-    arrays = {**evidence.arrays, **{name: evidence.arrays.get(f"{name}_{number}", np.array([])) for name in names}}
-    return replace(evidence, facts=facts, arrays=arrays, units={**evidence.units, "response": str(sensor.get("unit"))})
+def _seen_by(evidence: Evidence, number: int, sensor: SensorFacts) -> Evidence:
+    result, data = replace(evidence.result, response=Response(spoken(sensor.channel))), evidence.data
+    if number > 1:
+        firsts = ("response", "forecast_before", "forecast_after")
+        its_own = {f"{name}_{number}": name for name in firsts if f"{name}_{number}" in data}
+        data = data.drop_vars(firsts, errors="ignore").rename(its_own)
+    return Evidence(data, result)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -13,25 +12,27 @@ from matplotlib.figure import Figure
 from lostmotion.report import style
 from lostmotion.report.cast import Version, versions
 from lostmotion.report.evidence import Evidence
-from lostmotion.report.tables import Table
+from lostmotion.report.pages import Grid
 from lostmotion.report.words import DASH, figures, with_unit
 from lostmotion.results import Array
+from lostmotion.results.mismatch import DisagreementOverTime
 
 SPAN = 3.0
 """Colours reach over a factor of three at least: less is no disagreement worth a colour."""
 TWICE = 2.2
 """The axis holds a half and twice what is expected at least, so that both have a mark."""
 LEVEL = 0.05
+LEAST = 1e-3
 
 
 def draw(evidence: Evidence) -> Figure | None:
     """Return a strip for each model over a step plot of both, or None where nothing was told over time."""
-    told = evidence.fact("where", "over_time")
-    if not told or len(told["edges"]) < 3:
+    told = evidence.result.where.over_time
+    if told is None or len(told.edges) < 3:
         return None
-    rows = {who: _row(told, who.key) for who in versions(evidence)}
-    scale = style.scale_of(np.array(told["edges"], dtype=float), "s")
-    edges = scale.factor * np.array(told["edges"], dtype=float)
+    rows = {who: np.maximum(who.of(told.before, told.after), LEAST) for who in versions(evidence)}
+    scale = style.scale_of(np.array(told.edges), "s")
+    edges = scale.factor * np.array(told.edges)
     figure = style.blank(0.45 * len(rows) + 2.6)
     panels = figure.subplots(len(rows) + 1, 1, sharex=True, height_ratios=[*(0.32,) * len(rows), 1.6])
     _draw_strips(panels[:-1], edges, rows)
@@ -61,8 +62,7 @@ def _draw_strips(panels: Sequence[Axes], edges: Array, rows: Mapping[Version, Ar
 def _draw_steps(axes: Axes, edges: Array, rows: Mapping[Version, Array]) -> None:
     """Draw the disagreement of each model over time, as steps."""
     for who, row in rows.items():
-        looks: dict[str, Any] = {"color": who.colour, "linewidth": 1.6, "label": who.named("disagreement")}
-        axes.stairs(row, edges, baseline=None, **looks)
+        axes.stairs(row, edges, baseline=None, color=who.colour, linewidth=1.6, label=who.named("disagreement"))
     values = np.concatenate(list(rows.values()))
     low, high = float(np.nanmin(values)), float(np.nanmax(values))
     axes.set_yscale("log")
@@ -72,51 +72,44 @@ def _draw_steps(axes: Axes, edges: Array, rows: Mapping[Version, Array]) -> None
     axes.set_xlim(edges[0], edges[-1])
 
 
-def _row(told: Mapping[str, Any], key: str) -> Array:
-    return np.array([np.nan if value is None else max(value, 1e-3) for value in told[key]], dtype=float)
-
-
-def _mark(axes: Axes, told: Mapping[str, Any], factor: float) -> None:
+def _mark(axes: Axes, told: DisagreementOverTime, factor: float) -> None:
     """Draw what is expected, and shade the window that stands out beyond chance."""
-    axes.axhline(told["expected"], color=style.RECORDED, linewidth=0.8, label="expected")
-    worst = told["worst"]
-    if worst["beyond_chance"]:
-        axes.axvspan(factor * worst["begin"], factor * worst["end"], color=style.SHADE, zorder=0)
+    axes.axhline(told.expected, color=style.RECORDED, linewidth=0.8, label="expected")
+    if told.worst.beyond_chance:
+        axes.axvspan(factor * told.worst.begin, factor * told.worst.end, color=style.SHADE, zorder=0)
 
 
 def caption(evidence: Evidence) -> str:
-    """Return what to see in the figure."""
-    told = evidence.fact("where", "over_time") or {}
-    window = "hit, up to the next one" if told.get("windows") == "hits" else "window"
-    said = told.get("says") or "No stretch stands out beyond chance."
-    shaded = " It is shaded." if (told.get("worst") or {}).get("beyond_chance") else ""
+    """Return what to see in the figure; empty where nothing was told over time."""
+    told, recordings = evidence.result.where.over_time, evidence.result.where.by_recording
+    if told is None:
+        return ""
+    window = "hit, up to the next one" if told.windows == "hits" else "window"
+    said = told.says or "No stretch stands out beyond chance."
+    shaded = " It is shaded." if told.worst.beyond_chance else ""
     return (
         f"{said}{shaded} For each {window}: the mean squared one-step prediction error over the variance that the model"
         " states for it, 1 where the model holds. Chance is what remains when blocks of errors change places; it is"
-        f" {LEVEL:.0%} over all windows together. {_levels(evidence)}"
+        f" {LEVEL:.0%} over all windows together. {recordings.says if recordings else ''}"
     ).rstrip()
 
 
-def _levels(evidence: Evidence) -> str:
-    return str(evidence.fact("where", "by_recording", "says") or "")
-
-
-def table(evidence: Evidence) -> Table:
-    """Return one row for each recording: its level, and the disagreement before and after."""
-    rows: Sequence[Mapping[str, Any]] = evidence.fact("where", "by_recording", "rows") or ()
-    of = evidence.fact("where", "by_recording", "level_of")
-    head = ["Recording", f"{str(of).capitalize()} level (rms)", "Part", "Before", "After", "p"]
-    return Table(
-        head,
+def table(evidence: Evidence) -> Grid | None:
+    """Return one row for each recording: its level, and the disagreement before and after; None where there is one."""
+    told = evidence.result.where.by_recording
+    if told is None:
+        return None
+    return Grid(
+        ["Recording", f"{told.level_of.capitalize()} level (rms)", "Part", "Before", "After", "p"],
         [
             [
-                str(row["name"]),
-                f"{figures(row['level'])} {row['unit']}",
-                "fitted" if row["fitted"] else "held out",
-                figures(row["before"]),
-                figures(row["after"]),
-                figures(row["p_after"], 2) if "p_after" in row else DASH,
+                row.name,
+                f"{figures(row.level)} {row.unit}",
+                "fitted" if row.fitted else "held out",
+                figures(row.before),
+                figures(row.after),
+                DASH if row.p_after is None else figures(row.p_after, 2),
             ]
-            for row in rows
+            for row in told.rows
         ],
     )

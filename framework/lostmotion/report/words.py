@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 from lostmotion.results import Interval
@@ -150,19 +149,17 @@ def chance(p: Any) -> str:
     return f"p < {figures(SMALLEST)}" if known and p < SMALLEST else f"p = {figures(p, 2)}"
 
 
-def interval(entry: Interval | Mapping[str, Any] | None, shown: Scale | None = None) -> str:
+def interval(told: Interval | None, shown: Scale | None = None) -> str:
     """Return `median [low, high] unit`, with as many decimals as the width of the interval deserves.
 
     Where the interval is withheld the median stands alone, and says so.
     """
-    if isinstance(entry, Interval):
-        entry = entry.as_dict()
-    if not entry or not isinstance(entry.get("median"), int | float):
+    if told is None or not math.isfinite(told.median):
         return DASH
-    factor, unit = shown or readable(entry["median"], str(entry.get("unit", "")))
-    if entry.get("withheld"):
-        return f"{figures(factor * entry['median'], 3)} {pretty(unit)}".rstrip() + ", interval withheld"
-    ends = [factor * float(entry.get(key, entry["median"])) for key in ("median", "low", "high")]
+    factor, unit = shown or readable(told.median, told.unit)
+    if told.withheld:
+        return f"{figures(factor * told.median, 3)} {pretty(unit)}".rstrip() + ", interval withheld"
+    ends = [factor * end for end in (told.median, told.low, told.high)]
     decimals = _decimals(ends[2] - ends[1], ends[0])
     median, low, high = (_signed(f"{end:.{decimals}f}") for end in ends)
     return f"{median} [{low}, {high}] {pretty(unit)}".rstrip()

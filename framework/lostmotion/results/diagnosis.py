@@ -68,7 +68,7 @@ class Mechanism:
         spare=True,
     )
     probability: float = told("posterior probability among the library, nothing missing and unknown")
-    state: str = told("named, likely or open")
+    state: str = told("`named`, `likely` or `open`")
     doubts: tuple[str, ...] = told("why it is no more than likely, in sentences", default=())
     log_odds: float | None = told("log odds of the learned curves over the best of the library", default=None)
     depends_on: tuple[str, ...] | None = told("what a force without a name depends on", default=None)
@@ -162,7 +162,7 @@ class HeldOutScores:
 
     before: HeldOutScore = told("of the nominal model")
     after: HeldOutScore = told("of the model with what was found")
-    noise_floor_nrmse: float = told("the share of the held-out readings that is noise")
+    noise_floor_nrmse: float = told("the error that measurement noise alone gives")
     horizon_unit: str = told("Lyapunov times, drive periods or natural periods")
     horizon_unit_time: float = told("length of that unit", unit="s")
 
@@ -211,7 +211,7 @@ class SensorFacts:
     channel: str = told("the channel of the model that it measures")
     unit: str = told("its unit")
     noise_sd: float = told("standard deviation of all its measurement noise, in `unit`")
-    kind: str = told("white, ar1 (slow) or quantised")
+    kind: str = told("`white`, `ar1` (slow) or `quantised`")
 
 
 @dataclass(frozen=True)
@@ -293,10 +293,12 @@ class Diagnosis:
 
     title: str = told("title of the case")
     schema: str = told("name and number of this format", default=SCHEMA)
-    verdict: str = told("adequate or mismatch")
+    verdict: str = told("`adequate`: nothing is missing that this recording can show; or `mismatch`")
     says: tuple[str, ...] = told("the answer, in sentences")
-    found: tuple[Mechanism, ...] = told("what the model leaves out, named ones first")
-    open: tuple[OpenTerm, ...] = told("terms that stay open")
+    found: tuple[Mechanism, ...] = told(
+        "what the model leaves out, named ones first; empty where the verdict is `adequate`"
+    )
+    open: tuple[OpenTerm, ...] = told("terms that would raise the likelihood and stay without a name")
     ranking: tuple[Candidate, ...] = told("every candidate, the most probable first")
     confused_with: tuple[Confusion, ...] = told("what this recording cannot tell from what was found")
     unexplained: UnexplainedForce = told("the random force that is left")
@@ -313,9 +315,9 @@ class Diagnosis:
     lyapunov: Exponents = told("largest Lyapunov exponents")
     valid_prediction_time: ValidTimes = told("how long predictions hold")
     whiteness: BothWhite = told("whether one-step errors are white")
-    sharing: Sharing | None = told("what several recordings share", default=None)
+    sharing: Sharing | None = told("what several recordings share; absent of one recording", default=None)
     show: Behaviour = told("measures of the motion, before, after and of noise alone")
-    decay: Decays | None = told("free decays, where the recording has any", default=None)
+    decay: Decays | None = told("free decays, of recordings that nothing drives and of hammer tests", default=None)
     evidence: EvidenceCheck = told("the log evidence by another method")
     machine: FittedMachine = told("what it takes to set the fitted model in motion again")
     truth: Mapping[str, float] = told("what the case says is true, for tests on made data")

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 from lostmotion.codec import from_plain, to_plain
 from lostmotion.report import style
-from lostmotion.report.pages import DrawnFigure, template, written
+from lostmotion.report.pages import DrawnSection, template, written
 from lostmotion.report.words import DASH, figures, percent, sentence, spoken, typeset
 from lostmotion.storage import load_json, require_files
 from lostmotion_trials.blind.figures import CAPTIONS, detection, heldout, reliability
@@ -67,7 +67,7 @@ def render(proof: Proof) -> str:
     with style.applied():
         parts = _figures(told)
         drawn = [
-            DrawnFigure(name, title, style.embedded(figure, name), CAPTIONS[name]) for name, title, figure in parts
+            DrawnSection(name, title, style.embedded(figure, name), CAPTIONS[name]) for name, title, figure in parts
         ]
     states = [row.state for row in told.targets]
     return template("page.html.j2", __package__).render(

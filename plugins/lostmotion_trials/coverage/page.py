@@ -15,7 +15,7 @@ from lostmotion.codec import from_plain, to_plain
 from lostmotion.contracts import Array
 from lostmotion.errors import DataError
 from lostmotion.report import style
-from lostmotion.report.pages import DrawnFigure, template, written
+from lostmotion.report.pages import DrawnSection, template, written
 from lostmotion.report.posteriors import words_of
 from lostmotion.report.words import DASH, figures, pretty, readable, sentence, spoken
 from lostmotion.storage import load_json, require_files
@@ -88,7 +88,7 @@ def render(calibration: Calibration) -> str:
     facts, summary = calibration.facts, calibration.summary
     with style.applied():
         drawn = [
-            DrawnFigure(name, title, style.embedded(figure, name), said)
+            DrawnSection(name, title, style.embedded(figure, name), said)
             for name, title, figure, said in _figures(calibration)
         ]
     return template("page.html.j2", __package__).render(

@@ -1,0 +1,66 @@
+"""The directive `keys`: what each key of a file of results means, from the class that is written to it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from importlib import import_module
+from itertools import groupby
+from typing import Any, ClassVar
+
+from docutils import nodes
+from listings import table, worded
+from sphinx.application import Sphinx
+from sphinx.util.docutils import SphinxDirective
+
+from lostmotion.codec import Entry, schema
+
+HEADS = ("key", "type", "unit", "meaning")
+
+
+def setup(app: Sphinx) -> dict[str, bool]:
+    """Offer `keys`."""
+    app.add_directive("keys", Keys)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}
+
+
+class Keys(SphinxDirective):
+    """The keys of a class such as `lostmotion.results.diagnosis.Diagnosis`, by the first part of the key."""
+
+    required_arguments = 1
+    option_spec: ClassVar[Any] = {}
+
+    def run(self) -> list[nodes.Node]:
+        """Return a table of the keys that stand alone, and a section with a table for each that holds others."""
+        module, _, name = self.arguments[0].rpartition(".")
+        groups = [list(group) for _, group in groupby(brief(schema(getattr(import_module(module), name))), first_part)]
+        alone = [group[0] for group in groups if len(group) == 1]
+        return [table(HEADS, alone), *(section(name, *group) for group in groups if len(group) > 1)]
+
+
+def first_part(entry: Entry) -> str:
+    """Return the first part of a key: `found` of `found[].parameters.NAME.median`."""
+    return re.split(r"[.\[]", entry.path)[0]
+
+
+def section(name: str, head: Entry, *entries: Entry) -> nodes.section:
+    """Return the section of a key that holds others."""
+    first = first_part(head)
+    made = nodes.section(ids=[nodes.make_id(f"{name}-{first}")], names=[nodes.fully_normalize_name(first)])
+    made += nodes.title("", "", nodes.literal("", first))
+    made += nodes.paragraph("", "", *worded(f"{head.doc[:1].upper()}{head.doc[1:]} ({head.type})."))
+    made += table(HEADS, entries)
+    return made
+
+
+def brief(entries: Iterator[Entry]) -> Iterator[Entry]:
+    """Yield entries without the keys of an object that is like an earlier one, and say which one that is."""
+    rows, told, hidden = list(entries), {}, None
+    for row in rows:
+        if hidden and row.path.startswith(hidden):
+            continue
+        inside = f"{row.path}."
+        keys = tuple((one.path.removeprefix(inside), *one[1:]) for one in rows if one.path.startswith(inside))
+        first = told.setdefault(keys, row.path)
+        hidden = inside if len(keys) > 1 and first != row.path else None
+        yield row._replace(doc=f"{row.doc}; its keys are those of `{first}`") if hidden else row
