@@ -17,7 +17,7 @@ from lostmotion.study.atlas import CHAOTIC, PERIODIC, Atlas
 from lostmotion.study.inversion import WEAK, Inversion, grouped, likelihood_of, predicted
 from lostmotion.study.map import RING, Map
 from lostmotion.study.numbers import NumberLaw, NumberPower, law_of
-from lostmotion.workflow.identify import level_told
+from lostmotion.workflow.identification_result import level_told
 from lostmotion.workflow.levels import Survey, _free, derived, inversion_of, quantifier_task, wanted_of
 from lostmotion.workflow.mapping import How, Request, make_map, study_of
 

@@ -15,10 +15,10 @@ import pytest
 from lostmotion.codec import to_plain
 from lostmotion.errors import DataError
 from lostmotion.report.analysis import SECTIONS, render, write_analysis
-from lostmotion.report.analysis_facts import read_analysis
 from lostmotion.report.analysis_measures import natural
 from lostmotion.report.analysis_summary import figure_summary
 from lostmotion.report.analysis_tables import estimate, opening, verdict
+from lostmotion.report.analysis_view import read_analysis
 from lostmotion.report.words import power_of_ten, shortened
 from lostmotion.results.analysis import DrivePeriod, Measure, Sign
 

@@ -15,7 +15,7 @@ from lostmotion.contracts import Orbit
 from lostmotion.flow import Harmonic, flow_of
 from lostmotion.registry import default
 from lostmotion.study.inversion import predicted
-from lostmotion.workflow.identify import level_told
+from lostmotion.workflow.identification_result import level_told
 from lostmotion.workflow.levels import Survey, inversion_of
 from lostmotion.workflow.reading import read_level
 from lostmotion.workflow.rehearsal import Bench, rehearsed, rehearsed_levels

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from lostmotion.codec import to_plain
 from lostmotion.report import analysis as page
-from lostmotion.report.analysis_facts import AGAIN, ARRAYS, RESULT, view_of
+from lostmotion.report.analysis_view import AGAIN, ARRAYS, RESULT, view_of
 from lostmotion.results.analysis import Analysis
 from lostmotion.storage import folder_for, load_arrays, load_result, save_datasets, save_json, save_text
 

@@ -12,7 +12,7 @@ from lostmotion.report import analysis_motion as motion
 from lostmotion.report import analysis_surrogates as surrogates
 from lostmotion.report import analysis_tables as tables
 from lostmotion.report import style
-from lostmotion.report.analysis_facts import AGAIN, AnalysisView, read_analysis, whole
+from lostmotion.report.analysis_view import AGAIN, AnalysisView, read_analysis, whole
 from lostmotion.report.pages import PageSection, drawn, template, written
 
 SECTIONS: tuple[PageSection[AnalysisView], ...] = (

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from lostmotion.report import style
-from lostmotion.report.analysis_facts import AnalysisView, Variant, listed, versions
+from lostmotion.report.analysis_view import AnalysisView, Variant, listed, versions
 from lostmotion.report.words import DASH, figures, shortened, spoken
 
 CLEAN, RAW = "embedding_", "embedding_raw_"

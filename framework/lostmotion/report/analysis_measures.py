@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from lostmotion.report import style
-from lostmotion.report.analysis_facts import AnalysisView, listed
+from lostmotion.report.analysis_view import AnalysisView, listed
 from lostmotion.report.words import figures, pretty, shortened
 from lostmotion.results import STATUSES, Array
 from lostmotion.results.analysis import Measure

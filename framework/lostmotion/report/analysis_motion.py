@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from lostmotion.report import style
-from lostmotion.report.analysis_facts import (
+from lostmotion.report.analysis_view import (
     AnalysisView,
     beat,
     delayed,

@@ -9,9 +9,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from lostmotion.report import style
-from lostmotion.report.analysis_facts import AnalysisView, read_analysis, scale
 from lostmotion.report.analysis_measures import draw_dimensions, draw_divergence
 from lostmotion.report.analysis_motion import draw_portrait, draw_section
+from lostmotion.report.analysis_view import AnalysisView, read_analysis, scale
 
 Panel = Callable[[Axes, AnalysisView], None]
 

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from lostmotion.report import style
-from lostmotion.report.analysis_facts import AnalysisView
+from lostmotion.report.analysis_view import AnalysisView
 from lostmotion.report.words import probability, shortened, spoken
 from lostmotion.results import Array
 

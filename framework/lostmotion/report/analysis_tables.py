@@ -7,7 +7,7 @@ import re
 from collections.abc import Mapping
 from typing import NamedTuple
 
-from lostmotion.report.analysis_facts import AnalysisView, beat, whole
+from lostmotion.report.analysis_view import AnalysisView, beat, whole
 from lostmotion.report.words import (
     figures,
     measured,

@@ -12,7 +12,7 @@ from lostmotion.codec import to_plain
 from lostmotion.report import identification_figures as drawing
 from lostmotion.report import identification_levels as leveled
 from lostmotion.report import style
-from lostmotion.report.identification_facts import AGAIN, IdentificationView, read_identification
+from lostmotion.report.identification_view import AGAIN, IdentificationView, read_identification
 from lostmotion.report.pages import DrawnSection, template, written
 from lostmotion.report.words import DASH, Scale, figures, interval, pretty, readable
 from lostmotion.results.identification import Identification

@@ -12,7 +12,7 @@ from matplotlib.ticker import MaxNLocator
 from scipy.ndimage import gaussian_filter
 
 from lostmotion.report import style
-from lostmotion.report.identification_facts import IdentificationView
+from lostmotion.report.identification_view import IdentificationView
 from lostmotion.report.words import with_unit
 from lostmotion.results import Array
 

@@ -87,7 +87,7 @@ def quiet_arviz() -> Any:
 
 
 def inference_data(
-    variables: Mapping[str, Array], log_density: Array, units: Mapping[str, str], attrs: Mapping[str, Any]
+    variables: Mapping[str, Array], log_density: Array, units: Mapping[str, str], attrs: Mapping[str, str | int]
 ) -> Any:
     """Return variables and log density, each (walkers, steps), as ArviZ's `InferenceData`, units in the attributes.
 

@@ -112,7 +112,7 @@ class SampledPosterior:
         """The standard deviation of each parameter; empty when the chain has not converged."""
         return dict(zip(self.keys, self.draws.std(axis=0).tolist(), strict=True)) if self.converged else {}
 
-    def inference_data(self, attrs: Mapping[str, Any]) -> Any:
+    def inference_data(self, attrs: Mapping[str, str | int]) -> Any:
         """Return the draws as ArviZ's `InferenceData`, groups posterior and sample_stats, with `attrs` on both."""
         columns = {k: np.ascontiguousarray(self.chain[:, :, i]) for i, k in enumerate(self.keys)}
         return inference_data(columns, self.log_density, dict(zip(self.keys, self.units, strict=True)), attrs)

@@ -39,8 +39,7 @@ from lostmotion.stages.embed import embed
 from lostmotion.stages.quantify import quantify
 from lostmotion.stages.surrogates import SurrogateTest, surrogate_test
 from lostmotion.storage import dataset_of, folder_for, save_datasets, save_json
-from lostmotion.workflow.analysis_arrays import arrays_of
-from lostmotion.workflow.analysis_words import statement
+from lostmotion.workflow.analysis_result import arrays_of, statement
 from lostmotion.workflow.beat import Beat, MotionEvidence, beat_of, returns
 from lostmotion.workflow.motion import Verdict, judged
 from lostmotion.workflow.source import Source, WantedChannel, source_of

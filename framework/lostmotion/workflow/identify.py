@@ -15,7 +15,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from lostmotion.case import CaseFile
-from lostmotion.case.levels import Measured
 from lostmotion.codec import from_plain, to_plain
 from lostmotion.contracts import Array
 from lostmotion.errors import CaseError
@@ -23,20 +22,14 @@ from lostmotion.likelihood.space import Free
 from lostmotion.provenance import provenance
 from lostmotion.registry import Registry
 from lostmotion.report.identification import write_identification
-from lostmotion.results import Interval
 from lostmotion.results.background import Origin
-from lostmotion.results.identification import (
-    DriveLevel,
-    ExpectedMotion,
-    Identification,
-    MeasuredRange,
-)
+from lostmotion.results.identification import Identification
 from lostmotion.settings import DEFAULT, Settings
 from lostmotion.stages.identify import SampledPosterior, SamplingPlan, Task, Watch, identify
 from lostmotion.storage import folder_for, save_datasets, save_json
-from lostmotion.study.inversion import Inversion, Predicted, predicted
-from lostmotion.workflow.identification_words import modes_said, statement
-from lostmotion.workflow.levels import Survey, derived, quantifier_task
+from lostmotion.study.inversion import Inversion, predicted
+from lostmotion.workflow.identification_result import derived_told, level_told, modes_said, statement
+from lostmotion.workflow.levels import Survey, quantifier_task
 from lostmotion.workflow.notes import fleeting
 from lostmotion.workflow.predictive import groups_of
 from lostmotion.workflow.prepare import Prepared, case_of, prepared_of
@@ -179,7 +172,7 @@ def _by_quantifiers(case: CaseFile, out: Path, registry: Registry, asked: Asked)
         some = points[:: max(1, len(points) // EXPECTED)]
         expected = predicted(posterior, some, np.random.default_rng(order.seed))
         told = statement(found, "quantifiers", case, origin)
-        return replace(told, levels=tuple(map(level_told, expected)), derived=_derived(posterior, points, found))
+        return replace(told, levels=tuple(map(level_told, expected)), derived=derived_told(posterior, points, found))
 
     return Way(task, tell)
 
@@ -187,39 +180,6 @@ def _by_quantifiers(case: CaseFile, out: Path, registry: Registry, asked: Asked)
 def coordinates(free: tuple[Free, ...], values: Array) -> Array:
     """Return the coordinates (count, parameters) of parameter values (count, parameters)."""
     return np.stack([np.log(values[:, i]) if f.log else values[:, i] for i, f in enumerate(free)], axis=1)
-
-
-def level_told(one: Predicted) -> DriveLevel:
-    """Return a level with what was measured there and what the posterior expects."""
-    level = one.level
-    return DriveLevel(
-        name=level.name,
-        amplitude=level.amplitude,
-        unit=level.unit,
-        omega=level.omega,
-        motion=level.motion,
-        lyapunov=_measured(level.lyapunov, "1/s"),
-        d2=_measured(level.d2, "1"),
-        predicted=ExpectedMotion(chaotic_share=one.chaotic_share, lyapunov=one.lyapunov, d2=one.d2),
-    )
-
-
-def _measured(seen: Measured | None, unit: str) -> MeasuredRange | None:
-    if seen is None:
-        return None
-    half = 1.96 * seen.sd
-    return MeasuredRange(value=seen.value, low=seen.value - half, high=seen.value + half, unit=unit)
-
-
-def _derived(posterior: Inversion, points: Array, found: SampledPosterior) -> Mapping[str, Interval]:
-    """Return the intervals of what follows from the parameters; none from a chain that has not converged."""
-    if not found.converged:
-        return {}
-    rows = {}
-    for name, values in derived(posterior, points).items():
-        low, median, high = np.quantile(values, [0.025, 0.5, 0.975]).tolist()
-        rows[name] = Interval(median, low, high, "1")
-    return rows
 
 
 def _origin(case: CaseFile, order: Order, settings: Mapping[str, object], inputs: Mapping[str, str]) -> Origin:
@@ -231,7 +191,7 @@ def _origin(case: CaseFile, order: Order, settings: Mapping[str, object], inputs
 
 def inference_of(done: Identified) -> Any:
     """Return the draws of an identification as ArviZ's `InferenceData`."""
-    attrs = {
+    attrs: dict[str, str | int] = {
         "title": done.result.title,
         "model": done.result.model,
         "converged": int(done.posterior.converged),

@@ -1,7 +1,8 @@
-"""The arrays behind an analysis, as they are stored and drawn."""
+"""What was measured of a channel as a result: its numbers and sentences, and the arrays behind them."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
@@ -9,18 +10,113 @@ import numpy as np
 
 from lostmotion.contracts import Array, Series
 from lostmotion.results import Embedding, Estimate
+from lostmotion.results.analysis import (
+    Analysis,
+    ChosenDelay,
+    ChosenDimension,
+    DrivePeriod,
+    Measure,
+    RecordedNoise,
+    SurrogateOutcome,
+)
+from lostmotion.results.background import Origin
 from lostmotion.signals import poincare, spectrum, stroboscopic, without_harmonics
+from lostmotion.stages.surrogates import SurrogateTest
 from lostmotion.storage import Column
 
 if TYPE_CHECKING:
     from lostmotion.workflow.analyse import AnalysedChannel
 
-Table = dict[str, Column]
+SHARE = "share of the signal's standard deviation"
+CORRELATION = "grassberger_procaccia"
+Columns = dict[str, Column]
 UNITS = {"lag": "s", "time": "s", "ami": "nat", "ami_floor": "nat", "slope": "1"}
 """The units of curves that have one."""
 
 
-def arrays_of(found: AnalysedChannel) -> tuple[Table, Table]:
+def statement(found: AnalysedChannel, origin: Origin) -> Analysis:
+    """Return what was found out about a channel."""
+    clean, denoised, embedding = found.clean, found.denoised, found.clean.embedding
+    delay, dimension = embedding.methods
+    return Analysis(
+        title=found.source.title,
+        verdict=found.verdict.motion,
+        strength=found.verdict.strength,
+        says=found.verdict.says,
+        signs=found.verdict.signs,
+        because=found.verdict.because,
+        delay=ChosenDelay(samples=int(embedding.lag), seconds=embedding.lag * clean.dt, method=delay),
+        dimension=ChosenDimension(value=int(embedding.dim), method=dimension, theiler=int(embedding.theiler)),
+        noise=RecordedNoise(
+            before=denoised.before.value,
+            after=denoised.after.value,
+            unit=SHARE,
+            before_interval=(denoised.before.low, denoised.before.high),
+            method=found.denoiser,
+        ),
+        lyapunov=measure(found.exponent, found.exponent_method),
+        d2=measure(found.dimension, CORRELATION),
+        k2=measure(found.entropy, CORRELATION),
+        others=tuple(measure(one, name, name) for name, one in found.others.items()),
+        surrogates=tuple(map(outcome, found.tests)),
+        drive=_drive(found),
+        notes=notes(found),
+        provenance=origin,
+    )
+
+
+def measure(found: Estimate, method: str, name: str | None = None) -> Measure:
+    """Return an estimate without its curves."""
+    return Measure(
+        name=name,
+        value=found.value,
+        low=found.low,
+        high=found.high,
+        unit=found.unit,
+        method=method,
+        status=found.status,
+        says=found.says,
+        details=found.details,
+    )
+
+
+def outcome(test: SurrogateTest) -> SurrogateOutcome:
+    """Return a surrogate test without its draws."""
+    return SurrogateOutcome(
+        null=test.null,
+        method=test.method,
+        statistic=test.statistic,
+        draws=len(test.values),
+        p=test.p,
+        sided=test.sided,
+        original=test.original,
+        says=test.says,
+    )
+
+
+def _drive(found: AnalysedChannel) -> DrivePeriod:
+    period = math.nan if found.beat.period is None else found.beat.period
+    return DrivePeriod(period=period, samples_per_period=period / found.source.dt, source=found.beat.source)
+
+
+def notes(found: AnalysedChannel) -> tuple[str, ...]:
+    """Return what a reader should doubt."""
+    source, embedding = found.source, found.clean.embedding
+    said = [*source.notes, *found.beat.notes, *found.aside]
+    if embedding.status != "ok":
+        said.append(embedding.says)
+    for what, one in (("exponent", found.exponent), ("correlation dimension", found.dimension)):
+        if one.status == "uncertain" or (one.ok and one.says):
+            said.append(f"On the {what}: {one.says}")
+    periods = math.nan if found.beat.period is None else len(source.x) * source.dt / found.beat.period
+    if periods < 50:
+        said.append(
+            f"The recording holds {periods:.0f} periods: exponents and dimensions want some hundreds, so record longer."
+        )
+    return tuple(dict.fromkeys(said))
+
+
+def arrays_of(found: AnalysedChannel) -> tuple[Columns, Columns]:
     """Return the variables and the coordinates of `analysis.nc`."""
     variables = {
         **_series(found),
@@ -37,7 +133,7 @@ def arrays_of(found: AnalysedChannel) -> tuple[Table, Table]:
     return variables, {"time": Column(("time",), time, "s", "time from the start")}
 
 
-def _series(found: AnalysedChannel) -> Table:
+def _series(found: AnalysedChannel) -> Columns:
     source, raw, clean = found.source, found.raw, found.clean
     table = {"x": Column(("time",), raw.x, source.unit, f"{source.label}, mean taken off")}
     if clean is not raw:
@@ -47,7 +143,7 @@ def _series(found: AnalysedChannel) -> Table:
     return table
 
 
-def _spectra(found: AnalysedChannel) -> Table:
+def _spectra(found: AnalysedChannel) -> Columns:
     raw, unit = found.raw, found.source.unit
     density = f"({unit})^2/Hz" if unit else "1/Hz"
     frequency, power = spectrum(raw.x, raw.dt)
@@ -63,7 +159,7 @@ def _spectra(found: AnalysedChannel) -> Table:
     return table
 
 
-def _sections(found: AnalysedChannel) -> Table:
+def _sections(found: AnalysedChannel) -> Columns:
     unit = found.source.unit
     table = {"section": Column(("hit", "axis"), _section(found.raw), unit, "section as recorded")}
     if found.clean is not found.raw:
@@ -79,7 +175,7 @@ def _section(series: Series) -> Array:
     return np.asarray(stroboscopic(series.x, series.dt, series.period, lag=lag).points)
 
 
-def _embedding(prefix: str, chosen: Embedding) -> Table:
+def _embedding(prefix: str, chosen: Embedding) -> Columns:
     """Return the curves of an embedding: those over the lag, those over the dimension, those of false neighbours."""
     axes = {"lag": ("lag", "ami", "ami_floor", "autocorrelation"), "dim": ("dim", "e1", "e2")}
     axes["dim_fnn"] = ("dim_fnn", "fnn", "fnn_distance", "fnn_loneliness")
@@ -90,7 +186,7 @@ def _embedding(prefix: str, chosen: Embedding) -> Table:
     return table
 
 
-def _exponent(found: Estimate) -> Table:
+def _exponent(found: Estimate) -> Columns:
     """Return the divergence with its variants and local slopes; the slope in the unit of the estimate."""
     dims = {"members": ("lyapunov_variant", "lyapunov_time")}
     table = {}
@@ -101,7 +197,7 @@ def _exponent(found: Estimate) -> Table:
     return table
 
 
-def _dimension(found: Estimate) -> Table:
+def _dimension(found: Estimate) -> Columns:
     plane, line = ("d2_dim", "d2_radius"), ("d2_dim",)
     dims: Mapping[str, tuple[str, ...]] = {
         "radius": ("d2_radius",),
@@ -115,7 +211,7 @@ def _dimension(found: Estimate) -> Table:
     return {f"d2_{name}": Column(d, found.curve[name], "1", name) for name, d in dims.items() if name in found.curve}
 
 
-def _tests(found: AnalysedChannel) -> Table:
+def _tests(found: AnalysedChannel) -> Columns:
     if not found.tests:
         return {}
     width = max(len(t.values) for t in found.tests)

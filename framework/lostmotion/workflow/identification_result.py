@@ -1,15 +1,29 @@
-"""What an identification says: rows of parameters, how the sampling went, and sentences."""
+"""What was drawn of a posterior as a result: rows of parameters, levels of the drive, sentences."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 
+import numpy as np
+
 from lostmotion.case import CaseFile
+from lostmotion.case.levels import Measured
+from lostmotion.contracts import Array
 from lostmotion.likelihood.space import parted
 from lostmotion.results import Interval
 from lostmotion.results.background import Origin
-from lostmotion.results.identification import Identification, Parameter, RouteName, Sampling
+from lostmotion.results.identification import (
+    DriveLevel,
+    ExpectedMotion,
+    Identification,
+    MeasuredRange,
+    Parameter,
+    RouteName,
+    Sampling,
+)
 from lostmotion.stages.identify import NOISES, SampledPosterior
+from lostmotion.study.inversion import Inversion, Predicted
+from lostmotion.workflow.levels import derived
 
 SENSOR = (*NOISES.values(), "offset")
 """What is told apart from the parameters of the machine: noise levels, and the zero of a sensor."""
@@ -93,3 +107,36 @@ def modes_said(modes: int) -> list[str]:
         f"The posterior has {modes} separate modes: the recording is explained by {modes} sets of parameters. The draws"
         " hold each with its weight; look at the figure of pairs before you quote a single interval."
     ]
+
+
+def level_told(one: Predicted) -> DriveLevel:
+    """Return a level with what was measured there and what the posterior expects."""
+    level = one.level
+    return DriveLevel(
+        name=level.name,
+        amplitude=level.amplitude,
+        unit=level.unit,
+        omega=level.omega,
+        motion=level.motion,
+        lyapunov=_measured(level.lyapunov, "1/s"),
+        d2=_measured(level.d2, "1"),
+        predicted=ExpectedMotion(chaotic_share=one.chaotic_share, lyapunov=one.lyapunov, d2=one.d2),
+    )
+
+
+def _measured(seen: Measured | None, unit: str) -> MeasuredRange | None:
+    if seen is None:
+        return None
+    half = 1.96 * seen.sd
+    return MeasuredRange(value=seen.value, low=seen.value - half, high=seen.value + half, unit=unit)
+
+
+def derived_told(posterior: Inversion, points: Array, found: SampledPosterior) -> Mapping[str, Interval]:
+    """Return the intervals of what follows from the parameters; none from a chain that has not converged."""
+    if not found.converged:
+        return {}
+    rows = {}
+    for name, values in derived(posterior, points).items():
+        low, median, high = np.quantile(values, [0.025, 0.5, 0.975]).tolist()
+        rows[name] = Interval(median, low, high, "1")
+    return rows
