@@ -46,7 +46,7 @@ def first_part(entry: Entry) -> str:
 def section(name: str, head: Entry, *entries: Entry) -> nodes.section:
     """Return the section of a key that holds others."""
     first = first_part(head)
-    made = nodes.section(ids=[nodes.make_id(f"{name}-{first}")], names=[nodes.fully_normalize_name(first)])
+    made = nodes.section(ids=[nodes.make_id(f"{name}-{first}")], names=[nodes.fully_normalize_name(f"{name} {first}")])
     made += nodes.title("", "", nodes.literal("", first))
     made += nodes.paragraph("", "", *worded(f"{head.doc[:1].upper()}{head.doc[1:]} ({head.type})."))
     made += table(HEADS, entries)
