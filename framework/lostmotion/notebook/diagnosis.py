@@ -43,7 +43,7 @@ class DiagnosisPlots:
         """Return the recording with free runs over held-out data, before and after; into `ax` alone where given."""
         if ax is None:
             return self._drawn(prediction.draw)
-        with style.applied():
+        with style.applied(self.evidence.result.units.angle):
             prediction.draw_window(ax, self.evidence, prediction.window_of(self.evidence))
             ax.legend()
         return ax.get_figure(root=True)  # type: ignore[return-value]
@@ -70,7 +70,7 @@ class DiagnosisPlots:
 
     def _drawn(self, draw: Callable[[Evidence], Figure | None]) -> Figure:
         """Return a figure; one that says so where there is nothing to be drawn."""
-        with style.applied():
+        with style.applied(self.evidence.result.units.angle):
             made = draw(self.evidence)
             if made is None:
                 made = style.blank(1.0)
@@ -193,7 +193,7 @@ class DiagnosisResult:
 
     def _repr_html_(self) -> str:
         said = "".join(f"<li>{html.escape(one)}</li>" for one in self.says)
-        with style.applied():
+        with style.applied(self.evidence.result.units.angle):
             drawn = prediction.draw(self.evidence)
             figure = style.embedded(drawn, "prediction") if drawn else ""
         title = html.escape(self.result.title)

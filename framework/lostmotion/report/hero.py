@@ -19,7 +19,7 @@ Panel = Callable[[Figure, Evidence, Place], None]
 def figure_hero(folder: Path) -> Path:
     """Return the path of `hero.png` in the folder: held-out prediction, missing force with its law, and ranking."""
     evidence = read_evidence(folder)
-    with style.applied():
+    with style.applied(evidence.result.units.angle):
         return style.save(draw(evidence), folder / "hero.png")
 
 

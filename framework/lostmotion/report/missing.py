@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from lostmotion.report import style
 from lostmotion.report.cast import Version, versions
 from lostmotion.report.evidence import Evidence
-from lostmotion.report.words import percent, with_unit
+from lostmotion.report.words import Scale, percent, with_unit
 from lostmotion.results import Array
 
 NAMES = {"position": "position", "velocity": "velocity", "phase": "drive phase", "time": "slow time"}
@@ -74,7 +74,7 @@ def draw_curve(axes: Axes, evidence: Evidence, covariate: str) -> None:
     """Draw the missing force over one covariate: mean and band before and after, and the law."""
     unit = _unit(evidence, covariate)
     centre = curve_of(evidence, "bin_center", covariate)
-    scale = style.scale_of(centre, unit)
+    scale = Scale(1.0, unit) if covariate == "phase" else style.scale_of(centre, unit)
     axes.axhline(0, color=style.RECORDED, linewidth=0.8)
     for who in versions(evidence):
         _draw_band(axes, evidence, (who, covariate), scale.factor * centre)

@@ -53,15 +53,16 @@ def write_report(folder: Path) -> Path:
 def render(evidence: Evidence) -> str:
     """Return the page as one self-contained HTML text."""
     result = evidence.result
-    with style.applied():
+    with style.applied(result.units.angle):
         sections = list(drawn(SECTIONS, evidence))
+        numbers, mechanisms = tables.key_numbers(evidence), tables.mechanisms(evidence)
     return template("diagnosis.html.j2").render(
         title=result.title,
         badge=opening.badge(result),
         answer=[typeset(part) for part in result.says],
         model=result.model,
-        numbers=tables.key_numbers(evidence),
-        mechanisms=tables.mechanisms(evidence),
+        numbers=numbers,
+        mechanisms=mechanisms,
         sections=[one._replace(caption=typeset(one.caption), words=typeset(one.words)) for one in sections],
         notes=result.notes,
         confused=opening.confused(result),

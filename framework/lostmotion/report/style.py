@@ -20,7 +20,7 @@ from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
 from PIL import Image
 
-from lostmotion.report.words import Scale, figures, power_of_ten, readable
+from lostmotion.report.words import Scale, angles_in, figures, power_of_ten, readable
 from lostmotion.results import Array
 from lostmotion.storage import save_bytes
 
@@ -67,9 +67,12 @@ RC: dict[Any, Any] = {
 
 
 @contextmanager
-def applied() -> Iterator[None]:
-    """Return a context in which figures are drawn and saved in the house style, whatever the reader's own settings."""
-    with mpl.rc_context():
+def applied(angle: str = "rad") -> Iterator[None]:
+    """Return a context in which figures are drawn and saved in the house style, whatever the reader's own settings.
+
+    Angles are shown in rad or deg, as `angle` says.
+    """
+    with mpl.rc_context(), angles_in(angle):
         mpl.rcdefaults()
         mpl.rcParams.update(RC)
         yield

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
 from typing import Any, NamedTuple
 
-from lostmotion.results import Interval
+from lostmotion.results import DEGREES, Interval
 
 RAISED = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
 PREFIXED = {"m", "rad", "N", "N m", "m/s", "rad/s", "m/s^2", "V", "A"}
@@ -36,6 +39,8 @@ PROPER = {
     "ghkss": "GHKSS",
 }
 DASH = "–"
+ANGLE: ContextVar[str] = ContextVar("ANGLE", default="rad")
+"""The unit in which angles are shown."""
 SMALLEST = 1e-99
 """A p-value below this is not told from nothing."""
 
@@ -47,8 +52,23 @@ class Scale(NamedTuple):
     unit: str
 
 
+@contextmanager
+def angles_in(unit: str) -> Iterator[None]:
+    """Show angles in `unit`, rad or deg, within the context."""
+    before = ANGLE.set(unit)
+    try:
+        yield
+    finally:
+        ANGLE.reset(before)
+
+
 def readable(largest: float, unit: str) -> Scale:
-    """Return the scale in which values up to `largest` are easy to read: SI, or milli, micro, kilo where that helps."""
+    """Return the scale in which values up to `largest` are easy to read: SI, or milli, micro, kilo where that helps.
+
+    Within `angles_in("deg")` angles are in degrees.
+    """
+    if ANGLE.get() == "deg" and unit in DEGREES:
+        return Scale(180.0 / math.pi, DEGREES[unit])
     if unit not in PREFIXED or not math.isfinite(largest) or largest == 0 or 0.1 <= abs(largest) < 1e4:
         return Scale(1.0, unit)
     for factor, prefix in ((1e-3, "k"), (1e3, "m"), (1e6, "µ")):

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -22,6 +23,10 @@ def rounded(value: float, digits: int = 2) -> str:
 def percent(share: float) -> str:
     """Return a share in per cent, with two digits or, from one on, whole."""
     return f"{rounded(100.0 * share)} %" if abs(share) < 1.0 else f"{100.0 * share:.0f} %"
+
+
+DEGREES: Mapping[str, str] = {"rad": "deg", "rad/s": "deg/s", "rad/s^2": "deg/s^2"}
+"""Units of angles and what they are in degrees."""
 
 
 @dataclass(frozen=True)
@@ -46,6 +51,13 @@ class Interval:
     def as_dict(self) -> dict[str, Any]:
         """Return the four fields as they stand in `diagnosis.json`."""
         return {"median": self.median, "low": self.low, "high": self.high, "unit": self.unit}
+
+    def with_angles_in(self, angle: str) -> Interval:
+        """Return the interval in degrees where `angle` is deg and its unit one of an angle; else as it is."""
+        if angle != "deg" or self.unit not in DEGREES:
+            return self
+        median, low, high = (math.degrees(x) for x in (self.median, self.low, self.high))
+        return replace(self, median=median, low=low, high=high, unit=DEGREES[self.unit])
 
     def __str__(self) -> str:
         unit = "" if self.unit == "1" else f" {self.unit}"

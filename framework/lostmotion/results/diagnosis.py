@@ -194,6 +194,7 @@ class Units:
     velocity: str = told("unit of velocities")
     force: str = told("unit of forces")
     time: str = told("unit of times")
+    angle: str = told("`deg` where the case gives degrees: pages show angles in it", default="rad", spare=True)
 
 
 @dataclass(frozen=True)

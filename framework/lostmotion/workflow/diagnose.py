@@ -50,6 +50,7 @@ from lostmotion.workflow.show import Seen, shown
 from lostmotion.workflow.states import doubted, in_order, open_of
 from lostmotion.workflow.unknowns import where
 from lostmotion.workflow.verdict import (
+    angle_of,
     bodies_of,
     confusions_of,
     drive_of,
@@ -130,7 +131,7 @@ def told_of(
     diagnosis, prepared, rng = _diagnosed(prepared, registry, seed, work)
     say("held-out predictions")
     outcome = upheld(diagnosis, prepared, rng, say)
-    outcome = replace(outcome, unconfirmed=unconfirmed(outcome, prepared.observations))
+    outcome = replace(outcome, unconfirmed=unconfirmed(outcome, prepared.observations), angle=angle_of(prepared.case))
     diagnosis = outcome.diagnosis
     motions = motions_of(diagnosis)
     say("attractors")
@@ -232,7 +233,7 @@ def _result(prepared: Prepared, outcome: Outcome, seed: int, proposals: Proposal
         fit=scores_of(outcome),
         model=labels(d),
         drive=drive_of(d),
-        units=units_of(d),
+        units=replace(units_of(d), angle=outcome.angle),
         response=Response(quantity_of(d.shown.channel)),
         sensors=sensors_of(d),
         lyapunov=exponents_of(outcome),

@@ -30,6 +30,7 @@ class Outcome:
     """A diagnosis, its predictions, the horizon they are judged over, draws (draws, keys) of both posteriors.
 
     `unconfirmed` tells by term, in a sentence, that held-out data are predicted no better with it than without it.
+    Sentences tell angles in `angle`, rad or deg.
     """
 
     diagnosis: Diagnosed
@@ -39,6 +40,7 @@ class Outcome:
     draws_before: Array
     draws_after: Array
     unconfirmed: Mapping[str, str] = field(default_factory=dict)
+    angle: str = "rad"
 
 
 def draws_of(fit: Fit, rng: np.random.Generator) -> Array:
@@ -111,7 +113,8 @@ def _entry(outcome: Outcome, key: str, after: Mapping[str, Interval]) -> Mechani
     held = {s.key: float(known[system.index[s.key]]) for s in slots}
     own = {s.param.name: after.get(s.key) or _of(np.full(1, held[s.key]), s.unit) for s in slots}
     why = why_withheld(outcome)
-    numbers = {name: f"{i.median:.3g} {i.unit}" if why else str(i) for name, i in own.items()}
+    shown_own = {name: i.with_angles_in(outcome.angle) for name, i in own.items()}
+    numbers = {name: f"{i.median:.3g} {i.unit}" if why else str(i) for name, i in shown_own.items()}
     numbers |= {q.name: q.words[q.choices.index(own[q.name].median)] for q in term.params if q.words}
     sentence = term.physics.format(**numbers) + _whose(d, term)
     if term.at in elsewhere(system.model):

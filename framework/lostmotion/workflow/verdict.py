@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from lostmotion.case import CaseFile
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.natural import term_of
 from lostmotion.inference.prices import price_of
@@ -56,6 +57,12 @@ def label(fit: Fit) -> str:
 def labels(d: Diagnosed) -> Labels:
     """Return both models in words."""
     return Labels(label(d.before), label(d.after))
+
+
+def angle_of(case: CaseFile) -> str:
+    """Return the unit in which a case gives angles: deg where a column is in degrees, else rad."""
+    columns = [c for recording in case.recordings for c in (*recording.inputs, *recording.sensors)]
+    return "deg" if any(c.unit.startswith(("deg", "°")) for c in columns) else "rad"
 
 
 def units_of(d: Diagnosed) -> Units:
