@@ -13,7 +13,7 @@ from listings import table, worded
 from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
 
-from lostmotion.codec import Entry, schema
+from lostmotion.codec import SchemaEntry, schema
 
 HEADS = ("key", "type", "unit", "meaning")
 
@@ -38,12 +38,12 @@ class Keys(SphinxDirective):
         return [table(HEADS, alone), *(section(name, *group) for group in groups if len(group) > 1)]
 
 
-def first_part(entry: Entry) -> str:
+def first_part(entry: SchemaEntry) -> str:
     """Return the first part of a key: `found` of `found[].parameters.NAME.median`."""
     return re.split(r"[.\[]", entry.path)[0]
 
 
-def section(name: str, head: Entry, *entries: Entry) -> nodes.section:
+def section(name: str, head: SchemaEntry, *entries: SchemaEntry) -> nodes.section:
     """Return the section of a key that holds others."""
     first = first_part(head)
     made = nodes.section(ids=[nodes.make_id(f"{name}-{first}")], names=[nodes.fully_normalize_name(f"{name} {first}")])
@@ -53,7 +53,7 @@ def section(name: str, head: Entry, *entries: Entry) -> nodes.section:
     return made
 
 
-def brief(entries: Iterator[Entry]) -> Iterator[Entry]:
+def brief(entries: Iterator[SchemaEntry]) -> Iterator[SchemaEntry]:
     """Yield entries without the keys of an object that is like an earlier one, and say which one that is."""
     rows, told, hidden = list(entries), {}, None
     for row in rows:

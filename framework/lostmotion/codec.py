@@ -72,7 +72,7 @@ def from_plain(kind: type[T], plain: Any, what: str = "the file") -> T:
         raise DataError(f"{what} is not what this program writes: {first}") from err
 
 
-class Entry(NamedTuple):
+class SchemaEntry(NamedTuple):
     """A key of a result file: `path` such as `found[].probability`, its type in words, unit and meaning."""
 
     path: str
@@ -81,12 +81,12 @@ class Entry(NamedTuple):
     doc: str
 
 
-def schema(kind: type) -> Iterator[Entry]:
+def schema(kind: type) -> Iterator[SchemaEntry]:
     """Yield each key of the files of a kind of result, in the order in which it is written."""
     yield from _entries(kind, "")
 
 
-def _entries(kind: Any, before: str) -> Iterator[Entry]:
+def _entries(kind: Any, before: str) -> Iterator[SchemaEntry]:
     hints = get_type_hints(kind)
     for f in dataclasses.fields(kind):
         path = before + _key(f)
@@ -95,7 +95,7 @@ def _entries(kind: Any, before: str) -> Iterator[Entry]:
             yield from _entries(core, before)
             continue
         words += ABSENT if f.metadata.get("spare") else ""
-        yield Entry(path + ending, words, f.metadata.get("unit", ""), f.metadata.get("doc", ""))
+        yield SchemaEntry(path + ending, words, f.metadata.get("unit", ""), f.metadata.get("doc", ""))
         if dataclasses.is_dataclass(core):
             yield from _entries(core, f"{path}{ending}.")
 

@@ -23,7 +23,7 @@ def _number(value: float, why: str, source: str = "", least: float = 0.0, most: 
 
 
 @dataclass(frozen=True)
-class Locate:
+class LocateSettings:
     """Where a missing force lives."""
 
     significant: float = _number(
@@ -58,7 +58,7 @@ class Locate:
 
 
 @dataclass(frozen=True)
-class Select:
+class SelectSettings:
     """Which terms are taken."""
 
     decisive: float = _number(
@@ -101,7 +101,7 @@ class Select:
 
 
 @dataclass(frozen=True)
-class Rival:
+class RivalSettings:
     """What is usual on real machines, against which every name has to stand."""
 
     known: float = _number(
@@ -133,7 +133,7 @@ class Rival:
 
 
 @dataclass(frozen=True)
-class Unknown:
+class UnknownSettings:
     """When a force without a name is learned as a curve, and what is said of it."""
 
     hope: float = _number(0.3, "Curves are tried that promise this share of what the best set of terms wins.", most=1.0)
@@ -148,7 +148,7 @@ class Unknown:
 
 
 @dataclass(frozen=True)
-class HeldOut:
+class HeldOutSettings:
     """What data that no fit has seen may decide."""
 
     share: float = _number(
@@ -186,7 +186,7 @@ class HeldOut:
 
 
 @dataclass(frozen=True)
-class Name:
+class NameSettings:
     """What is said of a finding: named, likely or open."""
 
     sure: float = _number(
@@ -229,7 +229,7 @@ class Name:
 
 
 @dataclass(frozen=True)
-class Shared:
+class SharedSettings:
     """Whether a parameter is the same in several recordings."""
 
     level: float = _number(0.01, "The chance of calling parameters different that are not.", most=1.0)
@@ -237,7 +237,7 @@ class Shared:
 
 
 @dataclass(frozen=True)
-class Chain:
+class ChainSettings:
     """When a chain of draws is believed."""
 
     long: float = _number(
@@ -256,7 +256,7 @@ class Chain:
 
 
 @dataclass(frozen=True)
-class Motion:
+class MotionSettings:
     """When a recorded motion is called periodic, quasiperiodic, chaotic or noise."""
 
     level: float = _number(
@@ -305,15 +305,15 @@ class Setting(NamedTuple):
 class Settings:
     """All thresholds that decide, by stage; frozen. `Settings().changed({"select.decisive": 4.0})` makes others."""
 
-    locate: Locate = field(default_factory=Locate)
-    select: Select = field(default_factory=Select)
-    rival: Rival = field(default_factory=Rival)
-    unknown: Unknown = field(default_factory=Unknown)
-    heldout: HeldOut = field(default_factory=HeldOut)
-    name: Name = field(default_factory=Name)
-    shared: Shared = field(default_factory=Shared)
-    chain: Chain = field(default_factory=Chain)
-    motion: Motion = field(default_factory=Motion)
+    locate: LocateSettings = field(default_factory=LocateSettings)
+    select: SelectSettings = field(default_factory=SelectSettings)
+    rival: RivalSettings = field(default_factory=RivalSettings)
+    unknown: UnknownSettings = field(default_factory=UnknownSettings)
+    heldout: HeldOutSettings = field(default_factory=HeldOutSettings)
+    name: NameSettings = field(default_factory=NameSettings)
+    shared: SharedSettings = field(default_factory=SharedSettings)
+    chain: ChainSettings = field(default_factory=ChainSettings)
+    motion: MotionSettings = field(default_factory=MotionSettings)
 
     def changed(self, values: Mapping[str, float | str]) -> Settings:
         """Return the settings with some of them changed, by `stage.name`; raise `CaseError` for what there is not."""

@@ -207,7 +207,7 @@ def finite(value: object) -> object:
 
 
 @dataclass(frozen=True)
-class Column:
+class StoredArray:
     """An array to be stored: its dimensions, values, SI unit and what it is; what is empty is not written."""
 
     dims: tuple[str, ...]
@@ -216,11 +216,13 @@ class Column:
     long_name: str = ""
 
 
-def dataset_of(arrays: Mapping[str, Column], coords: Mapping[str, Column], attrs: Mapping[str, str]) -> xr.Dataset:
+def dataset_of(
+    arrays: Mapping[str, StoredArray], coords: Mapping[str, StoredArray], attrs: Mapping[str, str]
+) -> xr.Dataset:
     """Return arrays with their dimensions and units as a dataset."""
     import xarray
 
-    def laid_out(table: Mapping[str, Column]) -> dict[str, tuple[tuple[str, ...], object, dict[str, str]]]:
+    def laid_out(table: Mapping[str, StoredArray]) -> dict[str, tuple[tuple[str, ...], object, dict[str, str]]]:
         told = {k: {"units": c.unit, "long_name": c.long_name} for k, c in table.items()}
         return {k: (c.dims, c.values, {a: v for a, v in told[k].items() if v}) for k, c in table.items()}
 
@@ -228,7 +230,7 @@ def dataset_of(arrays: Mapping[str, Column], coords: Mapping[str, Column], attrs
 
 
 def save_arrays(
-    path: Path, arrays: Mapping[str, Column], coords: Mapping[str, Column], attrs: Mapping[str, str]
+    path: Path, arrays: Mapping[str, StoredArray], coords: Mapping[str, StoredArray], attrs: Mapping[str, str]
 ) -> None:
     """Write arrays with their dimensions and units to a netCDF file that appears whole or not at all."""
     save_datasets(path, {None: dataset_of(arrays, coords, attrs)})

@@ -13,7 +13,7 @@ from typing import Any, ClassVar, Literal
 
 from lostmotion.case import WRITTEN
 from lostmotion.contracts import Interface, Model, Motion, Param
-from lostmotion.equations import Body, Equations, Node, Spring, equations_of
+from lostmotion.equations import BodyEquation, Equations, Node, Spring, equations_of
 
 _FUNCTIONS = {
     "gap": "({1} * ({0} - min(max({0}, -{2}), {2})))",
@@ -105,7 +105,7 @@ def _again(origin: tuple[Any, ...], motion: Motion) -> Model:
     return made
 
 
-def _states(body: Body, found: Equations) -> tuple[str, str]:
+def _states(body: BodyEquation, found: Equations) -> tuple[str, str]:
     if body is found.bodies[0]:
         return "position", "velocity"
     return body.name, f"{body.name}.velocity"

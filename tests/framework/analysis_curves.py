@@ -7,7 +7,7 @@ import math
 import numpy as np
 from scipy.spatial import cKDTree
 
-from lostmotion.storage import Column
+from lostmotion.storage import StoredArray
 
 OMEGA, STEPS, EVERY = 40.0, 96, 2
 DRIVE_PERIOD = 2 * math.pi / OMEGA
@@ -49,7 +49,7 @@ def lorenz(n=5000, dt=0.02):
 
 def under(dims, unit="1", **values):
     """Return columns that share their dimensions and unit."""
-    return {name: Column(tuple(dims.split()), v, unit, name) for name, v in values.items()}
+    return {name: StoredArray(tuple(dims.split()), v, unit, name) for name, v in values.items()}
 
 
 def vectors(x, lag, dim):
@@ -83,7 +83,7 @@ def embedding_curves(x, dt, lag, prefix):
               "dim_fnn": dims, "fnn": np.array(false[:9])}  # fmt: skip
     axis = {"ami": "lag", "ami_floor": "lag", "autocorrelation": "lag", "e1": "dim", "e2": "dim", "fnn": "dim_fnn"}
     units = {"lag": "s", "ami": "nat", "ami_floor": "nat"}
-    return {prefix + k: Column((prefix + axis.get(k, k),), v, units.get(k, "1"), k) for k, v in curves.items()}
+    return {prefix + k: StoredArray((prefix + axis.get(k, k),), v, units.get(k, "1"), k) for k, v in curves.items()}
 
 
 def divergence_curves(x, dt, lag, dim):

@@ -14,7 +14,7 @@ import numpy as np
 
 from lostmotion.signals.sections import stroboscopic
 from lostmotion.signals.spectra import spectrum, without_harmonics
-from lostmotion.storage import Column, save_arrays, save_json
+from lostmotion.storage import StoredArray, save_arrays, save_json
 
 HOSTILE = "<script>alert('x')</script> & $\\frac{$ \"quoted\" " + "very long " * 30
 plain = SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name("analysis_curves.py"))))
@@ -31,12 +31,14 @@ def spectrum_of(x, dt, period, unit):
     table = {"density": x}
     if period:
         table["density_rest"] = without_harmonics(x, dt, period)[0]
-    columns = {name: Column(("frequency",), spectrum(v, dt).density, f"({unit})^2/Hz") for name, v in table.items()}
-    return columns | {"frequency": Column(("frequency",), spectrum(x, dt).frequency, "Hz")}
+    columns = {
+        name: StoredArray(("frequency",), spectrum(v, dt).density, f"({unit})^2/Hz") for name, v in table.items()
+    }
+    return columns | {"frequency": StoredArray(("frequency",), spectrum(x, dt).frequency, "Hz")}
 
 
 def section_of(x, dt, period, lag, unit):
-    return Column(("hit", "axis"), stroboscopic(x, dt, period, lag=lag).points, unit)
+    return StoredArray(("hit", "axis"), stroboscopic(x, dt, period, lag=lag).points, unit)
 
 
 def chaotic():
@@ -47,10 +49,10 @@ def chaotic():
     cleaned = clean + 0.005 * clean.std() * rng.normal(size=len(clean))
     lag = 12
     arrays = {
-        "time": Column(("time",), np.arange(len(x)) * dt, "s"),
-        "x": Column(("time",), x, "m", "displacement, mean taken off"),
-        "cleaned": Column(("time",), cleaned, "m", "displacement, noise reduced"),
-        "excitation": Column(("time",), drive, "N", "measured excitation"),
+        "time": StoredArray(("time",), np.arange(len(x)) * dt, "s"),
+        "x": StoredArray(("time",), x, "m", "displacement, mean taken off"),
+        "cleaned": StoredArray(("time",), cleaned, "m", "displacement, noise reduced"),
+        "excitation": StoredArray(("time",), drive, "N", "measured excitation"),
         **spectrum_of(x, dt, DRIVE_PERIOD, "m"),
         "section": section_of(x, dt, DRIVE_PERIOD, lag, "m"),
         "section_cleaned": section_of(cleaned, dt, DRIVE_PERIOD, lag, "m"),
@@ -122,8 +124,8 @@ def undriven():
     """Return facts and arrays of the Lorenz system, without noise, drive or unit, in bit/s."""
     x, dt = plain.lorenz()
     arrays = {
-        "time": Column(("time",), np.arange(len(x)) * dt, "s"),
-        "x": Column(("time",), x, "", "x"),
+        "time": StoredArray(("time",), np.arange(len(x)) * dt, "s"),
+        "x": StoredArray(("time",), x, "", "x"),
         **spectrum_of(x, dt, None, "1"),
         **plain.embedding_curves(x, dt, 8, "embedding_"),
         **plain.divergence_curves(x, dt, 8, 4),
@@ -149,8 +151,8 @@ def periodic():
     x = np.deg2rad(3 * np.sin(2 * np.pi * time) + 0.8 * np.sin(np.pi * time + 1) + 0.4 * np.sin(6 * np.pi * time))
     x = x + np.deg2rad(0.02) * np.random.default_rng(3).normal(size=time.size)
     arrays = {
-        "time": Column(("time",), time, "s"),
-        "x": Column(("time",), x, "rad", "joint_angle, mean taken off"),
+        "time": StoredArray(("time",), time, "s"),
+        "x": StoredArray(("time",), x, "rad", "joint_angle, mean taken off"),
         **spectrum_of(x, dt, period, "rad"),
         "section": section_of(x, dt, period, 20, "rad"),
         **plain.embedding_curves(x, dt, 20, "embedding_"),
@@ -168,8 +170,8 @@ def refused():
     """Return facts and arrays of noise: no number at all, and curves with NaN in them."""
     x = np.random.default_rng(4).normal(size=1200)
     arrays = {
-        "time": Column(("time",), np.arange(1200) * 0.01, "s"),
-        "x": Column(("time",), x, "V", "piezo voltage"),
+        "time": StoredArray(("time",), np.arange(1200) * 0.01, "s"),
+        "x": StoredArray(("time",), x, "V", "piezo voltage"),
         **spectrum_of(x, 0.01, None, "V"),
         **plain.embedding_curves(x, 0.01, 2, "embedding_"),
         **plain.divergence_curves(x, 0.01, 1, 4),
@@ -192,7 +194,7 @@ def refused():
 def hostile():
     """Return the analysis of a file in which every text is meant to do harm."""
     said, arrays = chaotic()
-    arrays = {name: Column(c.dims, c.values, HOSTILE, HOSTILE) for name, c in arrays.items()}
+    arrays = {name: StoredArray(c.dims, c.values, HOSTILE, HOSTILE) for name, c in arrays.items()}
     return _poisoned(said), arrays
 
 

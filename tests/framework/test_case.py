@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from lostmotion.case import CaseFile, Measured, Prior, Sensor, dump_case, load_case
+from lostmotion.case import CaseFile, Measured, Prior, SensorSpec, dump_case, load_case
 from lostmotion.errors import CaseError
 from lostmotion.registry import Registry
 from lostmotion.workflow.prepare import prepare
@@ -159,7 +159,7 @@ def test_recordings_must_be_there(tmp_path: Path, empty: str) -> None:
 
 def test_a_case_may_be_without_recordings_until_they_are_needed(tmp_path: Path) -> None:
     got = case(tmp_path, '[model]\nname = "lin_backlash"')
-    assert (got.recordings, got.levels, got.sensor) == ((), (), Sensor("each", None))
+    assert (got.recordings, got.levels, got.sensor) == ((), (), SensorSpec("each", None))
     for needs in (lambda path: prepare(path, Registry()), lambda path: source_of(path, WantedChannel(), Registry())):
         with pytest.raises(CaseError, match=r"has no \[\[recordings\]\]: add one"):
             needs(tmp_path / "case.toml")
@@ -205,7 +205,7 @@ def test_what_is_dumped_is_read_back(tmp_path: Path) -> None:
         "c": Prior(1.0, 2.5, each=True), "d": Prior(1.0, 2.0, "log"), "k1": Prior(mean=0.0, sd=2.0),
         "x0": Prior(median=1e-3, sd_log=0.7), "f": Prior(half_sd=3.0, each=True),
     }  # fmt: skip
-    assert got.sensor == Sensor("shared", Prior(mean=0.0, sd=1e-4))
+    assert got.sensor == SensorSpec("shared", Prior(mean=0.0, sd=1e-4))
     one, two = got.levels
     assert (one.name, one.amplitude, one.omega, one.motion) == ("one", 50.0, pytest.approx(4.0 * math.pi), "chaotic")
     assert one.lyapunov == Measured(2.0 * math.log(2.0), 0.1 * math.log(2.0))

@@ -17,7 +17,7 @@ from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.space import FADE, SLOW, Free
 from lostmotion.settings import DEFAULT
 from lostmotion.stages._excitations import Limits, candidates_for, usual_limits
-from lostmotion.stages._rehearsal import Asked, Model, _slow, evidence, simulated
+from lostmotion.stages._rehearsal import Asked, RehearsedModel, _slow, evidence, simulated
 from lostmotion.stages.experiment import Proposal, _counted, natural_of, news, propose
 from lostmotion.workflow import rivals
 
@@ -88,7 +88,7 @@ def test_a_truth_counts_only_where_it_can_show_itself():
 def test_a_louder_drive_is_taken_to_be_noisier(springs):
     *_, (truth, _) = springs
     observation = truth.problem.observations[0]
-    model = Model.of(truth)
+    model = RehearsedModel.of(truth)
     offered = candidates_for(observation, 400, usual_limits(observation, FREQUENCY), np.random.default_rng(0))
     loud = max(offered, key=lambda e: e.level)
     i = truth.problem.keys.index("log_random_force")
@@ -101,7 +101,7 @@ def test_a_model_believes_what_it_has_made(springs):
     """A recording made by either model speaks for it: with a gain of 50 to be expected, no chance."""
     *_, fits = springs
     observation = fits[0].problem.observations[0]
-    models = [Model.of(fit) for fit in fits]
+    models = [RehearsedModel.of(fit) for fit in fits]
     offered = candidates_for(
         observation, observation.samples, usual_limits(observation, FREQUENCY), np.random.default_rng(0)
     )
@@ -130,7 +130,7 @@ def test_a_machine_that_runs_away_is_not_proposed(springs):
     observation = truth.problem.observations[0]
     offered = candidates_for(observation, 400, usual_limits(observation, FREQUENCY), np.random.default_rng(0))
     mad = replace(offered[0], inputs=1e12 * offered[0].inputs)
-    assert simulated(Model.of(truth), mad, np.random.default_rng(0)) is None
+    assert simulated(RehearsedModel.of(truth), mad, np.random.default_rng(0)) is None
 
 
 def test_proposed_experiment_separates_springs_and_a_repeat_hardly(bench, springs):

@@ -11,7 +11,7 @@ from lostmotion.likelihood.problem import Free
 from lostmotion.likelihood.sensors import Sensor
 from lostmotion.stages._chains import grouped, quality_of, quiet_arviz
 from lostmotion.stages._sampling import state_of
-from lostmotion.stages.identify import Cloud, SamplingPlan, Shown, Task, identify, task_of
+from lostmotion.stages.identify import Cloud, SamplingPlan, ShownCoordinate, Task, identify, task_of
 
 MEAN = np.array([1.0, -2.0, 0.3])
 COVARIANCE = np.array([[0.04, 0.015, 0.0], [0.015, 0.01, 0.0], [0.0, 0.0, 0.25]])
@@ -41,7 +41,7 @@ class Bell:
 
 
 def task_at(problem, theta=MEAN, covariance=COVARIANCE):
-    shown = tuple(Shown(f.key, f.unit, 1.0 if f.log else 0.0) for f in problem.free)
+    shown = tuple(ShownCoordinate(f.key, f.unit, 1.0 if f.log else 0.0) for f in problem.free)
     return Task(problem, Cloud.of_modes(theta[None], [covariance], np.ones(1), problem.free), shown, theta)
 
 

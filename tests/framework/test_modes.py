@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from scipy.linalg import expm
 
-from lostmotion.case import CaseFile, Prior, Sensor
+from lostmotion.case import CaseFile, Prior, SensorSpec
 from lostmotion.inference.modes import Tried, distinct, one_hill
 from lostmotion.inference.setup import WITHIN, modes, polished, problem_of, search
 from lostmotion.likelihood.observation import Observation
@@ -173,7 +173,7 @@ def test_hills_are_compared_with_the_noise_of_each_recording() -> None:
     observations = tuple(replace(ring(push=0.02, seed=s, samples=60), name=n) for s, n in ((0, "faint"), (1, "loud")))
     loud = replace(observations[1], readings=30.0 * observations[1].readings, inputs=30.0 * observations[1].inputs)
     both = modes(
-        problem_for(observations[0], loud), np.random.default_rng(0), sensor=Sensor(offset=Prior(mean=0.0, sd=0.01))
+        problem_for(observations[0], loud), np.random.default_rng(0), sensor=SensorSpec(offset=Prior(mean=0.0, sd=0.01))
     )
     assert sorted(hertz(f) for f in both) == pytest.approx([TRUE, FOLDED], rel=0.01)
     assert both[0].problem is both[1].problem

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from scipy.linalg import expm
 
-from lostmotion.case import CaseFile, Prior, Sensor
+from lostmotion.case import CaseFile, Prior, SensorSpec
 from lostmotion.contracts import Param
 from lostmotion.inference.setup import beginnings, free_of, problem_of, search, separated
 from lostmotion.likelihood.lanes import Lanes
@@ -66,7 +66,7 @@ LOW, HIGH = (t.name for t in TWO)
 def apart():
     """The fit of two levels with all of the sensor's parameters their own."""
     fit = search(problem_for(*TWO), np.random.default_rng(0))
-    return separated(fit, Sensor(offset=Prior(mean=0.0, sd=0.1)))
+    return separated(fit, SensorSpec(offset=Prior(mean=0.0, sd=0.1)))
 
 
 def test_keys_say_the_recording() -> None:
@@ -137,7 +137,7 @@ def test_usual_random_force_is_in_proportion_to_each_drive(apart) -> None:
 def test_a_shift_of_the_response_is_a_shift_of_its_zero() -> None:
     observation = TWO[0]
     problem = separated(
-        search(problem_for(observation), np.random.default_rng(0)), Sensor(offset=Prior(-1.0, 1.0))
+        search(problem_for(observation), np.random.default_rng(0)), SensorSpec(offset=Prior(-1.0, 1.0))
     ).problem
     assert problem.keys == ("c", "k", OFFSET, RANDOM, NOISE)
     theta = problem.start
@@ -149,15 +149,15 @@ def test_a_shift_of_the_response_is_a_shift_of_its_zero() -> None:
 
 def test_nothing_is_split_where_nothing_is_its_own() -> None:
     one = search(problem_for(TWO[0]), np.random.default_rng(0))
-    assert separated(one, Sensor()) is one
+    assert separated(one, SensorSpec()) is one
     two = search(problem_for(*TWO), np.random.default_rng(0))
-    assert separated(two, Sensor("shared")) is two
-    zeros = separated(two, Sensor("shared", Prior(mean=0.0, sd=1.0))).problem.keys
+    assert separated(two, SensorSpec("shared")) is two
+    zeros = separated(two, SensorSpec("shared", Prior(mean=0.0, sd=1.0))).problem.keys
     assert zeros == ("c", "k", f"offset[{LOW}]", f"offset[{HIGH}]", RANDOM, NOISE)
 
 
 def test_what_is_split_stays_split(apart) -> None:
-    assert separated(apart, Sensor(offset=Prior(mean=0.0, sd=0.1))) is apart
+    assert separated(apart, SensorSpec(offset=Prior(mean=0.0, sd=0.1))) is apart
 
 
 def test_a_base_motion_sets_what_is_usual_by_its_own_amplitude() -> None:

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from lostmotion.errors import DataError
-from lostmotion.recording.timing import Clock, check_time, even_clock, resampled
+from lostmotion.recording.timing import EvenClock, check_time, even_clock, resampled
 
 N = 20000
 EVEN = np.arange(N)
@@ -164,7 +164,7 @@ def test_lost_samples_stay_lost_and_spoil_no_others() -> None:
 
 
 def test_samples_beside_a_gap_are_lost_where_the_grid_lies_between_them() -> None:
-    time, clock = EVEN / 1000 + 0.0004, Clock(1e-3, True, (), 0.0)
+    time, clock = EVEN / 1000 + 0.0004, EvenClock(1e-3, True, (), 0.0)
     values = np.where(EVEN == 100, np.nan, tone(time))
     assert np.flatnonzero(np.isnan(resampled(time, values, clock))).tolist() == [100, 101]
 

@@ -226,7 +226,7 @@ def test_folder_without_an_analysis_is_refused(tmp_path):
     ],
 )
 def test_facts_that_no_command_wrote_are_refused(tmp_path, facts, says):
-    made.write(tmp_path, made.facts("It", 0.1, 1) | facts, {"x": made.Column(("time",), np.zeros(3))})
+    made.write(tmp_path, made.facts("It", 0.1, 1) | facts, {"x": made.StoredArray(("time",), np.zeros(3))})
     with pytest.raises(DataError, match=r"is not what this program writes.*run `lostmotion analyse` again") as caught:
         write_analysis(tmp_path)
     assert says in str(caught.value)

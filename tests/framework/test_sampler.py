@@ -11,7 +11,7 @@ from lostmotion.likelihood.problem import Free
 from lostmotion.stages._cloud import Cloud
 from lostmotion.stages._population import effective, tempered
 from lostmotion.stages._scores import Scores
-from lostmotion.stages.identify import SamplingPlan, Shown, Task, identify
+from lostmotion.stages.identify import SamplingPlan, ShownCoordinate, Task, identify
 
 
 def two_modes(size, share):
@@ -125,7 +125,7 @@ def exact(bins):
 def test_a_swarm_finds_a_rugged_posterior(swarmed):
     """Fields of a ten by ten grid against the exact shares: at most 1.5 times as far off as independent draws."""
     toy, cloud = swarmed
-    shown = tuple(Shown(f.key, f.unit, 0.0) for f in toy.free)
+    shown = tuple(ShownCoordinate(f.key, f.unit, 0.0) for f in toy.free)
     task = Task(toy, cloud, shown, np.array([0.3, 0.6]))
     result = identify(task, rng=np.random.default_rng(6), plan=SamplingPlan(ess=2000))
     assert result.converged

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from lostmotion.likelihood.problem import Free
-from lostmotion.stages.identify import Cloud, Shown, Task
+from lostmotion.stages.identify import Cloud, ShownCoordinate, Task
 
 
 @dataclass(frozen=True)
@@ -30,5 +30,5 @@ def free_of(size, low=-20.0, high=20.0):
 def task_at(toy, modes, covariances, weights=None):
     modes = np.atleast_2d(modes)
     weights = np.ones(len(modes)) if weights is None else np.array(weights)
-    shown = tuple(Shown(f.key, f.unit, 0.0) for f in toy.free)
+    shown = tuple(ShownCoordinate(f.key, f.unit, 0.0) for f in toy.free)
     return Task(toy, Cloud.of_modes(modes, covariances, weights, toy.free), shown, modes[0])

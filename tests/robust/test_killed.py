@@ -20,11 +20,11 @@ import pytest
 ROOT = Path(__file__).parents[2]
 WRITER = """
 import sys; from pathlib import Path; import numpy as np
-from lostmotion.storage import Column, save_arrays, save_json
+from lostmotion.storage import StoredArray, save_arrays, save_json
 folder = Path(sys.argv[1])
 for k in range(10**6):
     save_json(folder / "facts.json", {"k": k, "x": [k] * 5000})
-    save_arrays(folder / "arrays.nc", {"x": Column(("t",), np.full(5000, float(k)))}, {}, {"k": str(k)})
+    save_arrays(folder / "arrays.nc", {"x": StoredArray(("t",), np.full(5000, float(k)))}, {}, {"k": str(k)})
     print(k, flush=True)
 """
 

@@ -15,7 +15,7 @@ import pytest
 
 from lostmotion.errors import DataError, PlaceError
 from lostmotion.storage import (
-    Column,
+    StoredArray,
     folder_for,
     load_arrays,
     load_json,
@@ -35,7 +35,7 @@ DOORS: list[tuple[str, Callable[[Path, np.ndarray], object]]] = [
     ("facts.json", lambda path, x: save_json(path, {"x": x.tolist()})),
     ("table.csv", lambda path, x: save_table(path, {"time": x, "x": x}, UNITS, {})),
     ("table.nc", lambda path, x: save_table(path, {"time": x, "x": x}, UNITS, {})),
-    ("arrays.nc", lambda path, x: save_arrays(path, {"x": Column(("time",), x)}, {}, {})),
+    ("arrays.nc", lambda path, x: save_arrays(path, {"x": StoredArray(("time",), x)}, {}, {})),
 ]
 IDS = [f"{name}-{i}" for i, (name, _) in enumerate(DOORS)]
 
@@ -117,7 +117,7 @@ def test_a_place_that_is_a_file_is_a_sentence(tmp_path: Path) -> None:
 
 
 def test_a_damaged_result_is_a_sentence(tmp_path: Path) -> None:
-    save_arrays(tmp_path / "arrays.nc", {"x": Column(("time",), LONG)}, {}, {})
+    save_arrays(tmp_path / "arrays.nc", {"x": StoredArray(("time",), LONG)}, {}, {})
     raw = (tmp_path / "arrays.nc").read_bytes()
     (tmp_path / "arrays.nc").write_bytes(raw[: len(raw) // 2])
     with pytest.raises(DataError, match=r"arrays\.nc cannot be read, or is damaged .*: run it again"):

@@ -9,7 +9,7 @@ from sensed import case_of, model_of, moved, multisine, noisy
 
 from lostmotion.inference.curves import band_of
 from lostmotion.inference.setup import problem_of, search, split
-from lostmotion.inference.unexplained import Curves
+from lostmotion.inference.unexplained import CurveSearch
 from lostmotion.likelihood.system import System
 from lostmotion.registry import Registry
 from lostmotion.workflow.diagnose import run_diagnosis
@@ -58,7 +58,7 @@ def learned(folder, law, seed=0):
     train, _ = split(prepared.observations)
     system = System(prepared.model)
     nominal = search(problem_of(system, prepared.case, train, jobs=1), np.random.default_rng(seed))
-    return Curves(1).unknown(nominal, nominal)
+    return CurveSearch(1).unknown(nominal, nominal)
 
 
 def depends(found):

@@ -13,7 +13,7 @@ from truths import case_of
 from lostmotion.inference.curves import band_of
 from lostmotion.inference.proposal import Axis, proposed
 from lostmotion.inference.setup import problem_of, search
-from lostmotion.inference.unexplained import Curves
+from lostmotion.inference.unexplained import CurveSearch
 from lostmotion.likelihood.drive import Tone
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.system import System
@@ -64,7 +64,7 @@ def fitted(kind, *, seed=0):
 def test_a_ripple_over_position_is_learned_and_its_period_proposed():
     """1 N with 13 periods over the travel: the curve is that of the truth where the mass spends its time."""
     fit = fitted(RIPPLE)
-    found = Curves(LIBRARY).unknown(fit, fit)
+    found = CurveSearch(LIBRARY).unknown(fit, fit)
     assert found.keys == ("unknown_over_position",)
     assert found.probability > 0.99
     band = band_of(found.fit, found.keys[0])
@@ -81,7 +81,7 @@ def test_a_ripple_over_position_is_learned_and_its_period_proposed():
 
 @pytest.mark.slow
 def test_friction_that_depends_on_position_is_told_from_a_force_that_does():
-    found = Curves(LIBRARY).unknown(*[fitted(ROUGH)] * 2)
+    found = CurveSearch(LIBRARY).unknown(*[fitted(ROUGH)] * 2)
     assert found.keys[0] == "unknown_friction_over_position"
     assert found.fit.values["c"] == pytest.approx(8.0, abs=1.0)
 
@@ -90,4 +90,4 @@ def test_friction_that_depends_on_position_is_told_from_a_force_that_does():
 @pytest.mark.parametrize("seed", range(3))
 def test_nothing_is_learned_where_nothing_is_missing(seed):
     fit = fitted(CLEAN, seed=seed)
-    assert Curves(LIBRARY).unknown(fit, fit) is None
+    assert CurveSearch(LIBRARY).unknown(fit, fit) is None

@@ -70,12 +70,12 @@ and with `each = true` each recording has a value of its own, where otherwise al
 
 from lostmotion.case.channels import check_alike
 from lostmotion.case.levels import Level, Measured
-from lostmotion.case.load import WRITTEN, CaseFile, Experiment, Sensor, load_case
+from lostmotion.case.load import WRITTEN, CaseFile, Experiment, SensorSpec, load_case
 from lostmotion.case.prior import Prior
 from lostmotion.case.write import dump_case
 from lostmotion.recording import Channel, RecordingSpec
 
 __all__ = [
-    "WRITTEN", "CaseFile", "Channel", "Experiment", "Level", "Measured", "Prior", "RecordingSpec", "Sensor",
+    "WRITTEN", "CaseFile", "Channel", "Experiment", "Level", "Measured", "Prior", "RecordingSpec", "SensorSpec",
     "check_alike", "dump_case", "load_case",
 ]  # fmt: skip

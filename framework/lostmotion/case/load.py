@@ -39,7 +39,7 @@ Motion = Literal["translation", "rotation"]
 
 
 @dataclass(frozen=True)
-class Sensor:
+class SensorSpec:
     """What is believed of the measurement: whether several recordings share one `noise` or each has its own.
 
     `offset` is the prior of the zero of the response, in each recording anew, in the SI unit of the channel.
@@ -79,7 +79,7 @@ class CaseFile:
     truth: Mapping[str, float]
     plugins: tuple[str, ...]
     digest: str
-    sensor: Sensor = Sensor()
+    sensor: SensorSpec = SensorSpec()
     levels: tuple[Level, ...] = ()
     experiment: Experiment = Experiment()
     motion: Motion | None = None
@@ -257,11 +257,11 @@ def _estimate(model: Fields, known: Mapping[str, float]) -> dict[str, Prior]:
     return {name: _prior(fields.table(name), ("each",)) for name in fields.values}
 
 
-def _sensor(top: Fields) -> Sensor:
+def _sensor(top: Fields) -> SensorSpec:
     fields = top.maybe_table("sensor").only(SENSOR)
     noise = fields.choice("noise", get_args(Sharing)) if "noise" in fields.values else "each"
     offset = _prior(fields.table("offset")) if "offset" in fields.values else None
-    return Sensor(cast(Sharing, noise), offset)
+    return SensorSpec(cast(Sharing, noise), offset)
 
 
 def _experiment(top: Fields) -> Experiment:

@@ -6,6 +6,6 @@ derivative stands of; each equation holds that of one coordinate, times one para
 """
 
 from lostmotion.equations.read import FUNCTIONS, Node
-from lostmotion.equations.structure import Body, Equations, Spring, equations_of
+from lostmotion.equations.structure import BodyEquation, Equations, Spring, equations_of
 
-__all__ = ["FUNCTIONS", "Body", "Equations", "Node", "Spring", "equations_of"]
+__all__ = ["FUNCTIONS", "BodyEquation", "Equations", "Node", "Spring", "equations_of"]

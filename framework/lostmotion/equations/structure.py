@@ -20,7 +20,7 @@ POSITIVE = {"gap": (1, 2), "stop": (1, 2), "sat": (1,)}
 
 
 @dataclass(frozen=True)
-class Body:
+class BodyEquation:
     """A coordinate with its mass, a parameter, and the force (a node) that is mass times its second derivative."""
 
     name: str
@@ -46,7 +46,7 @@ class Equations:
     """
 
     texts: tuple[str, ...]
-    bodies: tuple[Body, ...]
+    bodies: tuple[BodyEquation, ...]
     inputs: tuple[str, ...]
     params: Mapping[str, Dimension]
     motions: tuple[Kind, ...]
@@ -178,7 +178,7 @@ def _dimensions(
     return same, found[first]
 
 
-def _body(text: str, sides: tuple[Node, Node], name: str, params: set[str]) -> Body:
+def _body(text: str, sides: tuple[Node, Node], name: str, params: set[str]) -> BodyEquation:
     """Return the body of an equation: its mass is one parameter, and what remains is the force on it."""
     mass, rest = parted(text, minus(*sides), f"{name}''")
     force = negative(rest)
@@ -190,7 +190,7 @@ def _body(text: str, sides: tuple[Node, Node], name: str, params: set[str]) -> B
         raise error(
             text, mass.at, f"has no single parameter as the mass of {name}: write one in its place, as in m*{name}''"
         )
-    return Body(name, mass.text, force)
+    return BodyEquation(name, mass.text, force)
 
 
 def _per_mass(force: Node) -> tuple[Node, Node]:

@@ -10,7 +10,7 @@ from lostmotion.inference.candidates import Hint
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.natural import term_of
 from lostmotion.inference.rival import Expansion, Righted, expanded, fitted, righted, stood_in
-from lostmotion.settings import Rival
+from lostmotion.settings import RivalSettings
 
 CLOSE = 12.0
 """Sets that are so close to the best in log weight are fitted again, and kept for comparison."""
@@ -135,7 +135,7 @@ class Selection:
     stood: dict[tuple[frozenset[str], frozenset[str]], tuple[Fit, Fit]] = field(default_factory=dict)
 
     @property
-    def limits(self) -> Rival:
+    def limits(self) -> RivalSettings:
         """What is usual on real machines."""
         return self.nominal.problem.settings.rival
 

@@ -10,7 +10,7 @@ import numpy as np
 from lostmotion.contracts import Array
 from lostmotion.inference.fit import Fit
 from lostmotion.likelihood.observation import Observation
-from lostmotion.settings import Rival
+from lostmotion.settings import RivalSettings
 
 Change = Callable[[Observation, float], Observation]
 SMALL = 1e-4
@@ -43,7 +43,7 @@ def gauges_of(fit: Fit) -> list[Gauge]:
     return found
 
 
-def _flaws(observations: tuple[Observation, ...], usual: Rival) -> Iterator[tuple[Change, float, float]]:
+def _flaws(observations: tuple[Observation, ...], usual: RivalSettings) -> Iterator[tuple[Change, float, float]]:
     """Yield each flaw as a change of a recording, with its usual width and what it adds to the log density."""
     first = observations[0]
     for sensor in range(len(first.sensors)):

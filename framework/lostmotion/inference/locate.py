@@ -14,7 +14,7 @@ from lostmotion.inference.odds import Ratio, likely
 from lostmotion.inference.shares import Covariate, Share, significant
 from lostmotion.likelihood.latent import Missing
 from lostmotion.likelihood.observation import Observation
-from lostmotion.settings import DEFAULT, Locate
+from lostmotion.settings import DEFAULT, LocateSettings
 
 BINS = 25
 
@@ -116,7 +116,7 @@ def summary(
     force: Array,
     found: Mapping[str, Share],
     odds: Mapping[str, Ratio] | None = None,
-    limits: Locate = DEFAULT.locate,
+    limits: LocateSettings = DEFAULT.locate,
 ) -> str:
     """Return one sentence on where the force lives: of covariates only those that are beyond chance.
 

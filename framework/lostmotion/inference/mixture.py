@@ -26,7 +26,7 @@ MANY = 24
 
 
 @dataclass(frozen=True)
-class Node:
+class MixtureNode:
     """The posterior at one level of the random force: its expansion there and its log weight."""
 
     local: Local
@@ -59,10 +59,10 @@ def root_of(local: Local) -> Array:
     return np.asarray(sd[:, None] * vectors * np.sqrt(np.maximum(values, 0.0)))
 
 
-def nodes_of(fit: Fit) -> list[Node]:
+def nodes_of(fit: Fit) -> list[MixtureNode]:
     """Return the nodes from the maximum outwards, each started from its neighbour."""
     if RANDOM not in fit.problem.keys or len(fit.theta) > MANY:
-        return [Node(fit.local, 0.0)]
+        return [MixtureNode(fit.local, 0.0)]
     at = fit.problem.keys.index(RANDOM)
     free = fit.problem.free[at]
     centre = _node(fit, fit.theta, at)
@@ -79,10 +79,10 @@ def nodes_of(fit: Fit) -> list[Node]:
                 break
             nodes.append(near)
     heavy = [node for node in nodes if math.isfinite(node.weight)]
-    return heavy or [Node(fit.local, 0.0)]
+    return heavy or [MixtureNode(fit.local, 0.0)]
 
 
-def _node(fit: Fit, theta: Array, at: int) -> Node:
+def _node(fit: Fit, theta: Array, at: int) -> MixtureNode:
     """Return the node at the random force of `theta`, all else at its best there."""
     frees = list(fit.problem.free)
     frees[at] = replace(frees[at], start=theta[at], low=theta[at], high=theta[at])
@@ -90,4 +90,4 @@ def _node(fit: Fit, theta: Array, at: int) -> Node:
     kept = [i for i in range(len(theta)) if i != at]
     sign, logdet = np.linalg.slogdet(local.information[np.ix_(kept, kept)])
     height = local.log_likelihood + fit.problem.log_prior(local.theta)
-    return Node(local, height - 0.5 * float(logdet) if sign > 0 else -math.inf)
+    return MixtureNode(local, height - 0.5 * float(logdet) if sign > 0 else -math.inf)

@@ -37,7 +37,7 @@ class Axis(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Piece:
+class FormulaTerm:
     """One piece of a formula: its columns (points, 1 or 2), the price of a shape among many, and how it is written."""
 
     columns: Array
@@ -63,7 +63,7 @@ def proposed(
     jitter = RIDGE * float(np.mean(np.diag(covariance))) + 1e-12 * float(np.mean(mean**2)) + 1e-300
     root = np.linalg.cholesky(covariance + jitter * np.eye(len(at)))
     aim = np.linalg.solve(root, mean)
-    chosen: list[Piece] = []
+    chosen: list[FormulaTerm] = []
     best = float(aim @ aim)
     pieces = list(_pieces(at, over))
     widest = np.stack([np.hstack([p.columns, p.columns])[:, :2] for p in pieces])
@@ -91,7 +91,7 @@ def proposed(
     return Formula(" + ".join(parts).replace("+ -", "- "), share)
 
 
-def _price(pieces: list[Piece]) -> float:
+def _price(pieces: list[FormulaTerm]) -> float:
     return math.fsum(2.0 * p.columns.shape[1] + p.price for p in pieces)
 
 
@@ -116,22 +116,22 @@ def _left(aim: Array, columns: list[Array]) -> tuple[float, Array]:
     return float(np.sum((aim - basis @ weights) ** 2)), np.asarray(weights, dtype=float)
 
 
-def _pieces(at: Array, over: Axis) -> Iterator[Piece]:
+def _pieces(at: Array, over: Axis) -> Iterator[FormulaTerm]:
     """Yield what a formula may be made of: powers, the sign, a wave, a bump."""
     x, middle, half = over.symbol, 0.5 * float(at[0] + at[-1]), 0.5 * float(at[-1] - at[0])
-    yield Piece(np.ones((len(at), 1)), 0.0, lambda w: _number(w[0], _unit(over, 0)))
+    yield FormulaTerm(np.ones((len(at), 1)), 0.0, lambda w: _number(w[0], _unit(over, 0)))
     powers = {x: at, f"{x}|{x}|": at * np.abs(at), f"{x}^2": at**2, f"{x}^3": at**3}
     for (name, values), power in zip(powers.items(), (1, 2, 2, 3), strict=True):
-        yield Piece(values[:, None], 0.0, _power(name, _unit(over, power)))
+        yield FormulaTerm(values[:, None], 0.0, _power(name, _unit(over, power)))
     if at[0] < 0.0 < at[-1]:
-        yield Piece(np.sign(at)[:, None], 0.0, lambda w: f"{_number(w[0], _unit(over, 0))} sign({x})")
+        yield FormulaTerm(np.sign(at)[:, None], 0.0, lambda w: f"{_number(w[0], _unit(over, 0))} sign({x})")
     for turns in TURNS:
         angles = math.pi * turns * at / half
         waves = np.stack([np.sin(angles), np.cos(angles)], axis=1)
-        yield Piece(waves, 2.0 * math.log(len(TURNS)), _wave(2.0 * half / turns, over))
+        yield FormulaTerm(waves, 2.0 * math.log(len(TURNS)), _wave(2.0 * half / turns, over))
     for place, width in itertools.product(MIDDLES, WIDTHS):
         bump = np.exp(-(((at - middle - place * half) / (width * half)) ** 2))
-        yield Piece(
+        yield FormulaTerm(
             bump[:, None], 2.0 * math.log(len(MIDDLES) * len(WIDTHS)), _bump(middle + place * half, width * half, over)
         )
 

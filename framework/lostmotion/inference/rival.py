@@ -52,7 +52,7 @@ PRICE = math.log(len(SIZES) * len(LENGTHS))
 
 
 @dataclass(frozen=True)
-class Group:
+class CoefficientGroup:
     """Coefficients of one smooth force: their columns, and the prior widths (count,) that are tried."""
 
     name: str
@@ -87,7 +87,7 @@ class Expansion:
     gradient: Array
     information: Array
     own: int
-    groups: tuple[Group, ...]
+    groups: tuple[CoefficientGroup, ...]
     gauges: tuple[Gauge, ...]
     widths: Array
     worse: float
@@ -218,7 +218,7 @@ def expanded(fit: Fit) -> Expansion:
     for key, term in curves:
         size, count = size_of(term, problem), min(term.count, MOST_WAVES)
         options = tuple(s * size * spread(term, length)[:count] for s in SIZES for length in LENGTHS)
-        groups.append(Group(key, slice(len(frees), len(frees) + count), options))
+        groups.append(CoefficientGroup(key, slice(len(frees), len(frees) + count), options))
         frees += [Free(f"{key}.v{i}", "", 0.0, -1e3 * size, 1e3 * size, straight=True) for i in range(count)]
         steps += [NUDGE * size] * count
     errors, variances = _rows(problem.extended(frees, {key for key, _ in curves}), slopes, np.array(steps))
@@ -242,7 +242,7 @@ def expanded(fit: Fit) -> Expansion:
     )
 
 
-def _centre(fit: Fit, terms: dict[str, Learned], groups: Sequence[Group], rows: tuple[Array, Array]) -> None:
+def _centre(fit: Fit, terms: dict[str, Learned], groups: Sequence[CoefficientGroup], rows: tuple[Array, Array]) -> None:
     """Take the constant force out of the derivatives `rows` (coefficients, readings) of smooth forces, in place.
 
     A constant force has a name: smooth forces are those without a mean along the motion. What a constant does is read

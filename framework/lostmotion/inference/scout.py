@@ -88,7 +88,7 @@ class Track:
 
 
 @dataclass(frozen=True)
-class Shown:
+class SensorErrors:
     """What a sensor showed: readings that were foretold (samples,), and errors over their variances (samples,)."""
 
     problem: Problem
@@ -106,7 +106,7 @@ class Shown:
         return _steadiest(np.stack(bends, axis=1), self.lean)
 
 
-def _shown(problem: Problem, theta: Array, key: str) -> Shown:
+def _shown(problem: Problem, theta: Array, key: str) -> SensorErrors:
     """Return what the sensor of a term showed."""
     observation, seen = problem.observations[0], problem.innovations(theta)
     width = len(observation.sensors)
@@ -114,7 +114,7 @@ def _shown(problem: Problem, theta: Array, key: str) -> Shown:
     errors, variances = (row.reshape(-1, width)[:, sensor] for row in (seen.errors, seen.variances))
     readings = observation.readings[:, sensor]
     kept = np.isfinite(readings)
-    return Shown(problem, (readings - errors)[kept], (errors / variances)[kept])
+    return SensorErrors(problem, (readings - errors)[kept], (errors / variances)[kept])
 
 
 def _steadiest(laws: Array, lean: Array) -> float:
@@ -166,7 +166,7 @@ def _free_shapes(problem: Problem, key: str) -> list[Slot]:
     return [s for s in sorted_slots(problem, key)[1] if s.param.scale == "log" and not s.param.choices]
 
 
-def _best(track: Track | Shown, key: str) -> dict[str, float] | None:
+def _best(track: Track | SensorErrors, key: str) -> dict[str, float] | None:
     """Return the shape that goes with the gradient best, and better than the usual ones, or None."""
     problem = track.problem
     usual = {s.key: tried_of(s.param, problem.scales) for s in sorted_slots(problem, key)[1]}

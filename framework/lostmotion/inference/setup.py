@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from lostmotion.case import CaseFile, Prior, Sensor
+from lostmotion.case import CaseFile, Prior, SensorSpec
 from lostmotion.contracts import Array
 from lostmotion.errors import CaseError, ContractError
 from lostmotion.inference.candidates import CREEP, steps_for_sticking
@@ -28,7 +28,7 @@ from lostmotion.settings import DEFAULT, Settings
 
 BLOCKS, ALIVE = 60, 4.0
 """Parts of a recording that are looked at for its motion; noises by which that stands out where there is one."""
-SHARED = Sensor("shared")
+SHARED = SensorSpec("shared")
 """A sensor of which nothing is to be split by recording."""
 BEGINNING, FEWEST = 3000, 400
 """Starting points are compared on so many samples of one recording; of each of many at least on so few."""
@@ -299,7 +299,7 @@ def _distinct(fits: list[Fit]) -> list[Fit]:
 
 
 def modes(
-    problem: Problem, rng: np.random.Generator, *, points: int = 96, finalists: int = 8, sensor: Sensor = SHARED
+    problem: Problem, rng: np.random.Generator, *, points: int = 96, finalists: int = 8, sensor: SensorSpec = SHARED
 ) -> list[Fit]:
     """Return the distinct maxima of the posterior on all recordings, best first by log evidence.
 
@@ -329,7 +329,7 @@ def _together(fits: list[Fit], problem: Problem) -> list[Fit]:
     return sorted((f for f in hills if f.log_evidence >= top - WITHIN), key=lambda f: -f.log_evidence)
 
 
-def separated(fit: Fit, sensor: Sensor) -> Fit:
+def separated(fit: Fit, sensor: SensorSpec) -> Fit:
     """Return the fit with what a case says of the sensor: noise levels of each recording's own, and its zero.
 
     It begins at the fit with shared levels. Where nothing is to be split, or all is split already, it is that fit.

@@ -18,7 +18,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.special import chdtrc
 
-from lostmotion.case import Sensor
+from lostmotion.case import SensorSpec
 from lostmotion.contracts import Array
 from lostmotion.inference.fit import MANY, Fit, maximise, restarted, sensitivity, warmed
 from lostmotion.inference.learned import Learned
@@ -30,7 +30,7 @@ from lostmotion.likelihood.space import LEVELS, Free, keys_of
 from lostmotion.results import Interval
 from lostmotion.results.sharing import PowerOfLevel
 from lostmotion.settings import DEFAULT
-from lostmotion.settings import Shared as SharedLimits
+from lostmotion.settings import SharedSettings as SharedLimits
 
 ROUNDS = 8
 RAISED = 3.0
@@ -67,7 +67,7 @@ class Levels:
 
 
 @dataclass(frozen=True)
-class Shared:
+class ComparedParameter:
     """A parameter in each recording: `values` with 95 % intervals, their best `common` value, and whether that holds.
 
     `chi2` with `dof` degrees of freedom tests that; `p` is corrected for the number of parameters. `power` tells how
@@ -109,7 +109,7 @@ class SharedValues:
 
     recordings: tuple[str, ...]
     levels: Levels
-    parameters: Mapping[str, Shared]
+    parameters: Mapping[str, ComparedParameter]
     released: tuple[str, ...] = ()
     failed: tuple[str, ...] = ()
     dropped: tuple[str, ...] = ()
@@ -117,7 +117,7 @@ class SharedValues:
 
 
 @dataclass(frozen=True)
-class Apart:
+class SeparateFit:
     """A fit in which a parameter has values of each recording's own: coordinates (recordings,), their covariance."""
 
     key: str
@@ -137,12 +137,12 @@ def sharing_of(fit: Fit) -> SharedValues | None:
     if len(fit.problem.observations) < 2:
         return None
     compared = _compared(fit)
-    courses = [_course(separated(compared, Sensor()))]
+    courses = [_course(separated(compared, SensorSpec()))]
     if curves := curves_of(fit.problem):
         plain = compared.problem
         for key in curves:
             plain = plain.reduced(key, fit.values)
-        bare, evidence = _course(separated(maximise(plain, warmed(plain, plain.start, RAISED)), Sensor()))
+        bare, evidence = _course(separated(maximise(plain, warmed(plain, plain.start, RAISED)), SensorSpec()))
         courses.append((replace(bare, dropped=curves), evidence))
     return max(courses, key=lambda course: course[1])[0]
 
@@ -152,7 +152,7 @@ def _course(shared: Fit) -> tuple[SharedValues, float]:
     base = shared
     observations, tested = base.problem.observations, _tested(base.problem)
     levels = levels_of(observations)
-    found: dict[str, Shared] = {}
+    found: dict[str, ComparedParameter] = {}
     released: list[str] = []
     for turn in range(MOST_OWN + 1):
         rest = [key for key in tested if key not in found]
@@ -205,14 +205,14 @@ def levels_of(observations: Sequence[Observation]) -> Levels:
     return Levels("response", first.channel, tuple(float(np.nanstd(o.response)) for o in observations))
 
 
-def _each_apart(base: Fit, keys: Sequence[str]) -> list[Apart]:
+def _each_apart(base: Fit, keys: Sequence[str]) -> list[SeparateFit]:
     """Return the fits in which one parameter after the other has values of each recording's own."""
     single, jobs = replace(base, problem=replace(base.problem, jobs=1)), base.problem.jobs
     found = each(lambda key: apart_in(single, key), keys, jobs)
     return [one for one in found if one is not None]
 
 
-def apart_in(base: Fit, key: str) -> Apart | None:
+def apart_in(base: Fit, key: str) -> SeparateFit | None:
     """Return the fit in which a parameter has values of each recording's own, from a base where all else is shared.
 
     None where it diverges. Where the case gives each recording its own already, it is the base itself.
@@ -228,7 +228,7 @@ def apart_in(base: Fit, key: str) -> Apart | None:
         if fit.status == "diverged":
             return None
     columns = [fit.problem.keys.index(name) for name in keys_of(key, names)]
-    return Apart(
+    return SeparateFit(
         key, fit, replace(free, key=key), fit.theta[columns], covariance_of(fit, columns), free.recording is not None
     )
 
@@ -314,7 +314,7 @@ def odd_one(values: Array, covariance: Array) -> int | None:
     return good[0] if len(good) == 1 else None
 
 
-def _tests(apart: Mapping[str, Apart], levels: Levels, limits: SharedLimits) -> dict[str, Shared]:
+def _tests(apart: Mapping[str, SeparateFit], levels: Levels, limits: SharedLimits) -> dict[str, ComparedParameter]:
     """Return the test of each parameter, with p-values corrected for the number of them."""
     loose = {key: one.covariance + _tolerance(one, limits.alike) for key, one in apart.items()}
     chi2 = {key: homogeneity(one.at, loose[key]) for key, one in apart.items()}
@@ -322,7 +322,7 @@ def _tests(apart: Mapping[str, Apart], levels: Levels, limits: SharedLimits) -> 
     gains = {key: one.fit.log_likelihood for key, one in apart.items()}
     found = {}
     for (key, one), chance in zip(apart.items(), p, strict=True):
-        shared = Shared(
+        shared = ComparedParameter(
             key, _values(one), _common(one), chi2[key], len(one.at) - 1, chance, given=one.given, level=limits.level
         )
         if not shared.holds:
@@ -335,13 +335,13 @@ def _tests(apart: Mapping[str, Apart], levels: Levels, limits: SharedLimits) -> 
     return found
 
 
-def _tolerance(one: Apart, share: float) -> Array:
+def _tolerance(one: SeparateFit, share: float) -> Array:
     """Return the covariance (recordings, recordings) of a scatter of this share of the values."""
     size = 1.0 if one.free.log else float(np.max(np.abs(one.at)))
     return np.asarray((share * size) ** 2 * np.eye(len(one.at)))
 
 
-def _power(one: Apart, covariance: Array, levels: Levels) -> PowerOfLevel | None:
+def _power(one: SeparateFit, covariance: Array, levels: Levels) -> PowerOfLevel | None:
     """Return how the values of a parameter go with the level; only where each is known to be other than zero."""
     if one.free.log:
         return power_of(one.at, covariance, np.array(levels.values))
@@ -351,13 +351,13 @@ def _power(one: Apart, covariance: Array, levels: Levels) -> PowerOfLevel | None
     return power_of(np.log(np.abs(one.at)), covariance / np.outer(one.at, one.at), np.array(levels.values))
 
 
-def _values(one: Apart) -> tuple[Interval, ...]:
+def _values(one: SeparateFit) -> tuple[Interval, ...]:
     """Return the value of a parameter in each recording with its 95 % interval."""
     sd = np.sqrt(np.diag(one.covariance))
     return tuple(_interval(one.free, at, wide) for at, wide in zip(one.at.tolist(), sd.tolist(), strict=True))
 
 
-def _common(one: Apart) -> Interval:
+def _common(one: SeparateFit) -> Interval:
     """Return the best common value of a parameter with its 95 % interval."""
     weights = np.linalg.solve(one.covariance, np.ones(len(one.at)))
     total = float(np.sum(weights))
@@ -370,7 +370,7 @@ def _interval(free: Free, at: float, sd: float) -> Interval:
     return Interval(float(median), float(low), float(high), free.unit)
 
 
-def _best(apart: Mapping[str, Apart], tests: Mapping[str, Shared]) -> Apart | None:
+def _best(apart: Mapping[str, SeparateFit], tests: Mapping[str, ComparedParameter]) -> SeparateFit | None:
     """Return the fit that explains most among those whose values differ; None where one value holds for all."""
     differ = [one for key, one in apart.items() if not tests[key].holds and not one.given]
     return max(differ, key=lambda one: one.fit.log_likelihood, default=None)

@@ -30,7 +30,7 @@ Progress = Callable[[str], None]
 
 
 @dataclass(frozen=True)
-class Unknown:
+class UnknownForce:
     """A fit with learned curves: their keys, and the log odds by which it beats the best that the library has.
 
     `alone` says that they take the place of what the library had found.
@@ -119,7 +119,7 @@ class Search:
 
 
 @dataclass
-class Curves:
+class CurveSearch:
     """All that is asked of learned curves in one diagnosis, where `many` terms of the library are tried.
 
     What was learned on top of a nominal fit is kept: a selection asks for it early, and the end of a diagnosis again.
@@ -148,7 +148,7 @@ class Curves:
         most = max(weight for _, weight in search.visits.values()) - search.visits[before.problem.active][1]
         return most * nominal.problem.samples / before.problem.samples
 
-    def unknown(self, nominal: Fit, chosen: Fit) -> Unknown | None:
+    def unknown(self, nominal: Fit, chosen: Fit) -> UnknownForce | None:
         """Return the learned curves that explain decisively more than the terms of the library, or None.
 
         Curves are tried on top of the chosen terms and of the nominal model alone: where they do without the terms,
@@ -183,10 +183,10 @@ class Curves:
             self.say("learned curves on all of the recording")
             whole = best.problem.on(chosen.problem.observations)
             best = maximise(whole, best.theta, rounds=ROUNDS, tolerance=0.3)
-        return Unknown(best, _curves(best.problem), gain, alone)
+        return UnknownForce(best, _curves(best.problem), gain, alone)
 
 
-def fewer(unknown: Unknown, key: str) -> Unknown | None:
+def fewer(unknown: UnknownForce, key: str) -> UnknownForce | None:
     """Return the learned curves without one of them, fitted anew; None where the rest explains nothing decisive."""
     keys = tuple(k for k in unknown.keys if k != key)
     if not keys:

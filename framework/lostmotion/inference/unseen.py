@@ -25,14 +25,14 @@ GAINED = 1.0
 
 
 @dataclass(frozen=True)
-class Place:
+class BodyPosition:
     """The position of the first body over a recording: mean and standard deviation (samples,), in m or rad."""
 
     mean: Array
     sd: Array
 
 
-def place_of_body(fit: Fit, observation: Observation) -> Place:
+def place_of_body(fit: Fit, observation: Observation) -> BodyPosition:
     """Return where the body was during a recording, by smoothing over the posterior about a fit.
 
     The level of the random force, which lets a position drift, is integrated on a grid; how the other parameters move
@@ -48,11 +48,13 @@ def place_of_body(fit: Fit, observation: Observation) -> Place:
             variances.append(np.maximum(seen.covariance[:, 0, 0], 0.0))
             weights.append(math.exp(node.weight - max(n.weight for n in nodes)))
     if not means:
-        return Place(np.zeros(observation.samples), np.full(observation.samples, np.inf))
+        return BodyPosition(np.zeros(observation.samples), np.full(observation.samples, np.inf))
     share = np.array(weights) / np.sum(weights)
     mean = share @ np.array(means)
     variance = share @ (np.array(variances) + (np.array(means) - mean) ** 2)
-    return Place(mean, np.sqrt(variance + _shifted(problem, nodes[int(np.argmax([n.weight for n in nodes]))].local)))
+    return BodyPosition(
+        mean, np.sqrt(variance + _shifted(problem, nodes[int(np.argmax([n.weight for n in nodes]))].local))
+    )
 
 
 def _shifted(problem: Problem, local: Local) -> Array:

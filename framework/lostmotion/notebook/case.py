@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from lostmotion.case import WRITTEN, CaseFile, Experiment, Prior, Sensor, check_alike, dump_case
+from lostmotion.case import WRITTEN, CaseFile, Experiment, Prior, SensorSpec, check_alike, dump_case
 from lostmotion.contracts import Model
 from lostmotion.errors import CaseError, PluginError, nearest
 from lostmotion.recording import Recording, load_recording
@@ -52,7 +52,7 @@ class Case:
     estimate: Mapping[str, Prior] = field(default_factory=dict)
     title: str = "case"
     truth: Mapping[str, float] = field(default_factory=dict)
-    sensor: Sensor = field(default_factory=Sensor)
+    sensor: SensorSpec = field(default_factory=SensorSpec)
     experiment: Experiment = field(default_factory=Experiment)
     file: CaseFile | None = field(default=None, repr=False)
 

@@ -209,7 +209,7 @@ def simulate(
     initial: Mapping[str, float] | None = None,
     noise: float = 0.0,
     seed: int = 0,
-) -> _simulate.Table:
+) -> _simulate.SimulatedTable:
     """Return the table of a simulated machine, each column (samples,) by name; `out` (.csv, .nc) is written too.
 
     `values` and `initial` are those of parameters and states by name, in SI; `drives` texts such as

@@ -36,7 +36,7 @@ _POWERS = {("force", "position"): 1, ("force", "velocity"): 0, ("force", "accele
 _ANGLE = {"deg": re.compile(r"deg|°"), "rad": re.compile(r"rad")}
 
 
-class Signal(NamedTuple):
+class DoubtedChannel(NamedTuple):
     """A channel in SI units (n,), NaN where a sample was lost, with its column, quantity and the unit of its file."""
 
     values: Array
@@ -51,7 +51,7 @@ class Signal(NamedTuple):
         return "force" if self.quantity == "torque" else self.quantity
 
 
-def doubts(inputs: Sequence[Signal], sensors: Sequence[Signal], dt: float) -> tuple[str, ...]:
+def doubts(inputs: Sequence[DoubtedChannel], sensors: Sequence[DoubtedChannel], dt: float) -> tuple[str, ...]:
     """Return what looks wrong with inputs and sensors that were sampled together every `dt` s.
 
     Units and power are compared where there is one input: with several, each may take up the power of the other. The
@@ -79,7 +79,7 @@ def is_impulsive(values: Array) -> bool:
     return float(np.mean(away < QUIET * away.max())) > MOSTLY
 
 
-def note_angle(signal: Signal, what: str) -> Iterator[str]:
+def note_angle(signal: DoubtedChannel, what: str) -> Iterator[str]:
     """Yield a note when an angle said to be in rad is as large as degrees are."""
     if not _ANGLE["rad"].search(signal.unit) or signal.quantity not in ("position", "base_position"):
         return
@@ -95,7 +95,7 @@ def note_angle(signal: Signal, what: str) -> Iterator[str]:
         )
 
 
-def note_units(excitation: Signal, response: Signal) -> Iterator[str]:
+def note_units(excitation: DoubtedChannel, response: DoubtedChannel) -> Iterator[str]:
     """Yield a note when one angle is said to be in degrees, the other in rad, and both numbers are about as large."""
     units = [next((name for name, word in _ANGLE.items() if word.search(s.unit)), "") for s in (excitation, response)]
     if sorted(units) != ["deg", "rad"] or {excitation.quantity, response.quantity} != {"base_position", "position"}:
@@ -136,7 +136,7 @@ def note_far(values: Array, what: str) -> Iterator[str]:
             )
 
 
-def note_power(excitation: Signal, response: Signal, dt: float) -> Iterator[str]:
+def note_power(excitation: DoubtedChannel, response: DoubtedChannel, dt: float) -> Iterator[str]:
     """Yield a note when the machine feeds power to its drive on the whole, as only one with a motor of its own can."""
     pair = (excitation.kind, response.kind)
     if pair == ("base_position", "force"):

@@ -14,11 +14,11 @@ from lostmotion.errors import DataError, nearest
 from lostmotion.provenance import digest
 from lostmotion.quantities import si_factor
 from lostmotion.recording.checks import bridged, check_finite, check_length, check_sensor, check_values, note_stuck
-from lostmotion.recording.doubts import Signal, doubts
+from lostmotion.recording.doubts import DoubtedChannel, doubts
 from lostmotion.recording.formats import read_table
 from lostmotion.recording.spec import Channel, Hold, RecordingSpec
 from lostmotion.recording.table import Table
-from lostmotion.recording.timing import Clock, check_step, even_clock, resampled
+from lostmotion.recording.timing import EvenClock, check_step, even_clock, resampled
 from lostmotion.recording.units import note_unit, seconds, time_unit
 
 if TYPE_CHECKING:
@@ -211,7 +211,7 @@ def recording_of(spec: RecordingSpec, table: Table, source: str, told_by: str) -
     check_length(time.size, source)
     time, values = _cut(spec, time, values)
     check_length(time.size, source)
-    clock = even_clock(time, source) if spec.time else Clock(1.0 / _rate(spec), False, (), float(time[0]))
+    clock = even_clock(time, source) if spec.time else EvenClock(1.0 / _rate(spec), False, (), float(time[0]))
     roles = [("excitation", c) for c in spec.inputs] + [("response", c) for c in spec.sensors]
     channels = [_Read(role, c, spec, source) for role, c in roles]
     read = [channel.on(clock, time, raw) for channel, raw in zip(channels, values, strict=True)]
@@ -243,7 +243,7 @@ class _Read:
         """The channel as messages call it."""
         return f"the {self.role} {self.channel.column!r}"
 
-    def on(self, clock: Clock, time: Array, raw: Array) -> tuple[Array, tuple[str, ...]]:
+    def on(self, clock: EvenClock, time: Array, raw: Array) -> tuple[Array, tuple[str, ...]]:
         """Return the channel (n,) in SI units on the even grid of the clock, without lost samples of an input; notes.
 
         `raw` (n,) was read at `time` (n,) in s.
@@ -275,10 +275,10 @@ class _Read:
         clock = ("time", time, {"units": "s", "long_name": "time"})
         return xr.DataArray(si, dims="time", coords={"time": clock}, attrs=attrs | more)
 
-    def signal(self, si: Array) -> Signal:
+    def signal(self, si: Array) -> DoubtedChannel:
         """Return the channel as those see it who doubt it."""
         channel, (factor, _) = self.channel, si_factor(self.channel.unit, self.channel.quantity)
-        return Signal(si, channel.column, channel.quantity, channel.unit, factor * channel.factor)
+        return DoubtedChannel(si, channel.column, channel.quantity, channel.unit, factor * channel.factor)
 
 
 def _samples(spec: RecordingSpec, table: Table, source: str) -> tuple[Array, list[Array], tuple[str, ...]]:

@@ -38,7 +38,7 @@ DRIVES = re.compile(r"drive|input|excit|motor|command|hammer|^u\d*$", re.IGNOREC
 
 
 @dataclass(frozen=True, eq=False)
-class Column:
+class OutlinedColumn:
     """A column of a table: its values (n,), the unit of the file ("" where it gives none), and what it measures.
 
     `kind` is one of `KINDS`, or "" where nothing tells; `sure` says that the unit has told.
@@ -84,9 +84,9 @@ class Outline:
     time_unit: str
     dt: float
     samples: int
-    columns: tuple[Column, ...]
-    drive: Column | None
-    response: Column
+    columns: tuple[OutlinedColumn, ...]
+    drive: OutlinedColumn | None
+    response: OutlinedColumn
 
     @property
     def based(self) -> bool:
@@ -148,15 +148,15 @@ def _even(values: Array) -> bool:
     return bool(np.all(steps > 0.0) and np.max(steps) < 3.0 * np.median(steps))
 
 
-def _column(table: Table, name: str, stated: str | None) -> Column:
+def _column(table: Table, name: str, stated: str | None) -> OutlinedColumn:
     unit, values = stated or table.units.get(name, ""), table.columns[name]
     kind = next((kind for kind in KINDS if unit and _measures(unit, kind)), "")
     if kind:
-        return Column(name, values, unit, kind, sure=True)
+        return OutlinedColumn(name, values, unit, kind, sure=True)
     if stated:
         raise DataError(f"the unit {stated!r} of {name!r} measures none of {', '.join(KINDS)}: write for instance 'mm'")
     called = next((kind for kind, pattern in NAMES.items() if pattern.search(name)), "")
-    return Column(name, values, unit, called, sure=False)
+    return OutlinedColumn(name, values, unit, called, sure=False)
 
 
 def _measures(unit: str, kind: str) -> bool:
@@ -167,7 +167,9 @@ def _measures(unit: str, kind: str) -> bool:
     return True
 
 
-def _roles(columns: Sequence[Column], wishes: Wishes, source: str) -> tuple[Column | None, Column]:
+def _roles(
+    columns: Sequence[OutlinedColumn], wishes: Wishes, source: str
+) -> tuple[OutlinedColumn | None, OutlinedColumn]:
     """Return what drives the machine, if anything does, and what responds."""
     by_name = {one.name: one for one in columns}
     moving = [one for one in columns if one.moves]
@@ -183,7 +185,7 @@ def _roles(columns: Sequence[Column], wishes: Wishes, source: str) -> tuple[Colu
     return (replace(drive, kind="force") if drive and not drive.kind else drive), response
 
 
-def _drive_of(moving: Sequence[Column], response: str | None) -> Column | None:
+def _drive_of(moving: Sequence[OutlinedColumn], response: str | None) -> OutlinedColumn | None:
     """Return what looks like a drive: a force that is called one, any other, the motion of a foot, what is called so.
 
     A force that a load cell reads comes behind the motion of a foot: there it is what the motion calls forth.

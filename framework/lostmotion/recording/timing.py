@@ -32,7 +32,7 @@ SHORTEST, LONGEST = 1e-12, 1e6
 
 
 @dataclass(frozen=True)
-class Clock:
+class EvenClock:
     """The even grid of a time column: `start + dt * k` (s); `uneven` where channels must be resampled to it."""
 
     dt: float
@@ -47,7 +47,7 @@ def check_time(time: Array, source: str) -> tuple[float, tuple[str, ...]]:
     return clock.dt, clock.notes
 
 
-def even_clock(time: Array, source: str) -> Clock:
+def even_clock(time: Array, source: str) -> EvenClock:
     """Return the even grid (s) that a time column (n,) stands for; a column that is none is refused.
 
     Time columns are often rounded, by single precision or by few printed digits. What rounding can explain is
@@ -82,7 +82,7 @@ def _most(dt: float, rounding: float) -> float:
     return 0.999 * rounding + single if single < rounding < 0.5 * dt else max(single, 0.999 * rounding)
 
 
-def _fitted(time: Array, rounding: float, source: str) -> Clock:
+def _fitted(time: Array, rounding: float, source: str) -> EvenClock:
     """Return the grid of stamps without gaps, unless they jitter or stray from it too much."""
     start, dt = mean_line(time)
     rest = time - start - dt * np.arange(time.size)
@@ -103,12 +103,12 @@ def _fitted(time: Array, rounding: float, source: str) -> Clock:
             f"time stamps jitter by {100 * jitter / dt:.2g} % of the step (rms); the channels were resampled to an "
             f"even step of {dt:.9g} s"
         )
-        return Clock(dt, True, (note,), start)
+        return EvenClock(dt, True, (note,), start)
     dt = float((time[-1] - time[0]) / (time.size - 1))
     notes: tuple[str, ...] = ()
     if rounding > JITTER * dt and away > JITTER * dt:
         notes = (f"the time column is rounded to {rounding:.3g} s; an even step of {dt:.6g} s was put in its place",)
-    return Clock(dt, False, notes, float(time[0]))
+    return EvenClock(dt, False, notes, float(time[0]))
 
 
 def _rms(values: Array) -> float:
@@ -123,7 +123,7 @@ def mean_line(time: Array) -> tuple[float, float]:
     return float(time[0] + since.mean() + dt * index[0]), dt
 
 
-def resampled(time: Array, values: Array, clock: Clock, *, hold: Hold = "smooth") -> Array:
+def resampled(time: Array, values: Array, clock: EvenClock, *, hold: Hold = "smooth") -> Array:
     """Return a channel (n,), read at `time` (s), on the even grid of `clock`, by cubic splines (de Boor 1978).
 
     A value that is held as a step is that of the nearest sample. NaN stays where the nearest sample was lost, and where

@@ -18,7 +18,7 @@ FEW_DECADES = 300.0
 LOWEST = 1e-5
 
 
-class Clock(NamedTuple):
+class LeadAxis(NamedTuple):
     """What one second of lead is in the unit of the axis, and the name of that unit."""
 
     rate: float
@@ -48,13 +48,13 @@ def caption(evidence: Evidence) -> str:
     ) + (floor if evidence.has("growth_floor") else "")
 
 
-def clock_of(evidence: Evidence) -> Clock:
+def clock_of(evidence: Evidence) -> LeadAxis:
     """Return the unit of the horizon."""
     fit = evidence.result.fit
-    return Clock(1.0 / fit.horizon_unit_time, fit.horizon_unit)
+    return LeadAxis(1.0 / fit.horizon_unit_time, fit.horizon_unit)
 
 
-def draw_growth(axes: Axes, evidence: Evidence, clock: Clock) -> None:
+def draw_growth(axes: Axes, evidence: Evidence, clock: LeadAxis) -> None:
     """Draw the error over the lead before, after and at the noise floor, on a logarithmic scale."""
     lead = clock.rate * evidence.arrays["lead"]
     for name, colour, words in _curves(evidence):
@@ -81,7 +81,7 @@ def _curves(evidence: Evidence) -> list[tuple[str, str, str]]:
     return [entry for entry in [("floor", style.QUIET, "noise floor"), *models] if evidence.has(f"growth_{entry[0]}")]
 
 
-def _mark_validity(axes: Axes, evidence: Evidence, clock: Clock) -> None:
+def _mark_validity(axes: Axes, evidence: Evidence, clock: LeadAxis) -> None:
     valid = evidence.result.valid_prediction_time
     times, longer = ({"before": told.before, "after": told.after} for told in (valid, valid.or_longer))
     for row, (name, colour, _) in enumerate(_curves(evidence)):

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from lostmotion.contracts import Array
-from lostmotion.settings import DEFAULT, Chain
+from lostmotion.settings import DEFAULT, ChainSettings
 
 GROUPS = 4
 
@@ -31,7 +31,7 @@ class Quality:
         """The longest autocorrelation time in steps."""
         return float(np.max(self.tau))
 
-    def lacks(self, ess: float, before: float, limits: Chain = DEFAULT.chain) -> tuple[str, ...]:
+    def lacks(self, ess: float, before: float, limits: ChainSettings = DEFAULT.chain) -> tuple[str, ...]:
         """Return what keeps the chain from being believed; `before` is the longest time at the last check."""
         slowest = max(self.slowest, 1.0)
         checks = {  # written so that what is not a number fails too

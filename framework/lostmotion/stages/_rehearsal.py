@@ -22,7 +22,7 @@ HALVINGS = 4
 
 
 @dataclass(frozen=True)
-class Model:
+class RehearsedModel:
     """A model with what the old recordings have taught of it.
 
     The posterior is normal about `theta`, of the information `precision`. The random force belongs to each recording
@@ -33,7 +33,7 @@ class Model:
     precision: Array
 
     @classmethod
-    def of(cls, fit: Fit) -> Model:
+    def of(cls, fit: Fit) -> RehearsedModel:
         """Return the model of a fit."""
         shared = np.array([f.parameter != RANDOM for f in fit.problem.free])
         precision = np.diag([1.0 / min(f.sd, f.high - f.low) ** 2 for f in fit.problem.free])
@@ -65,7 +65,7 @@ class Model:
         return 2.0 * math.log(max(excitation.level, 1e-300) / max(self.fit.problem.observations[0].travel, 1e-300))
 
 
-def simulated(model: Model, excitation: Excitation, rng: np.random.Generator) -> Array | None:
+def simulated(model: RehearsedModel, excitation: Excitation, rng: np.random.Generator) -> Array | None:
     """Return what the sensors would show (samples, sensors) of a model with its noise levels; None if it diverges."""
     problem, theta = model.under(excitation), model.at(excitation)
     system, place, full = problem.system, problem.system.model.interfaces[0], problem.full(theta)
@@ -102,7 +102,7 @@ class Asked:
     rounds: int
 
 
-def evidence(model: Model, excitation: Excitation, z: Array, asked: Asked) -> float:
+def evidence(model: RehearsedModel, excitation: Excitation, z: Array, asked: Asked) -> float:
     """Return the log probability of a new recording, given the old ones, by Laplace's method; -inf if it diverges.
 
     With no rounds, the maximum is what the first step promises.

@@ -25,7 +25,7 @@ LEAST = 0.05
 
 
 @dataclass(frozen=True)
-class Shown:
+class ShownCoordinate:
     """How a coordinate is told: `exp(power * coordinate) * factor` in `unit`, or as it is where `power` is 0."""
 
     name: str
@@ -51,7 +51,7 @@ class Task:
 
     posterior: Posterior
     cloud: Cloud
-    shown: tuple[Shown, ...]
+    shown: tuple[ShownCoordinate, ...]
     maximum: Array
     digest: str = ""
 
@@ -107,21 +107,23 @@ def mode_weights(log_evidence: Array) -> Array:
     return np.asarray(weights / weights.sum())
 
 
-def _shown(free: Free, problem: Problem) -> Shown:
+def _shown(free: Free, problem: Problem) -> ShownCoordinate:
     """Return how a parameter is told; a random force as the rms (N, N m) of one that is held from sample to sample."""
     observation = _track(problem, free.recording or "")
     motion = problem.system.model.motion
     if free.level not in (OFFSET, *NOISES):
-        return Shown(free.key, free.unit, 1.0 if free.log else 0.0)
+        return ShownCoordinate(free.key, free.unit, 1.0 if free.log else 0.0)
     if free.level == RANDOM:
-        return Shown(NOISES[RANDOM] + free.key[len(RANDOM) :], unit_of("force", motion), 0.5, observation.dt**-0.5)
+        return ShownCoordinate(
+            NOISES[RANDOM] + free.key[len(RANDOM) :], unit_of("force", motion), 0.5, observation.dt**-0.5
+        )
     if free.level == PACE:
-        return Shown(NOISES[PACE] + free.key[len(PACE) :], "1/s", 1.0)
+        return ShownCoordinate(NOISES[PACE] + free.key[len(PACE) :], "1/s", 1.0)
     labels = [sensor.label for sensor in observation.sensors]
     channel = observation.sensors[labels.index(free.sensor) if free.sensor else 0].channel
     if free.level == OFFSET:
-        return Shown(free.key, unit_of(channel, motion), 0.0)
-    return Shown(NOISES[NOISE] + free.key[len(NOISE) :], unit_of(channel, motion), 1.0)
+        return ShownCoordinate(free.key, unit_of(channel, motion), 0.0)
+    return ShownCoordinate(NOISES[NOISE] + free.key[len(NOISE) :], unit_of(channel, motion), 1.0)
 
 
 def _track(problem: Problem, name: str) -> Observation:

@@ -25,7 +25,7 @@ from lostmotion.likelihood.predict import (
     observed,
 )
 from lostmotion.likelihood.problem import Problem
-from lostmotion.settings import DEFAULT, HeldOut
+from lostmotion.settings import DEFAULT, HeldOutSettings
 
 STARTS = 150
 REACH = 8.0
@@ -37,7 +37,7 @@ PARTS = 10
 
 
 @dataclass(frozen=True)
-class Piece:
+class HeldOutStretch:
     """A stretch of held-out data: the recording it stands in, and the sample where it begins there."""
 
     observation: Observation
@@ -70,11 +70,11 @@ class Prediction:
     scores: Array = field(default_factory=lambda: np.zeros(0))
 
 
-def pieces_of(observations: Sequence[Observation], held: Sequence[Observation]) -> tuple[Piece, ...]:
+def pieces_of(observations: Sequence[Observation], held: Sequence[Observation]) -> tuple[HeldOutStretch, ...]:
     """Return the held-out pieces: the end of the only recording, or whole recordings after a short settling."""
     if len(observations) == 1:
-        return (Piece(observations[0], observations[0].samples - held[0].samples),)
-    return tuple(Piece(t, max(t.samples // 20, 5)) for t in held)
+        return (HeldOutStretch(observations[0], observations[0].samples - held[0].samples),)
+    return tuple(HeldOutStretch(t, max(t.samples // 20, 5)) for t in held)
 
 
 def rates_of(fit: Fit, observations: Sequence[Observation]) -> Array:
@@ -93,7 +93,7 @@ def exponent_blocks(rates: Array, blocks: int = 10) -> Array:
     return np.array([part.mean() for part in np.array_split(rates, blocks)]) if len(rates) >= blocks else np.zeros(0)
 
 
-def predict(fit: Fit, pieces: Sequence[Piece], horizon: Horizon, rates: Array) -> Prediction:
+def predict(fit: Fit, pieces: Sequence[HeldOutStretch], horizon: Horizon, rates: Array) -> Prediction:
     """Return the predictions of one model on the held-out pieces, judged over a horizon; `rates`: see `rates_of`."""
     problems = [fit.problem.on((piece.observation,)) for piece in pieces]
     tracked = [filtered(problem, fit.theta) for problem in problems]
@@ -127,7 +127,7 @@ def predict(fit: Fit, pieces: Sequence[Piece], horizon: Horizon, rates: Array) -
     )
 
 
-def deviation(pieces: Sequence[Piece], sensor: int) -> float:
+def deviation(pieces: Sequence[HeldOutStretch], sensor: int) -> float:
     """Return the standard deviation of the held-out readings of a sensor."""
     return float(np.nanstd(np.concatenate([p.observation.readings[p.begin :, sensor] for p in pieces])))
 
@@ -153,12 +153,12 @@ def _nrmse(runs: FreeRuns, horizon: Horizon, scale: float) -> float:
     return float(np.sqrt(np.nanmean(runs.error[:, : horizon.steps + 1] ** 2)) / scale)
 
 
-def worsened(before: Prediction, after: Prediction, limits: HeldOut = DEFAULT.heldout) -> bool:
+def worsened(before: Prediction, after: Prediction, limits: HeldOutSettings = DEFAULT.heldout) -> bool:
     """Return whether held-out data speak against a model: free runs err more after than before, or it scores less.
 
-    A small rise of the error is none (`HeldOut.rise`). The log score of one-step predictions may not fall by its
-    standard error, from the scatter over blocks of time, and not by `HeldOut.fall` either unless the error of free
-    runs falls to a small share of what it was: a few large one-step errors make the scatter wide.
+    A small rise of the error is none (`HeldOutSettings.rise`). The log score of one-step predictions may not fall by
+    its standard error, from the scatter over blocks of time, and not by `HeldOutSettings.fall` either unless the error
+    of free runs falls to a small share of what it was: a few large one-step errors make the scatter wide.
     """
     if after.nrmse > (1.0 + limits.rise) * before.nrmse or not math.isfinite(after.nrmse):
         return True
@@ -171,7 +171,7 @@ def worsened(before: Prediction, after: Prediction, limits: HeldOut = DEFAULT.he
     return fall > limits.fall and after.nrmse > limits.less * before.nrmse
 
 
-def run_errors(fit: Fit, pieces: Sequence[Piece], horizon: Horizon) -> Array:
+def run_errors(fit: Fit, pieces: Sequence[HeldOutStretch], horizon: Horizon) -> Array:
     """Return the rms error (PARTS,) of free runs over a horizon, from starts in successive parts of held-out data.
 
     Errors of several sensors are told over the deviation of each, and averaged.
@@ -199,7 +199,7 @@ def confirmed(errors: Array, without: Array, chance: float = DEFAULT.heldout.cha
     return bool(np.mean(more) > 0.0 and ttest_1samp(more, 0.0).pvalue < chance)
 
 
-def own_motion(fit: Fit, pieces: Sequence[Piece]) -> float:
+def own_motion(fit: Fit, pieces: Sequence[HeldOutStretch]) -> float:
     """Return the standard deviation of the motion of the machine itself: relative to its base where that moves."""
     first = pieces[0].observation
     relative = fit.problem.system.model.inputs[first.lead] == "base_position" and first.channel == "position"
@@ -207,7 +207,7 @@ def own_motion(fit: Fit, pieces: Sequence[Piece]) -> float:
     return float(np.nanstd(np.concatenate(parts)))
 
 
-def _runs(problem: Problem, fit: Fit, states: Array, piece: Piece, horizon: Horizon) -> tuple[FreeRuns, ...]:
+def _runs(problem: Problem, fit: Fit, states: Array, piece: HeldOutStretch, horizon: Horizon) -> tuple[FreeRuns, ...]:
     """Return free runs of each sensor from starts that are spread over a held-out piece."""
     observation = piece.observation
     left = observation.samples - piece.begin
@@ -217,7 +217,9 @@ def _runs(problem: Problem, fit: Fit, states: Array, piece: Piece, horizon: Hori
     return free_runs(problem, fit.theta, states, starts, steps)
 
 
-def _forecast(problem: Problem, fit: Fit, states: Array, piece: Piece, horizon: Horizon) -> tuple[Array, Array]:
+def _forecast(
+    problem: Problem, fit: Fit, states: Array, piece: HeldOutStretch, horizon: Horizon
+) -> tuple[Array, Array]:
     """Return free-running predictions (samples, sensors) over a piece, begun anew every few units of time, where."""
     observation = piece.observation
     length = max(int(SEGMENT * horizon.unit_time / observation.dt), horizon.steps, 2)
@@ -231,6 +233,6 @@ def _forecast(problem: Problem, fit: Fit, states: Array, piece: Piece, horizon: 
     return forecast, restarts
 
 
-def horizon_for(fit: Fit, pieces: Sequence[Piece], exponent: float) -> Horizon:
+def horizon_for(fit: Fit, pieces: Sequence[HeldOutStretch], exponent: float) -> Horizon:
     """Return the horizon over which predictions are judged, from the exponent of the better model."""
     return horizon_of(pieces[0].observation, exponent, fit.problem.scales.time)

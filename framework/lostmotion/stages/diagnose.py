@@ -23,7 +23,7 @@ from lostmotion.inference.selection import Selector
 from lostmotion.inference.setup import polish, problem_of, search, split, stepped
 from lostmotion.inference.shares import Covariate, Share, shares_of, significant
 from lostmotion.inference.stretches import sought
-from lostmotion.inference.unexplained import Curves, Unknown, fewer
+from lostmotion.inference.unexplained import CurveSearch, UnknownForce, fewer
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.latent import Missing, missing_force
 from lostmotion.likelihood.motion import derivatives
@@ -31,7 +31,7 @@ from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import Problem
 from lostmotion.likelihood.space import LEVELS
 from lostmotion.likelihood.system import System
-from lostmotion.settings import DEFAULT, Locate, Settings
+from lostmotion.settings import DEFAULT, LocateSettings, Settings
 
 MANY = 2
 """So many terms together may stand in for one curve: then curves are tried although nothing is left over."""
@@ -57,7 +57,7 @@ class Located:
     explained: dict[str, Share]
     summary: str
     odds: Mapping[str, Ratio] = field(default_factory=dict)
-    limits: Locate = DEFAULT.locate
+    limits: LocateSettings = DEFAULT.locate
 
     @property
     def shares(self) -> dict[str, float]:
@@ -100,7 +100,7 @@ class Diagnosed:
     train: tuple[Observation, ...]
     held: tuple[Observation, ...]
     marks: Mapping[str, tuple[Values, Values]] = field(default_factory=dict)
-    learned: Unknown | None = None
+    learned: UnknownForce | None = None
     withdrawn: tuple[str, ...] = ()
 
     @property
@@ -157,7 +157,7 @@ def diagnose(
     _check_moving(held)
     say("fit of the nominal model")
     nominal = search(problem_of(system, case, train, jobs=jobs, settings=settings), rng)
-    curves = Curves(len(system.keys), say)
+    curves = CurveSearch(len(system.keys), say)
     say("shapes: pitches, stops, times")
     shapes = scouted(nominal, forces=significant_random_force(nominal) > settings.locate.significant)
     selection = sought(nominal, fitted_keys(system), say, shapes, curves.promise)
@@ -315,7 +315,7 @@ def locate(
     plays: Mapping[str, float] | None = None,
     rng: np.random.Generator | None = None,
     odds: Callable[[], Mapping[str, Ratio]] = dict,
-    limits: Locate = DEFAULT.locate,
+    limits: LocateSettings = DEFAULT.locate,
 ) -> Located:
     """Return where a missing force lives; `plays` are the half gaps by place, `rng` draws surrogates of the force.
 

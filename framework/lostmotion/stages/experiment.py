@@ -13,7 +13,7 @@ from lostmotion.inference.fit import Fit
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.observation import Observation
 from lostmotion.stages._excitations import Excitation, Limits, candidates_for, repeat_of, usual_limits
-from lostmotion.stages._rehearsal import Asked, Model, evidence, simulated
+from lostmotion.stages._rehearsal import Asked, RehearsedModel, evidence, simulated
 
 __all__ = ["Excitation", "Limits", "Proposal", "natural_of", "news", "propose", "usual_limits"]
 SAMPLES = 3000
@@ -68,7 +68,7 @@ def propose(
     share = observation.samples / samples
     moved = replace(observation, inputs=observation.inputs[:, : len(chosen.problem.system.model.driven)])
     offered = candidates_for(moved, samples, limits or usual_limits(observation, natural), rng)
-    weighed = _Weighed((Model.of(chosen), Model.of(rival)), share, rng)
+    weighed = _Weighed((RehearsedModel.of(chosen), RehearsedModel.of(rival)), share, rng)
     say(f"what {len(offered)} other excitations would tell")
     rough = weighed.ways(offered, 0)
     say("what the best ones and a repeat would tell")
@@ -93,7 +93,7 @@ def news(chosen: Fit, rival: Fit, observation: Observation) -> float:
     natural = natural_of(chosen)
     whole = repeat_of(observation, observation.samples, natural)
     asked = Asked(1.0, 3 * ROUNDS)
-    told = [evidence(Model.of(fit), whole, observation.readings, asked) for fit in (chosen, rival)]
+    told = [evidence(RehearsedModel.of(fit), whole, observation.readings, asked) for fit in (chosen, rival)]
     return told[0] - told[1]
 
 
@@ -101,7 +101,7 @@ def news(chosen: Fit, rival: Fit, observation: Observation) -> float:
 class _Weighed:
     """Two models between which an excitation is to decide, over a recording that is `share` times as long."""
 
-    models: tuple[Model, Model]
+    models: tuple[RehearsedModel, RehearsedModel]
     share: float
     rng: np.random.Generator
 

@@ -15,20 +15,20 @@ from lostmotion.contracts import Array
 from lostmotion.errors import CaseError, DataError
 from lostmotion.provenance import provenance
 from lostmotion.results import Interval
-from lostmotion.settings import DEFAULT, Chain
+from lostmotion.settings import DEFAULT, ChainSettings
 from lostmotion.stages._chains import Quality, autocorrelation, inference_data, quality_of
 from lostmotion.stages._cloud import Cloud
 from lostmotion.stages._keep import Kept, cleared, fingerprint, load, save
 from lostmotion.stages._population import Population, adapted, refitted
 from lostmotion.stages._sampling import FEWER, JUMPS, Density, moves, sampler_of, state_of
-from lostmotion.stages._task import NOISES, Shown, Task, task_of
+from lostmotion.stages._task import NOISES, ShownCoordinate, Task, task_of
 
 __all__ = [
     "NOISES",
     "Cloud",
     "SampledPosterior",
     "SamplingPlan",
-    "Shown",
+    "ShownCoordinate",
     "Task",
     "Watch",
     "identify",
@@ -63,7 +63,7 @@ class SamplingPlan:
     ess: float = 1000.0
     max_steps: int = 2000
     walkers: int | None = None
-    limits: Chain = DEFAULT.chain
+    limits: ChainSettings = DEFAULT.chain
 
 
 @dataclass(frozen=True)

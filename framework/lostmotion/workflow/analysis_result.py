@@ -22,14 +22,14 @@ from lostmotion.results.analysis import (
 from lostmotion.results.background import Origin
 from lostmotion.signals import poincare, spectrum, stroboscopic, without_harmonics
 from lostmotion.stages.surrogates import SurrogateTest
-from lostmotion.storage import Column
+from lostmotion.storage import StoredArray
 
 if TYPE_CHECKING:
     from lostmotion.workflow.analyse import AnalysedChannel
 
 SHARE = "share of the signal's standard deviation"
 CORRELATION = "grassberger_procaccia"
-Columns = dict[str, Column]
+Columns = dict[str, StoredArray]
 UNITS = {"lag": "s", "time": "s", "ami": "nat", "ami_floor": "nat", "slope": "1"}
 """The units of curves that have one."""
 
@@ -130,16 +130,16 @@ def arrays_of(found: AnalysedChannel) -> tuple[Columns, Columns]:
     if found.clean is not found.raw:
         variables |= _embedding("embedding_raw_", found.raw.embedding)
     time = np.arange(found.raw.n) * found.raw.dt
-    return variables, {"time": Column(("time",), time, "s", "time from the start")}
+    return variables, {"time": StoredArray(("time",), time, "s", "time from the start")}
 
 
 def _series(found: AnalysedChannel) -> Columns:
     source, raw, clean = found.source, found.raw, found.clean
-    table = {"x": Column(("time",), raw.x, source.unit, f"{source.label}, mean taken off")}
+    table = {"x": StoredArray(("time",), raw.x, source.unit, f"{source.label}, mean taken off")}
     if clean is not raw:
-        table["cleaned"] = Column(("time",), clean.x, source.unit, f"{source.label}, noise reduced")
+        table["cleaned"] = StoredArray(("time",), clean.x, source.unit, f"{source.label}, noise reduced")
     if source.excitation is not None:
-        table["excitation"] = Column(("time",), source.excitation, "", "measured excitation")
+        table["excitation"] = StoredArray(("time",), source.excitation, "", "measured excitation")
     return table
 
 
@@ -148,12 +148,12 @@ def _spectra(found: AnalysedChannel) -> Columns:
     density = f"({unit})^2/Hz" if unit else "1/Hz"
     frequency, power = spectrum(raw.x, raw.dt)
     table = {
-        "frequency": Column(("frequency",), frequency, "Hz", "frequency"),
-        "density": Column(("frequency",), power, density, "power spectral density"),
+        "frequency": StoredArray(("frequency",), frequency, "Hz", "frequency"),
+        "density": StoredArray(("frequency",), power, density, "power spectral density"),
     }
     if found.beat.period is not None:
         rest, _ = without_harmonics(raw.x, raw.dt, found.beat.period)
-        table["density_rest"] = Column(
+        table["density_rest"] = StoredArray(
             ("frequency",), spectrum(rest, raw.dt)[1], density, "power spectral density, harmonics taken out"
         )
     return table
@@ -161,9 +161,9 @@ def _spectra(found: AnalysedChannel) -> Columns:
 
 def _sections(found: AnalysedChannel) -> Columns:
     unit = found.source.unit
-    table = {"section": Column(("hit", "axis"), _section(found.raw), unit, "section as recorded")}
+    table = {"section": StoredArray(("hit", "axis"), _section(found.raw), unit, "section as recorded")}
     if found.clean is not found.raw:
-        table["section_cleaned"] = Column(("hit_cleaned", "axis"), _section(found.clean), unit, "section, cleaned")
+        table["section_cleaned"] = StoredArray(("hit_cleaned", "axis"), _section(found.clean), unit, "section, cleaned")
     return table
 
 
@@ -182,7 +182,7 @@ def _embedding(prefix: str, chosen: Embedding) -> Columns:
     table = {}
     for axis, names in axes.items():
         for name in (n for n in names if n in chosen.curves):
-            table[prefix + name] = Column((prefix + axis,), chosen.curves[name], UNITS.get(name, "1"), name)
+            table[prefix + name] = StoredArray((prefix + axis,), chosen.curves[name], UNITS.get(name, "1"), name)
     return table
 
 
@@ -193,7 +193,7 @@ def _exponent(found: Estimate) -> Columns:
     for name in ("time", "divergence", "members", "slope"):
         if name in found.curve:
             unit = UNITS.get(name, "1") if name != "slope" else "1/s"
-            table[f"lyapunov_{name}"] = Column(dims.get(name, ("lyapunov_time",)), found.curve[name], unit, name)
+            table[f"lyapunov_{name}"] = StoredArray(dims.get(name, ("lyapunov_time",)), found.curve[name], unit, name)
     return table
 
 
@@ -208,7 +208,9 @@ def _dimension(found: Estimate) -> Columns:
         "low_by_dim": line,
         "high_by_dim": line,
     }
-    return {f"d2_{name}": Column(d, found.curve[name], "1", name) for name, d in dims.items() if name in found.curve}
+    return {
+        f"d2_{name}": StoredArray(d, found.curve[name], "1", name) for name, d in dims.items() if name in found.curve
+    }
 
 
 def _tests(found: AnalysedChannel) -> Columns:
@@ -220,10 +222,10 @@ def _tests(found: AnalysedChannel) -> Columns:
         row[: len(test.values)] = test.values
     originals = np.array([t.original for t in found.tests])
     table = {
-        "surrogate_values": Column(("test", "draw"), values, "1", "statistic of the surrogates"),
-        "surrogate_original": Column(("test",), originals, "1", "statistic of the recording"),
+        "surrogate_values": StoredArray(("test", "draw"), values, "1", "statistic of the surrogates"),
+        "surrogate_original": StoredArray(("test",), originals, "1", "statistic of the recording"),
     }
     if found.surrogate_dims is not None:
         said = "dimension of surrogates"
-        table["surrogate_d2_by_dim"] = Column(("d2_draw", "d2_dim"), found.surrogate_dims, "1", said)
+        table["surrogate_d2_by_dim"] = StoredArray(("d2_draw", "d2_dim"), found.surrogate_dims, "1", said)
     return table

@@ -10,7 +10,7 @@ from lostmotion.contracts import Array
 from lostmotion.inference.fit import Fit
 from lostmotion.quantities import unit_of
 from lostmotion.stages.diagnose import Diagnosed, Located, base_keys
-from lostmotion.storage import Column
+from lostmotion.storage import StoredArray
 from lostmotion.workflow.attractors import section
 from lostmotion.workflow.findings import Outcome
 
@@ -23,7 +23,7 @@ WHOSE = {
 PREDICTED = "free-running prediction of the"
 
 
-def arrays_of(outcome: Outcome, motions: Mapping[str, Array]) -> tuple[dict[str, Column], dict[str, Column]]:
+def arrays_of(outcome: Outcome, motions: Mapping[str, Array]) -> tuple[dict[str, StoredArray], dict[str, StoredArray]]:
     """Return the variables and the coordinates of `arrays.nc`; `motions` are those of `motions_of`."""
     d = outcome.diagnosis
     variables = {
@@ -35,14 +35,14 @@ def arrays_of(outcome: Outcome, motions: Mapping[str, Array]) -> tuple[dict[str,
         **_draws(outcome),
     }
     coords = {
-        "time": Column(("time",), d.shown.time, "s", "time from the start of the recording"),
-        "covariate": Column(("covariate",), list(d.located.curves)),
-        "lead": Column(("lead",), outcome.before.lead, "s", "time from the start of a free run"),
-        "lag": Column(("lag",), np.arange(1, len(outcome.before.acf) + 1), "1", "lag in samples"),
-        "parameter": Column(("parameter",), base_keys(d.before)),
-        "parameter_after": Column(("parameter_after",), base_keys(d.after)),
-        "parameter_unit": Column(("parameter",), _units_of(d.before)),
-        "parameter_after_unit": Column(("parameter_after",), _units_of(d.after)),
+        "time": StoredArray(("time",), d.shown.time, "s", "time from the start of the recording"),
+        "covariate": StoredArray(("covariate",), list(d.located.curves)),
+        "lead": StoredArray(("lead",), outcome.before.lead, "s", "time from the start of a free run"),
+        "lag": StoredArray(("lag",), np.arange(1, len(outcome.before.acf) + 1), "1", "lag in samples"),
+        "parameter": StoredArray(("parameter",), base_keys(d.before)),
+        "parameter_after": StoredArray(("parameter_after",), base_keys(d.after)),
+        "parameter_unit": StoredArray(("parameter",), _units_of(d.before)),
+        "parameter_after_unit": StoredArray(("parameter_after",), _units_of(d.after)),
     }
     return variables, coords
 
@@ -60,7 +60,7 @@ def units_of(d: Diagnosed) -> dict[str, str]:
     return {"position": "m", "velocity": "m/s", "acceleration": "m/s^2", "force": "N"}
 
 
-def _series(outcome: Outcome) -> dict[str, Column]:
+def _series(outcome: Outcome) -> dict[str, StoredArray]:
     d, units = outcome.diagnosis, units_of(outcome.diagnosis)
     shown, missing = d.shown, d.located.missing
     model = d.after.problem.system.model
@@ -70,43 +70,43 @@ def _series(outcome: Outcome) -> dict[str, Column]:
         heldout[: shown.samples - d.held[0].samples] = 0.0
     time = ("time",)
     table = {
-        "response": Column(time, shown.response, seen, f"recorded {shown.sensors[0].label}"),
-        "heldout": Column(time, heldout, "1", "1 where no fit has seen the data"),
-        "record": Column(time, np.zeros(shown.samples), "1", "number of the recording"),
-        "position": Column(time, missing.position, units["position"], "smoothed position"),
-        "velocity": Column(time, missing.velocity, units["velocity"], "smoothed velocity"),
-        "missing_force": Column(time, missing.force, units["force"], "missing force, found terms taken out"),
-        "missing_force_sd": Column(time, missing.sd, units["force"], "standard deviation of the missing force"),
-        "forecast_before": Column(time, outcome.before.forecasts[:, 0], seen, f"{PREDICTED} nominal model"),
-        "restart": Column(time, outcome.before.restarts, "1", "1 where a free run begins"),
+        "response": StoredArray(time, shown.response, seen, f"recorded {shown.sensors[0].label}"),
+        "heldout": StoredArray(time, heldout, "1", "1 where no fit has seen the data"),
+        "record": StoredArray(time, np.zeros(shown.samples), "1", "number of the recording"),
+        "position": StoredArray(time, missing.position, units["position"], "smoothed position"),
+        "velocity": StoredArray(time, missing.velocity, units["velocity"], "smoothed velocity"),
+        "missing_force": StoredArray(time, missing.force, units["force"], "missing force, found terms taken out"),
+        "missing_force_sd": StoredArray(time, missing.sd, units["force"], "standard deviation of the missing force"),
+        "forecast_before": StoredArray(time, outcome.before.forecasts[:, 0], seen, f"{PREDICTED} nominal model"),
+        "restart": StoredArray(time, outcome.before.restarts, "1", "1 where a free run begins"),
     }
     if not shown.free:
         unit = unit_of(model.inputs[shown.lead], model.motion)
-        table["excitation"] = Column(time, shown.excitation, unit, "measured input")
+        table["excitation"] = StoredArray(time, shown.excitation, unit, "measured input")
     if d.left is not None:
         left = d.left.missing
-        table["left_force"] = Column(time, left.force, units["force"], "force left unexplained")
-        table["left_force_sd"] = Column(time, left.sd, units["force"], "standard deviation of the force left")
-        table["law"] = Column(time, d.law, units["force"], "force of the found terms")
-        table["forecast_after"] = Column(time, outcome.after.forecasts[:, 0], seen, f"{PREDICTED} augmented model")
+        table["left_force"] = StoredArray(time, left.force, units["force"], "force left unexplained")
+        table["left_force_sd"] = StoredArray(time, left.sd, units["force"], "standard deviation of the force left")
+        table["law"] = StoredArray(time, d.law, units["force"], "force of the found terms")
+        table["forecast_after"] = StoredArray(time, outcome.after.forecasts[:, 0], seen, f"{PREDICTED} augmented model")
     return table
 
 
-def _further(outcome: Outcome) -> dict[str, Column]:
+def _further(outcome: Outcome) -> dict[str, StoredArray]:
     """Return readings and predictions of the sensors behind the first: `response_2`, `forecast_before_2`, ..."""
     d, time, table = outcome.diagnosis, ("time",), {}
     motion = d.after.problem.system.model.motion
     for i, sensor in enumerate(d.shown.sensors[1:], start=1):
         unit = unit_of(sensor.channel, motion)
-        table[f"response_{i + 1}"] = Column(time, d.shown.readings[:, i], unit, f"recorded {sensor.label}")
+        table[f"response_{i + 1}"] = StoredArray(time, d.shown.readings[:, i], unit, f"recorded {sensor.label}")
         before, after = outcome.before.forecasts[:, i], outcome.after.forecasts[:, i]
-        table[f"forecast_before_{i + 1}"] = Column(time, before, unit, f"{PREDICTED} nominal model")
+        table[f"forecast_before_{i + 1}"] = StoredArray(time, before, unit, f"{PREDICTED} nominal model")
         if d.found:
-            table[f"forecast_after_{i + 1}"] = Column(time, after, unit, f"{PREDICTED} augmented model")
+            table[f"forecast_after_{i + 1}"] = StoredArray(time, after, unit, f"{PREDICTED} augmented model")
     return table
 
 
-def _curves(d: Diagnosed) -> dict[str, Column]:
+def _curves(d: Diagnosed) -> dict[str, StoredArray]:
     units = {**units_of(d), "phase": "cycles", "time": "s"}
     units |= {name: units[name.split()[0]] for name in d.located.curves}
     names = list(d.located.curves)
@@ -117,15 +117,15 @@ def _curves(d: Diagnosed) -> dict[str, Column]:
         return np.array([_padded(getattr(located.curves[n], part), width) for n in names])
 
     dims = ("covariate", "bin")
-    table = {"bin_center": Column(dims, stacked(d.located, "center"), "see covariate_unit", "middle of each bin")}
-    table["covariate_unit"] = Column(("covariate",), [units[n] for n in names])
+    table = {"bin_center": StoredArray(dims, stacked(d.located, "center"), "see covariate_unit", "middle of each bin")}
+    table["covariate_unit"] = StoredArray(("covariate",), [units[n] for n in names])
     for part in ("mean", "low", "high"):
-        table[f"before_{part}"] = Column(dims, stacked(d.located, part), force, f"missing force, {part}")
+        table[f"before_{part}"] = StoredArray(dims, stacked(d.located, part), force, f"missing force, {part}")
         if d.left is not None:
-            table[f"after_{part}"] = Column(dims, stacked(d.left, part), force, f"force left, {part}")
+            table[f"after_{part}"] = StoredArray(dims, stacked(d.left, part), force, f"force left, {part}")
     if d.law_curves:
         means = np.array([_padded(d.law_curves[n].mean, width) for n in names])
-        table["law_mean"] = Column(dims, means, force, "force of the found terms")
+        table["law_mean"] = StoredArray(dims, means, force, "force of the found terms")
     return table
 
 
@@ -133,33 +133,35 @@ def _padded(values: Array, width: int) -> Array:
     return np.concatenate([values[:width], np.full(max(width - len(values), 0), np.nan)])
 
 
-def _growth(outcome: Outcome) -> dict[str, Column]:
+def _growth(outcome: Outcome) -> dict[str, StoredArray]:
     lead, lag = ("lead",), ("lag",)
     said = "rms error over the standard deviation of the response"
     table = {
-        "growth_before": Column(lead, outcome.before.growth, "1", said),
-        "acf_before": Column(lag, outcome.before.acf, "1", "autocorrelation of standardised one-step errors"),
-        "acf_limit": Column((), 1.96 / np.sqrt(outcome.diagnosis.held[0].samples), "1", "95 % bound of white errors"),
+        "growth_before": StoredArray(lead, outcome.before.growth, "1", said),
+        "acf_before": StoredArray(lag, outcome.before.acf, "1", "autocorrelation of standardised one-step errors"),
+        "acf_limit": StoredArray(
+            (), 1.96 / np.sqrt(outcome.diagnosis.held[0].samples), "1", "95 % bound of white errors"
+        ),
     }
     if outcome.diagnosis.found:
-        table["growth_after"] = Column(lead, outcome.after.growth, "1", said)
-        table["acf_after"] = Column(lag, outcome.after.acf, "1", "autocorrelation of standardised one-step errors")
+        table["growth_after"] = StoredArray(lead, outcome.after.growth, "1", said)
+        table["acf_after"] = StoredArray(lag, outcome.after.acf, "1", "autocorrelation of standardised one-step errors")
     return table
 
 
-def _draws(outcome: Outcome) -> dict[str, Column]:
+def _draws(outcome: Outcome) -> dict[str, StoredArray]:
     told = "draws of the parameters,"
     return {
-        "posterior_before": Column(
+        "posterior_before": StoredArray(
             ("draw", "parameter"), outcome.draws_before, "see parameter_unit", f"{told} nominal model"
         ),
-        "posterior_after": Column(
+        "posterior_after": StoredArray(
             ("draw", "parameter_after"), outcome.draws_after, "see parameter_after_unit", f"{told} with what was found"
         ),
     }
 
 
-def _portraits(d: Diagnosed, motions: Mapping[str, Array]) -> dict[str, Column]:
+def _portraits(d: Diagnosed, motions: Mapping[str, Array]) -> dict[str, StoredArray]:
     """Return phase portraits and stroboscopic sections of the recording and of free runs of both models."""
     units, period = units_of(d), d.shown.period
     table = {}
@@ -167,8 +169,8 @@ def _portraits(d: Diagnosed, motions: Mapping[str, Array]) -> dict[str, Column]:
         tail = states[-PORTRAIT:] if period else states[:: max(1, len(states) // PORTRAIT)]
         points = section(states, period) if period else None
         for axis, column, unit in (("x", 0, units["position"]), ("v", 1, units["velocity"])):
-            table[f"portrait_{name}_{axis}"] = Column(("portrait",), tail[:, column], unit, WHOSE[name])
+            table[f"portrait_{name}_{axis}"] = StoredArray(("portrait",), tail[:, column], unit, WHOSE[name])
             if points is not None:
                 told = f"{WHOSE[name]}, once each drive period"
-                table[f"section_{name}_{axis}"] = Column(("section",), points[:, column], unit, told)
+                table[f"section_{name}_{axis}"] = StoredArray(("section",), points[:, column], unit, told)
     return table

@@ -23,7 +23,7 @@ MOST, FEWEST = 400, 16
 
 
 @dataclass(frozen=True)
-class Apart:
+class SectionDistance:
     """Energy distance between two sections, in standard deviations of the motion, and the chance of so much by luck.
 
     `status` is one of `results.STATUSES`; where it is not "ok" both numbers are NaN.
@@ -60,7 +60,7 @@ def section(states: Array, period: float, phase: float = 0.0) -> Array:
 
 def distances_between(
     motions: Mapping[str, Array], observation: Observation, rng: np.random.Generator
-) -> tuple[dict[str, Apart], bool]:
+) -> tuple[dict[str, SectionDistance], bool]:
     """Return how far the section of each model lies from the recorded one, and whether it is stroboscopic.
 
     "noise_floor" is the distance between the halves of the recorded one. Where nothing drives the machine evenly, the
@@ -74,12 +74,12 @@ def distances_between(
     table = distances(clouds["recorded"])
     both = _halves(table.shape[0], 0)
     enough = table.shape[0] >= FEWEST
-    floor = Apart(energy_distance(table, *both), same_chance(table, len(both[0]), rng)) if enough else _SHORT
+    floor = SectionDistance(energy_distance(table, *both), same_chance(table, len(both[0]), rng)) if enough else _SHORT
     found = {name: _apart(clouds["recorded"], c, rng) for name, c in clouds.items() if name != "recorded"}
     return {**found, "noise_floor": floor}, period is not None
 
 
-_SHORT = Apart(math.nan, math.nan, "too_short")
+_SHORT = SectionDistance(math.nan, math.nan, "too_short")
 
 
 def _looks(states: Array, spacing: float) -> Array:
@@ -95,14 +95,14 @@ def _halves(n: int, begin: int) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     return np.arange(begin, begin + n // 2), np.arange(begin + n // 2, begin + n)
 
 
-def _apart(recorded: Array, model: Array, rng: np.random.Generator) -> Apart:
+def _apart(recorded: Array, model: Array, rng: np.random.Generator) -> SectionDistance:
     """Return the distance between two clouds (looks, points, 2); halves are compared with halves, as in the floor."""
     if not np.all(np.isfinite(model)):
-        return Apart(math.nan, math.nan, "diverged")
+        return SectionDistance(math.nan, math.nan, "diverged")
     n = recorded.shape[1]
     if n < FEWEST:
         return _SHORT
     table = distances(np.concatenate([recorded, model], axis=1))
     pairs = [(a, b) for a in _halves(n, 0) for b in _halves(model.shape[1], n)]
     value = float(np.mean([energy_distance(table, a, b) for a, b in pairs]))
-    return Apart(value, same_chance(table, n, rng))
+    return SectionDistance(value, same_chance(table, n, rng))

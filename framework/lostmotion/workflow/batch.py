@@ -8,17 +8,17 @@ from __future__ import annotations
 
 import warnings
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from lostmotion.errors import CaseError, DataError, LostMotionError, PlaceError, PluginWarning
-from lostmotion.provenance import digest, provenance
+from lostmotion.provenance import digest, origin_of, provenance
 from lostmotion.registry import Registry
+from lostmotion.results.diagnosis import Diagnosis
 from lostmotion.settings import DEFAULT, Settings
-from lostmotion.storage import folder_for, writing
-from lostmotion.workflow.answer import read_answer
+from lostmotion.storage import folder_for, load_result, writing
 from lostmotion.workflow.batch_table import SUMMARY, BatchRow, row_aside, row_of, save_rows
 from lostmotion.workflow.campaign import Campaign, Say
 from lostmotion.workflow.diagnose import run_diagnosis
@@ -47,7 +47,7 @@ class Batch:
         try:
             with _notes_only():
                 self._settle(path, place)
-            return row_of(name, read_answer(place))
+            return row_of(name, _read(place))
         except PlaceError:
             raise
         except LostMotionError as err:
@@ -78,18 +78,22 @@ class Batch:
         registry = self._registry()
         case = case_of(path, registry)
         files = {spec.label: digest(case.folder / spec.file) for spec in case.recordings}
-        wanted = provenance("diagnose", {}, self.seed, {**registry.origins(), "case": case.digest, **files})
+        wanted = origin_of("diagnose", {}, self.seed, {**registry.origins(), "case": case.digest, **files})
         try:
-            made = read_answer(place).provenance
+            made = _read(place).provenance
         except DataError:
             return False
-        told = made.get("settings")
-        thresholds = told.get("thresholds") if isinstance(told, Mapping) else None
-        return {**made, "settings": {}} == wanted and thresholds == self.settings.as_dict()
+        thresholds = made.settings.get("thresholds")
+        return replace(made, settings={}) == wanted and thresholds == self.settings.as_dict()
 
     def _registry(self) -> Registry:
         """Return a registry for one case, which may bring plugins that the next one does not know."""
         return Registry.discover(self.plugins)
+
+
+def _read(place: Path) -> Diagnosis:
+    """Return the diagnosis that stands in a folder; `DataError` where no whole one is there."""
+    return load_result(Diagnosis, place / "diagnosis.json", "run the same command again")
 
 
 def run_batch(batch: Batch, *, jobs: int, say: Say = lambda _done, _of: None) -> list[BatchRow]:

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from lostmotion.codec import to_plain, told
+from lostmotion.results.diagnosis import Diagnosis, Mechanism, ParameterSets
 from lostmotion.storage import whole
-from lostmotion.workflow.answer import Answer, AnswerEntry, AnswerParameters
 
 SUMMARY = "summary.csv"
 DIAGNOSED, ASIDE = "diagnosed", "set aside"
@@ -49,22 +49,22 @@ class Move:
     moved_by: float = told("the change over the first of both")
 
 
-def row_of(name: str, answer: Answer) -> BatchRow:
-    """Return the row of a case from what its diagnosis said."""
-    found, fit = answer.found, answer.fit
+def row_of(name: str, diagnosis: Diagnosis) -> BatchRow:
+    """Return the row of a case from its diagnosis."""
+    found, fit = diagnosis.found, diagnosis.fit
     return BatchRow(
         case=name,
         status=DIAGNOSED,
-        verdict=answer.verdict,
+        verdict=diagnosis.verdict,
         mechanisms=" + ".join(map(_mechanism, found)),
         probability=min(_known(one.probability for one in found), default=None),
         share_of_drive=max(_known(one.share_of_drive for one in found), default=None),
-        unexplained_share=answer.unexplained.share_of_drive,
-        heldout_before=fit.before.heldout_nrmse,
-        heldout_after=fit.after.heldout_nrmse,
+        unexplained_share=diagnosis.unexplained.share_of_drive,
+        heldout_before=fit.before.nrmse,
+        heldout_after=fit.after.nrmse,
         noise_floor=fit.noise_floor_nrmse,
-        move=_moved(answer.parameters),
-        says=" ".join(answer.says),
+        move=_moved(diagnosis.parameters),
+        says=" ".join(diagnosis.says),
     )
 
 
@@ -92,15 +92,15 @@ def lines_of(rows: Sequence[BatchRow]) -> list[str]:
     return [head, *(f"  {count:>{width}}  {answer}" for answer, count in ordered)]
 
 
-def _mechanism(entry: AnswerEntry) -> str:
+def _mechanism(entry: Mechanism) -> str:
     return f"{entry.mechanism}@{entry.at}" if entry.at else entry.mechanism
 
 
-def _known(values: Iterable[float]) -> list[float]:
-    return [value for value in values if not math.isnan(value)]
+def _known(values: Iterable[float | None]) -> list[float]:
+    return [value for value in values if value is not None and not math.isnan(value)]
 
 
-def _moved(parameters: AnswerParameters) -> Move | None:
+def _moved(parameters: ParameterSets) -> Move | None:
     """Return the parameter that moved most from before to after, as a share of what it was; None if none moved."""
     before, after = ({name: one.median for name, one in of.items()} for of in (parameters.before, parameters.after))
     both = [name for name in before if before[name] and after.get(name) not in (None, before[name])]

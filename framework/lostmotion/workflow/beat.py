@@ -10,7 +10,7 @@ import numpy as np
 from lostmotion.contracts import Array, Series
 from lostmotion.results import Estimate
 from lostmotion.results.analysis import DriveSource
-from lostmotion.settings import DEFAULT, Motion
+from lostmotion.settings import DEFAULT, MotionSettings
 from lostmotion.signals import base_line, refined_period, return_spread
 from lostmotion.stages.denoise import Denoised
 from lostmotion.stages.surrogates import SurrogateTest
@@ -41,7 +41,7 @@ class MotionEvidence:
     dimension: Estimate
     entropy: Estimate
     tests: tuple[SurrogateTest, ...]
-    limits: Motion = DEFAULT.motion
+    limits: MotionSettings = DEFAULT.motion
 
     @property
     def noise(self) -> float:

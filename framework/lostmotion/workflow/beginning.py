@@ -20,7 +20,7 @@ from lostmotion.errors import CaseError
 from lostmotion.parts import Param
 from lostmotion.quantities import LENGTH, si_factor
 from lostmotion.recording.checks import filled
-from lostmotion.recording.outline import Column, Outline, Wishes, outlined
+from lostmotion.recording.outline import Outline, OutlinedColumn, Wishes, outlined
 from lostmotion.registry import Registry
 from lostmotion.signals import refined_period
 from lostmotion.workflow.prepare import prepare
@@ -49,7 +49,7 @@ class Draft:
 
 
 @dataclass(frozen=True)
-class Scales:
+class RecordedScales:
     """What a recording says of the size of things in SI units: a force (N, N m), a length (m, rad), a time (s).
 
     `straight` holds mass, damping and stiffness of the straight line through the spectra, as far as they are positive.
@@ -95,7 +95,7 @@ def _machine(registry: Registry, equations: str) -> Model:
     return machine
 
 
-def _model_for(outline: Outline, scales: Scales) -> str:
+def _model_for(outline: Outline, scales: RecordedScales) -> str:
     """Return the textbook model of what was recorded: a joint where the base moves, else an oscillator or a drive."""
     drive = outline.drive
     if drive is not None and drive.kind == "position":
@@ -124,14 +124,14 @@ def input_of(outline: Outline) -> str:
     return f"base_{outline.drive.kind}" if outline.based else "force"
 
 
-def scales_of(outline: Outline, factors: Mapping[str, float]) -> Scales:
+def scales_of(outline: Outline, factors: Mapping[str, float]) -> RecordedScales:
     """Return the natural sizes of a recording, and mass, damping and stiffness of the straight line through spectra."""
     drive = outline.drive
     pushed = _filled(drive, factors) if drive is not None and drive.kind == "force" else None
     return sizes_of(_filled(outline.response, factors), outline.response.kind, pushed, outline.dt)
 
 
-def sizes_of(seen: Array, kind: str, pushed: Array | None, dt: float) -> Scales:
+def sizes_of(seen: Array, kind: str, pushed: Array | None, dt: float) -> RecordedScales:
     """Return the natural sizes of a response (n,) of a kind, and of the force (n,) that drives it, both without mean.
 
     They are in SI units, and sampled every `dt` s.
@@ -144,11 +144,11 @@ def sizes_of(seen: Array, kind: str, pushed: Array | None, dt: float) -> Scales:
     pace = math.sqrt(mean) if mean > 0.0 else 1.0
     length = float(np.std(seen)) / pace**power
     if pushed is None:
-        return Scales(length * pace**2, length, 1.0 / pace, {})
-    return Scales(float(np.std(pushed)), length, 1.0 / pace, _straight(_spectrum(pushed, dt)[0], motion, omega))
+        return RecordedScales(length * pace**2, length, 1.0 / pace, {})
+    return RecordedScales(float(np.std(pushed)), length, 1.0 / pace, _straight(_spectrum(pushed, dt)[0], motion, omega))
 
 
-def _filled(column: Column, factors: Mapping[str, float]) -> Array:
+def _filled(column: OutlinedColumn, factors: Mapping[str, float]) -> Array:
     """Return a column (n,) in SI units without its mean; lost readings are bridged by straight lines."""
     values = column.values * si_factor(column.said, column.kind)[0] * factors.get(column.name, 1.0)
     even = filled(values)
@@ -178,7 +178,7 @@ def _straight(force: Waves, motion: Waves, omega: Array) -> dict[str, float]:
     return {name: value for name, (value, share) in names.items() if value > 0.0 and (name != "k" or share > SPRUNG)}
 
 
-def _text(outline: Outline, machine: Model, scales: Scales, factors: Mapping[str, float], file: str) -> str:
+def _text(outline: Outline, machine: Model, scales: RecordedScales, factors: Mapping[str, float], file: str) -> str:
     head = (
         "# A first case, made by `lostmotion init`. Check columns, units and signs; remarks say what was guessed.",
         f"title = {_quoted(Path(outline.file).stem)}",
@@ -225,7 +225,7 @@ def _channels(outline: Outline, factors: Mapping[str, float]) -> Iterator[str]:
         yield f"# not used: {', '.join(unused)}; further sensors go into the list above"
 
 
-def _channel(key: str, name: str, column: Column, factors: Mapping[str, float]) -> str:
+def _channel(key: str, name: str, column: OutlinedColumn, factors: Mapping[str, float]) -> str:
     named = f", name = {_quoted(column.name)}" if key == "channel" and _plain(column.name) else ""
     factor = f", factor = {factors[column.name]!r}" if column.name in factors else ""
     told = _quoted(column.name), _quoted(column.said)
@@ -237,14 +237,14 @@ def _plain(name: str) -> bool:
     return not set("[]:/@.") & set(name)
 
 
-def _doubt(column: Column) -> str:
+def _doubt(column: OutlinedColumn) -> str:
     if column.sure:
         return ""
     why = f"the file says {column.unit}, which may need a factor" if column.unit else "the file gives no unit"
     return f"  # {why}: {column.said} and {column.kind} are guesses"
 
 
-def _parameters(outline: Outline, machine: Model, scales: Scales) -> Iterator[str]:
+def _parameters(outline: Outline, machine: Model, scales: RecordedScales) -> Iterator[str]:
     """Yield what is known and what is to be estimated; without a force the inertia has to be known."""
     motion = "rotation" if outline.response.turns else "translation"
     forced = "force" in (outline.response.kind, outline.drive.kind if outline.drive else "")
@@ -264,7 +264,7 @@ def _parameters(outline: Outline, machine: Model, scales: Scales) -> Iterator[st
 
 
 def guesses(
-    machine: Model, scales: Scales, *, forced: bool
+    machine: Model, scales: RecordedScales, *, forced: bool
 ) -> tuple[dict[str, tuple[float, str]], dict[str, tuple[float, float, str]]]:
     """Return values of parameters that have to be known, and ranges of all others, each with the reason.
 
@@ -280,7 +280,7 @@ def guesses(
     return known, {p.name: _range(p, scales, forced) for p in machine.params if p.name not in known}
 
 
-def _range(param: Param, scales: Scales, forced: bool) -> tuple[float, float, str]:
+def _range(param: Param, scales: RecordedScales, forced: bool) -> tuple[float, float, str]:
     if param.name in scales.straight:
         value = scales.straight[param.name]
         return value / WIDE, value * WIDE, f"about {_figures(value)} by the spectra"
@@ -310,7 +310,7 @@ def _found(outline: Outline, machine: Model, factors: Mapping[str, float]) -> It
     yield f"model: {'; '.join(machine.equations) if isinstance(machine, Written) else machine.name}"
 
 
-def _described(column: Column, outline: Outline) -> str:
+def _described(column: OutlinedColumn, outline: Outline) -> str:
     roles = {outline.drive.name if outline.drive else "": "drive", outline.response.name: "response"}
     role = roles.get(column.name, "not used")
     taken = f", taken for {column.said}" if column.kind and not column.sure else ""

@@ -22,7 +22,7 @@ from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.predict import filtered
 from lostmotion.likelihood.problem import RANDOM
 from lostmotion.quantities import TIME
-from lostmotion.stages.compare import Piece, confirmed, pieces_of, run_errors
+from lostmotion.stages.compare import HeldOutStretch, confirmed, pieces_of, run_errors
 from lostmotion.stages.diagnose import Diagnosed
 from lostmotion.workflow.findings import Outcome
 
@@ -123,7 +123,7 @@ def _unbeaten(selection: Selection, here: Visit, decisive: float) -> list[Visit]
     return [v for v in sets if v.fit.status != "diverged" and v.weight > here.weight + decisive]
 
 
-def _scored(fit: Fit, pieces: Sequence[Piece]) -> float:
+def _scored(fit: Fit, pieces: Sequence[HeldOutStretch]) -> float:
     """Return the log score of one-step predictions of held-out data; minus infinity where a filter runs away."""
     total = 0.0
     for piece in pieces:
@@ -132,7 +132,7 @@ def _scored(fit: Fit, pieces: Sequence[Piece]) -> float:
     return total if math.isfinite(total) else -math.inf
 
 
-def _righted(right: Righted, pieces: Sequence[Piece]) -> float:
+def _righted(right: Righted, pieces: Sequence[HeldOutStretch]) -> float:
     """Return the log score of a smooth force where channels are put right, in the units of the readings as they are."""
     held = sum(piece.observation.samples - piece.begin for piece in pieces)
     wider = right.wider * held / right.fit.problem.samples

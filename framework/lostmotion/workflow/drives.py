@@ -18,19 +18,19 @@ LINES, KNOTS = 10_000, 10_000_000
 
 
 @dataclass(frozen=True)
-class Signal:
+class DriveSignal:
     """A function of time (s) and its exact derivative, both of arrays; nothing in it is faster than `top` (Hz)."""
 
     value: Function
     slope: Function
     top: float
 
-    def __add__(self, other: Signal) -> Signal:
+    def __add__(self, other: DriveSignal) -> DriveSignal:
         top = max(self.top, other.top)
-        return Signal(lambda t: self.value(t) + other.value(t), lambda t: self.slope(t) + other.slope(t), top)
+        return DriveSignal(lambda t: self.value(t) + other.value(t), lambda t: self.slope(t) + other.slope(t), top)
 
 
-def signal_of(text: str, *, duration: float, rng: np.random.Generator) -> Signal:
+def signal_of(text: str, *, duration: float, rng: np.random.Generator) -> DriveSignal:
     """Return the signal that `kind:key=value,...` stands for; `rng` draws phases and noise."""
     kind, _, rest = text.partition(":")
     if kind not in KINDS:
@@ -105,34 +105,34 @@ class Options:
         return low, high
 
 
-def _waves(waves: Sequence[tuple[float, float, float]]) -> Signal:
+def _waves(waves: Sequence[tuple[float, float, float]]) -> DriveSignal:
     """Return the sum of `amplitude * cos(omega t + phase)`."""
-    return Signal(
+    return DriveSignal(
         lambda t: sum((a * np.cos(w * t + f) for a, w, f in waves), np.zeros(len(t))),
         lambda t: sum((-a * w * np.sin(w * t + f) for a, w, f in waves), np.zeros(len(t))),
         max((w for a, w, _ in waves if a), default=0.0) / (2.0 * math.pi),
     )
 
 
-def _harmonic(options: Options, duration: float, rng: np.random.Generator) -> Signal:
+def _harmonic(options: Options, duration: float, rng: np.random.Generator) -> DriveSignal:
     """Return amplitude * cos(omega t + phase) with shares of its harmonics, all with a crest at the same time."""
     amplitude, omega, phase = options.number("amplitude"), options.omega(), options.number("phase")
     return _waves([(amplitude * s, n * omega, n * phase) for n, s in enumerate([1.0, *options.shares()], start=1)])
 
 
-def _sweep(options: Options, duration: float, rng: np.random.Generator) -> Signal:
+def _sweep(options: Options, duration: float, rng: np.random.Generator) -> DriveSignal:
     """Return a sine whose frequency goes evenly from `start` to `stop` (Hz) over the whole time."""
     amplitude = options.number("amplitude")
     first, last = (2.0 * math.pi * options.number(key, positive=True) for key in ("start", "stop"))
     pace = (last - first) / duration
-    return Signal(
+    return DriveSignal(
         lambda t: amplitude * np.sin((first + 0.5 * pace * t) * t),
         lambda t: amplitude * (first + pace * t) * np.cos((first + 0.5 * pace * t) * t),
         max(first, last) / (2.0 * math.pi),
     )
 
 
-def _multisine(options: Options, duration: float, rng: np.random.Generator) -> Signal:
+def _multisine(options: Options, duration: float, rng: np.random.Generator) -> DriveSignal:
     """Return equal lines from `low` to `high` (Hz) with random phases."""
     rms, lines = options.number("rms"), options.number("lines", positive=True)
     if lines != round(lines) or lines > LINES:
@@ -143,21 +143,21 @@ def _multisine(options: Options, duration: float, rng: np.random.Generator) -> S
     return _waves([(amplitude, w, f) for w, f in zip(omegas.tolist(), phases.tolist(), strict=True)])
 
 
-def _step(options: Options, duration: float, rng: np.random.Generator) -> Signal:
+def _step(options: Options, duration: float, rng: np.random.Generator) -> DriveSignal:
     """Return zero, then `size` from the time `at` (s) on; it rises within `rise` (s) with a smooth acceleration."""
     size, at, rise = options.number("size"), options.number("at"), options.number("rise", positive=True)
 
     def share(t: Array) -> Array:
         return np.clip((t - at) / rise, 0.0, 1.0)
 
-    return Signal(
+    return DriveSignal(
         lambda t: size * share(t) ** 3 * (10.0 - 15.0 * share(t) + 6.0 * share(t) ** 2),
         lambda t: size / rise * 30.0 * (share(t) * (1.0 - share(t))) ** 2,
         0.0,
     )
 
 
-def _noise(options: Options, duration: float, rng: np.random.Generator) -> Signal:
+def _noise(options: Options, duration: float, rng: np.random.Generator) -> DriveSignal:
     """Return a spline through normal values, so that little lies above `bandwidth` (Hz)."""
     rms, bandwidth = options.number("rms"), options.number("bandwidth", positive=True)
     if 2.0 * bandwidth * duration > KNOTS:
@@ -165,10 +165,10 @@ def _noise(options: Options, duration: float, rng: np.random.Generator) -> Signa
     knots = np.arange(math.ceil(2.0 * bandwidth * duration) + 8) / (2.0 * bandwidth)
     values = rng.standard_normal(len(knots))
     spline = CubicSpline(knots, rms * values / values.std())
-    return Signal(spline, spline.derivative(), bandwidth)
+    return DriveSignal(spline, spline.derivative(), bandwidth)
 
 
-Maker = Callable[[Options, float, np.random.Generator], Signal]
+Maker = Callable[[Options, float, np.random.Generator], DriveSignal]
 KINDS: Mapping[str, tuple[Maker, tuple[str, ...], Mapping[str, str]]] = {
     "harmonic": (_harmonic, ("amplitude", "omega", "frequency", "phase", "harmonics"), {"phase": "0", "harmonics": ""}),
     "sweep": (_sweep, ("amplitude", "start", "stop"), {}),

@@ -19,7 +19,7 @@ from lostmotion.likelihood.space import Free
 from lostmotion.likelihood.system import System
 from lostmotion.quantities import unit_of
 from lostmotion.registry import Registry
-from lostmotion.stages.identify import Cloud, Shown, Task
+from lostmotion.stages.identify import Cloud, ShownCoordinate, Task
 from lostmotion.study.atlas import RATIO, Atlas
 from lostmotion.study.inversion import Inversion, grouped
 from lostmotion.study.layout import origin_in, settings_in
@@ -98,7 +98,7 @@ def quantifier_task(
     """
     levels = levels_of(case, registry, rng)
     posterior = inversion_of(case, levels, registry, out, survey or Survey(), say=say)
-    shown = tuple(Shown(f.key, f.unit, 1.0 if f.log else 0.0) for f in posterior.free)
+    shown = tuple(ShownCoordinate(f.key, f.unit, 1.0 if f.log else 0.0) for f in posterior.free)
     cloud = Cloud.swarm(posterior, rng)
     points = cloud.draw(FIRST, rng)
     heights = posterior.log_likelihoods(points) + np.array([posterior.log_prior(p) for p in points])

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from lostmotion.inference.natural import term_of
-from lostmotion.inference.sharing import Shared, SharedValues, sharing_of
+from lostmotion.inference.sharing import ComparedParameter, SharedValues, sharing_of
 from lostmotion.likelihood.problem import Problem
 from lostmotion.quantities import unit_of
 from lostmotion.report.words import chance, figures, sentence, spoken
@@ -76,7 +76,7 @@ def sharing_entry(sharing: SharedValues, problem: Problem) -> Sharing:
     )
 
 
-def _own_values(one: Shared, sharing: SharedValues) -> tuple[OwnValue, ...]:
+def _own_values(one: ComparedParameter, sharing: SharedValues) -> tuple[OwnValue, ...]:
     rows = zip(sharing.recordings, sharing.levels.values, one.values, strict=True)
     return tuple(OwnValue(name, level, v.median, v.low, v.high, v.unit) for name, level, v in rows)
 
@@ -88,7 +88,7 @@ def _released(sharing: SharedValues, problem: Problem) -> str:
     return f"Values of each recording's own for {others} raise the log evidence by {figures(sharing.gain)}{curve}."
 
 
-def _shared(one: Shared, said: str, sharing: SharedValues) -> FullComparison:
+def _shared(one: ComparedParameter, said: str, sharing: SharedValues) -> FullComparison:
     odd = None if one.odd is None else sharing.recordings[one.odd]
     return FullComparison(one.holds, one.p, said, one.power, odd)
 
@@ -113,7 +113,7 @@ def _told(entry: Mechanism, key: str, problem: Problem, sharing: SharedValues) -
     return replace(entry, doubts=every, by_recording=by_recording, shared=shared)
 
 
-def _moved(one: Shared, before: Interval, names: Mapping[str, str], sharing: SharedValues) -> str:
+def _moved(one: ComparedParameter, before: Interval, names: Mapping[str, str], sharing: SharedValues) -> str:
     """Return that a value which holds is another one once what differs is released; empty where it is not."""
     if math.isnan(before.low):
         return ""
@@ -137,7 +137,7 @@ def name_of(key: str, problem: Problem) -> str:
     return f"{spoken(own)} of {spoken(law.name)}{place}"
 
 
-def says(one: Shared, names: Mapping[str, str], sharing: SharedValues) -> str:
+def says(one: ComparedParameter, names: Mapping[str, str], sharing: SharedValues) -> str:
     """Return what is said of one parameter: that one value holds, or how values differ."""
     name, many = sentence(names[one.key]) if "." in one.key else one.key, len(sharing.recordings)
     if one.holds:
@@ -145,7 +145,7 @@ def says(one: Shared, names: Mapping[str, str], sharing: SharedValues) -> str:
     return f"{_difference(one, name, sharing)}.{_rivals(one, names)}"
 
 
-def _difference(one: Shared, name: str, sharing: SharedValues) -> str:
+def _difference(one: ComparedParameter, name: str, sharing: SharedValues) -> str:
     medians = [value.median for value in one.values]
     low, high = (one.values[medians.index(end)] for end in (min(medians), max(medians)))
     if one.power is not None:
@@ -169,7 +169,7 @@ def _difference(one: Shared, name: str, sharing: SharedValues) -> str:
     )
 
 
-def _rivals(one: Shared, names: Mapping[str, str]) -> str:
+def _rivals(one: ComparedParameter, names: Mapping[str, str]) -> str:
     if not one.instead:
         return ""
     others = " or ".join(names[key] for key in one.instead)

@@ -32,7 +32,7 @@ from lostmotion.signals import checked
 from lostmotion.stages.compare import Prediction, exponent_blocks
 from lostmotion.stages.embed import embed
 from lostmotion.stages.quantify import quantify
-from lostmotion.workflow.attractors import Apart, distances_between
+from lostmotion.workflow.attractors import SectionDistance, distances_between
 from lostmotion.workflow.beat import returned
 from lostmotion.workflow.decays import stretches_of
 from lostmotion.workflow.findings import Outcome
@@ -101,7 +101,7 @@ def shown(seen: Seen, rng: np.random.Generator) -> Behaviour:
     )
 
 
-def _behaviour(prediction: Prediction, horizon: Horizon, apart: Apart, dimension: Estimate) -> ModelBehaviour:
+def _behaviour(prediction: Prediction, horizon: Horizon, apart: SectionDistance, dimension: Estimate) -> ModelBehaviour:
     return ModelBehaviour(
         heldout_log_score=prediction.log_score,
         free_run_error=prediction.nrmse,
@@ -115,16 +115,16 @@ def _behaviour(prediction: Prediction, horizon: Horizon, apart: Apart, dimension
     )
 
 
-def _no_distances(names: Iterable[str]) -> dict[str, Apart]:
+def _no_distances(names: Iterable[str]) -> dict[str, SectionDistance]:
     """Return that motions which die away have no attractor to compare."""
-    return dict.fromkeys((*names, "noise_floor"), Apart(math.nan, math.nan, TRANSIENT))
+    return dict.fromkeys((*names, "noise_floor"), SectionDistance(math.nan, math.nan, TRANSIENT))
 
 
 def _no_dimensions(names: Iterable[str]) -> dict[str, Estimate]:
     return dict.fromkeys((*names, "recorded"), Estimate.refused(TRANSIENT, "The motion dies away."))
 
 
-def _distance(apart: Apart) -> Distance:
+def _distance(apart: SectionDistance) -> Distance:
     return Distance(apart.value, apart.chance, apart.status)
 
 

@@ -22,7 +22,7 @@ from lostmotion.provenance import provenance
 from lostmotion.quantities import unit_of
 from lostmotion.registry import Registry
 from lostmotion.storage import save_table
-from lostmotion.workflow.drives import Signal, number, pairs, signal_of
+from lostmotion.workflow.drives import DriveSignal, number, pairs, signal_of
 from lostmotion.workflow.vetting import sound
 
 ACCURACY = 0.02
@@ -55,7 +55,7 @@ class Plan:
 
 
 @dataclass(frozen=True)
-class Table:
+class SimulatedTable:
     """Columns (samples,) by name: `time`, the inputs, the channels; with their units and where they come from."""
 
     columns: Mapping[str, Array]
@@ -113,7 +113,7 @@ def set_in_motion(
     return Moved(system, full, times, inputs, channels, nsub)
 
 
-def simulate(plan: Plan) -> Table:
+def simulate(plan: Plan) -> SimulatedTable:
     """Return the simulated columns of `plan`, sampled at 0, 1/rate, ... up to but not including `duration`."""
     samples = _samples(plan)
     signals = _inputs(plan)
@@ -202,7 +202,7 @@ def _initial(model: Model, initial: Mapping[str, float]) -> Array:
     return np.array([float(initial.get(name, 0.0)) for name in states])
 
 
-def _inputs(plan: Plan) -> list[Signal]:
+def _inputs(plan: Plan) -> list[DriveSignal]:
     """Return a signal for each driven input of the model: the drive itself, and its derivative for a base velocity."""
     model = plan.assembly.model
     if not plan.drives:
@@ -215,7 +215,7 @@ def _inputs(plan: Plan) -> list[Signal]:
             f"the drive reaches {total.top:.4g} Hz, of which {plan.rate:g} samples per second show nothing:"
             f" wanted a rate above {2.0 * total.top:.4g} Hz, or a slower drive"
         )
-    slope = Signal(total.slope, total.slope, total.top)
+    slope = DriveSignal(total.slope, total.slope, total.top)
     return [slope if name == "base_velocity" else total for name in model.driven]
 
 
@@ -268,7 +268,7 @@ def _noisy(channels: Mapping[str, Array], plan: Plan) -> dict[str, Array]:
     return {name: x + plan.noise * x.std() * rng.standard_normal(len(x)) for (name, x), rng in both}
 
 
-def _table(plan: Plan, columns: Mapping[str, Array], nsub: int) -> Table:
+def _table(plan: Plan, columns: Mapping[str, Array], nsub: int) -> SimulatedTable:
     model = plan.assembly.model
     settings = {
         "values": dict(plan.values), "initial": dict(plan.initial), "drives": list(plan.drives),
@@ -283,7 +283,7 @@ def _table(plan: Plan, columns: Mapping[str, Array], nsub: int) -> Table:
         "title": plan.assembly.label,
         "provenance": json.dumps(made, sort_keys=True),
     }
-    return Table(columns, {name: _unit(name, model) for name in columns}, attrs, nsub)
+    return SimulatedTable(columns, {name: _unit(name, model) for name in columns}, attrs, nsub)
 
 
 def _unit(name: str, model: Model) -> str:

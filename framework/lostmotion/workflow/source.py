@@ -13,7 +13,7 @@ from lostmotion.case import CaseFile
 from lostmotion.errors import CaseError, DataError, nearest
 from lostmotion.provenance import digest
 from lostmotion.recording import Recording, Table, load_recording, read_table
-from lostmotion.recording.timing import Clock, check_step, even_clock, resampled
+from lostmotion.recording.timing import EvenClock, check_step, even_clock, resampled
 from lostmotion.recording.units import seconds, time_unit
 from lostmotion.registry import Registry
 from lostmotion.workflow.prepare import case_of
@@ -159,7 +159,7 @@ def _of_file(path: Path, wanted: WantedChannel) -> Source:
     )
 
 
-def _even(values: Array, clock: Clock, time: Array) -> Array:
+def _even(values: Array, clock: EvenClock, time: Array) -> Array:
     """Return a channel (n,) on the even grid of its recording; values that are infinite count as lost."""
     return resampled(time, values, clock) if clock.uneven and values.size == time.size else values
 
@@ -188,12 +188,12 @@ def _listed(names: list[str], most: int = 12) -> str:
     return (", ".join(names[:most]) or "none") + more
 
 
-def _clocked(table: Table, column: str | None, wanted: WantedChannel, n: int, source: str) -> tuple[Clock, Array]:
+def _clocked(table: Table, column: str | None, wanted: WantedChannel, n: int, source: str) -> tuple[EvenClock, Array]:
     """Return the even grid of the recording and its time column (s), which is empty where a rate was given."""
     if wanted.rate is not None:
         if not 0.0 < wanted.rate < np.inf:
             raise DataError(f"the rate is {wanted.rate:g} Hz: give a positive number")
-        return Clock(check_step(1.0 / wanted.rate, source), False, (), 0.0), np.empty(0)
+        return EvenClock(check_step(1.0 / wanted.rate, source), False, (), 0.0), np.empty(0)
     if column is None:
         raise DataError(f"{source} has no column 'time': add one in seconds, or give --rate HZ")
     if len(table.columns[column]) != n:

@@ -13,14 +13,14 @@ from lostmotion.inference.natural import term_of
 from lostmotion.quantities import TIME
 from lostmotion.report.words import spoken
 from lostmotion.results.diagnosis import Mechanism, OpenTerm
-from lostmotion.settings import DEFAULT, Name
+from lostmotion.settings import DEFAULT, NameSettings
 from lostmotion.stages.compare import Prediction
 from lostmotion.stages.diagnose import Diagnosed
 
 NAMED, LIKELY, OPEN = "named", "likely", "open"
 
 
-def holds(after: Prediction, floor: float, limits: Name = DEFAULT.name) -> bool:
+def holds(after: Prediction, floor: float, limits: NameSettings = DEFAULT.name) -> bool:
     """Return whether a model predicts held-out data, where `floor` is the share of the response that is noise."""
     return math.isfinite(after.nrmse) and not after.nrmse > max(limits.error, limits.error_noise * floor)
 

@@ -20,7 +20,7 @@ from lostmotion.inference.odds import p_values
 from lostmotion.inference.proposal import Axis, proposed
 from lostmotion.inference.shares import SURROGATES
 from lostmotion.inference.surfaces import OverHistory, Surface
-from lostmotion.inference.unexplained import Unknown
+from lostmotion.inference.unexplained import UnknownForce
 from lostmotion.quantities import LENGTH, NUMBER, SPEED, TIME, Dimension
 from lostmotion.report.words import spoken
 from lostmotion.results import Interval
@@ -77,7 +77,7 @@ def learned_entry(d: Diagnosed) -> Mechanism:
     )
 
 
-def _why_unnamed(d: Diagnosed, unknown: Unknown) -> str:
+def _why_unnamed(d: Diagnosed, unknown: UnknownForce) -> str:
     """Return why a learned force has no name: none explains it, or a smooth force explains as much as the best one."""
     selection = d.selection
     as_good = [key for key in selection.unbeaten if selection.gain(key) > unknown.gain - d.settings.select.decisive]
@@ -222,7 +222,7 @@ def unknown_odds(d: Diagnosed) -> tuple[float, float]:
     return 1.0 - math.exp(-d.random_gain), d.random_gain
 
 
-def where(located: Located, learned: Unknown | None = None) -> ForceDependence:
+def where(located: Located, learned: UnknownForce | None = None) -> ForceDependence:
     """Return what a force depends on: a sentence, shares of its variance, and which covariates are beyond chance."""
     explained, summary = located.explained, located.summary
     if learned:

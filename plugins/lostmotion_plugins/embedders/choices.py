@@ -21,7 +21,7 @@ from lostmotion_plugins.embedders.delay import (
     theiler_window,
 )
 from lostmotion_plugins.embedders.dimension import (
-    Dimension,
+    EmbeddingDimension,
     Unfolding,
     by_cao,
     by_false_neighbours,
@@ -89,7 +89,7 @@ class AmiFnn(Embedder):
             x, delay, dt, _Search(self.dims, self.norm, self.ratio, self.loneliness), lambda found: self._choice(found)
         )
 
-    def _choice(self, found: Unfolding) -> Dimension:
+    def _choice(self, found: Unfolding) -> EmbeddingDimension:
         return by_false_neighbours(found, share=self.share)
 
 
@@ -179,7 +179,7 @@ def _with_cao(x: Array, delay: Delay, dt: float, of: AmiCao | AmiKnnCao | Autoco
 
 
 def _embedded(
-    x: Array, delay: Delay, dt: float, search: _Search, choice: Callable[[Unfolding], Dimension]
+    x: Array, delay: Delay, dt: float, search: _Search, choice: Callable[[Unfolding], EmbeddingDimension]
 ) -> Embedding:
     """Return the embedding with that delay and the dimension that `choice` reads from the search."""
     theiler, short = theiler_window(tamed(x))
@@ -190,7 +190,7 @@ def _embedded(
             f"{len(x)} samples are too few to look for a dimension at lag {delay.lag} with a Theiler window of "
             f"{theiler}: dimension 2 is taken for want of a better one"
         )
-        dimension = Dimension(2, "given", "too_short", says)
+        dimension = EmbeddingDimension(2, "given", "too_short", says)
     else:
         found = unfold(
             x,

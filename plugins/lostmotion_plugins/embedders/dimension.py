@@ -39,7 +39,7 @@ class Unfolding:
 
 
 @dataclass(frozen=True)
-class Dimension:
+class EmbeddingDimension:
     """A dimension as chosen by `method`; `says` where the status is not "ok"."""
 
     dim: int
@@ -151,7 +151,7 @@ def false_neighbours(
     return unfold(x, lag, dims=dims, theiler=theiler, norm=norm, ratio=ratio, loneliness=loneliness).fnn
 
 
-def _too_few(found: Unfolding, method: str, fewest: int) -> Dimension | None:
+def _too_few(found: Unfolding, method: str, fewest: int) -> EmbeddingDimension | None:
     """Return a dimension for want of a better one where there are too few neighbours to go by, else None."""
     least = int(found.pairs.min())
     if least >= FEWEST // 2:
@@ -160,10 +160,10 @@ def _too_few(found: Unfolding, method: str, fewest: int) -> Dimension | None:
         f"only {least} points have a neighbour that is no exact repeat, in {int(found.dim[np.argmin(found.pairs)])} "
         f"dimensions: dimension {fewest} is taken for want of a better one"
     )
-    return Dimension(fewest, method, "too_few_neighbours", says)
+    return EmbeddingDimension(fewest, method, "too_few_neighbours", says)
 
 
-def by_cao(found: Unfolding, *, change: float = 0.05, level: float = 0.9, fewest: int = 2) -> Dimension:
+def by_cao(found: Unfolding, *, change: float = 0.05, level: float = 0.9, fewest: int = 2) -> EmbeddingDimension:
     """Return the first dimension from which E1 is above `level` and rises by less than `change` to the next.
 
     Noise lets E1 creep towards 1 without end, so it may not level off within the dimensions looked at; and it leaves
@@ -177,9 +177,9 @@ def by_cao(found: Unfolding, *, change: float = 0.05, level: float = 0.9, fewest
     flat[: fewest - 1] = False
     noise = _noise(found)
     if flat[: max(len(flat) - 1, fewest)].any():
-        return Dimension(int(np.argmax(flat)) + 1, "cao", "uncertain" if noise else "ok", noise)
+        return EmbeddingDimension(int(np.argmax(flat)) + 1, "cao", "uncertain" if noise else "ok", noise)
     says = f"Cao's E1 does not level off within {len(flat)} dimensions, as that of noise does not"
-    return Dimension(max(len(flat), fewest), "cao", "not_saturating", f"{says}. {noise}".strip(". "))
+    return EmbeddingDimension(max(len(flat), fewest), "cao", "not_saturating", f"{says}. {noise}".strip(". "))
 
 
 def _noise(found: Unfolding) -> str:
@@ -197,16 +197,16 @@ def _noise(found: Unfolding) -> str:
     )
 
 
-def by_false_neighbours(found: Unfolding, *, share: float = 0.01, fewest: int = 2) -> Dimension:
+def by_false_neighbours(found: Unfolding, *, share: float = 0.01, fewest: int = 2) -> EmbeddingDimension:
     """Return the first dimension in which no more than `share` of the neighbours are false, or the best there is."""
     if few := _too_few(found, "fnn", fewest):
         return few
     fnn = found.fnn.copy()
     fnn[: fewest - 1] = np.inf
     if (fnn <= share).any():
-        return Dimension(int(np.argmax(fnn <= share)) + 1, "fnn")
+        return EmbeddingDimension(int(np.argmax(fnn <= share)) + 1, "fnn")
     dim = int(np.argmax(fnn <= fnn.min() + share)) + 1
-    return Dimension(
+    return EmbeddingDimension(
         dim,
         "fnn",
         "not_saturating",

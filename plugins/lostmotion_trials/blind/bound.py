@@ -22,8 +22,8 @@ from lostmotion.likelihood.predict import Horizon
 from lostmotion.likelihood.problem import NOISE, RANDOM, Problem
 from lostmotion.likelihood.system import System, key_of
 from lostmotion.results import Interval
+from lostmotion.results.diagnosis import Diagnosis, HeldOutScores, Mechanism
 from lostmotion.stages.compare import pieces_of, predict, rates_of
-from lostmotion.workflow.answer import Answer, AnswerEntry, AnswerFit
 from lostmotion.workflow.prepare import Prepared
 from lostmotion_trials.blind.pilot import Effect
 from lostmotion_trials.blind.sealed import SealedMachine
@@ -63,7 +63,7 @@ class Yardstick:
 
 
 def yardstick(
-    prepared: Prepared, machine: SealedMachine, effects: Sequence[Effect], answer: Answer | None
+    prepared: Prepared, machine: SealedMachine, effects: Sequence[Effect], said: Diagnosis | None
 ) -> Yardstick:
     """Return what the true model of a case reaches, over the horizon of a diagnosis if there is one."""
     train, held = split(prepared.observations)
@@ -81,10 +81,10 @@ def yardstick(
         for key, effect in zip(keys, effects, strict=True)
     ]
     known = all(key or effect.mechanism == "random_force" for key, effect in zip(keys, effects, strict=True))
-    if answer is None or not known:
+    if said is None or not known:
         return Yardstick(tuple(gains), tuple(status))
-    margin = _margin(full, problem, answer.found) if acting else math.nan
-    error = _held_out(polish(full), prepared, held, answer.fit)
+    margin = _margin(full, problem, said.found) if acting else math.nan
+    error = _held_out(polish(full), prepared, held, said.fit)
     return Yardstick(tuple(gains), tuple(status), error, margin)
 
 
@@ -120,7 +120,7 @@ def _waves(size: float, phase: float) -> dict[str, float]:
     return {"cosine": size * math.cos(phase), "sine": -size * math.sin(phase)}
 
 
-def _margin(full: Fit, problem: Problem, found: Sequence[AnswerEntry]) -> float:
+def _margin(full: Fit, problem: Problem, found: Sequence[Mechanism]) -> float:
     """Return by how much log-likelihood the true model is better than one with what was found in place of it."""
     keys = {key_for(problem.system, entry.mechanism, entry.at): entry for entry in found}
     if None in keys or set(keys) == set(full.problem.active):
@@ -181,7 +181,7 @@ def _with(problem: Problem, key: str, truth: Mapping[str, float]) -> Problem:
     return joined(problem, key, {s.key: truth[s.param.name] for s in slots if s.param.name in truth})
 
 
-def _held_out(fit: Fit, prepared: Prepared, held: Sequence[Observation], said: AnswerFit) -> float:
+def _held_out(fit: Fit, prepared: Prepared, held: Sequence[Observation], said: HeldOutScores) -> float:
     """Return the error of free runs of a fit on held-out data, over the horizon that a diagnosis chose."""
     pieces = pieces_of(prepared.observations, held)
     observation = pieces[0].observation

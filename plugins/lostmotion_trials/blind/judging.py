@@ -11,15 +11,8 @@ from pathlib import Path
 from lostmotion.errors import LostMotionError, PlaceError
 from lostmotion.registry import Registry
 from lostmotion.results import Interval
-from lostmotion.workflow.answer import (
-    FILE,
-    Answer,
-    AnswerEntry,
-    AnswerFit,
-    AnswerRank,
-    AnswerRival,
-    read_answer,
-)
+from lostmotion.results.diagnosis import Candidate, Confusion, Diagnosis, HeldOutScores, Mechanism
+from lostmotion.storage import load_result
 from lostmotion.workflow.prepare import prepare
 from lostmotion_trials.blind.bound import ALIKE, Yardstick, alike, covered, with_names, yardstick
 from lostmotion_trials.blind.commitment import unsealed
@@ -29,7 +22,7 @@ from lostmotion_trials.blind.results import HeldAgainst, HeldOutJudged, JudgedCa
 from lostmotion_trials.blind.sealed import SealedTruth
 from lostmotion_trials.blind.simulator import BlindMachine
 
-Named = AnswerEntry | AnswerRank | AnswerRival
+Named = Mechanism | Candidate | Confusion
 """What names a mechanism at a place."""
 FAILED = "failed"
 HIT, CONFUSED, NOTICED, MISNAMED, MISSED = "hit", "confused", "noticed", "misnamed", "missed"
@@ -55,7 +48,8 @@ def judged(out: Path, registry: Registry, number: int) -> JudgedCase:
     """
     truth = unsealed(out, number)
     place = out / "cases" / truth.case
-    answer = read_answer(place / "diagnosis") if (place / "diagnosis" / FILE).exists() else None
+    file = place / "diagnosis" / "diagnosis.json"
+    answer = load_result(Diagnosis, file, "run the same command again") if file.exists() else None
     if truth.world:
         return _judged_roughly(answer, truth, truth.world.kind)
     oracle = None
@@ -87,7 +81,7 @@ def _as_missed(effect: Effect, gain: float, status: str) -> JudgedEffect:
     return JudgedEffect(**vars(effect), gain=gain, status=status, outcome=MISSED)
 
 
-def _judged_roughly(answer: Answer | None, truth: SealedTruth, kind: str) -> JudgedCase:
+def _judged_roughly(answer: Diagnosis | None, truth: SealedTruth, kind: str) -> JudgedCase:
     """Return what became of a case in an imperfect world, where no model is true: nothing is held against an oracle.
 
     Names that were stated with more than `SURE` are listed with whether what they name is there; an effect is `sure`
@@ -112,7 +106,7 @@ def _judged_roughly(answer: Answer | None, truth: SealedTruth, kind: str) -> Jud
         parameters=(),
         stated=tuple(_stated(answer.ranking, effects, several=several, rough=True)),
     )
-    risen = answer.fit.after.heldout_nrmse - answer.fit.before.heldout_nrmse
+    risen = answer.fit.after.nrmse - answer.fit.before.nrmse
     return told(verdict=answer.verdict, answer=against, sure=sure, worse=risen)
 
 
@@ -130,7 +124,7 @@ def there_is(effects: Sequence[Effect], entry: Named, *, several: bool) -> bool:
 
 
 def _sured(
-    effect: JudgedEffect, named: Sequence[AnswerEntry], stated: Sequence[AnswerEntry], *, several: bool
+    effect: JudgedEffect, named: Sequence[Mechanism], stated: Sequence[Mechanism], *, several: bool
 ) -> JudgedEffect:
     """Return an effect with its outcome, and whether a sure name names it; any law of friction names friction."""
     hit = any(in_kind(effect, entry, several=several) for entry in named)
@@ -139,7 +133,7 @@ def _sured(
 
 
 def _held_against(
-    answer: Answer, effects: Sequence[JudgedEffect], machine: BlindMachine, *, several: bool
+    answer: Diagnosis, effects: Sequence[JudgedEffect], machine: BlindMachine, *, several: bool
 ) -> HeldAgainst:
     found = answer.found
     right = [entry for entry in found if any(same(e, entry, several=several) for e in effects)]
@@ -166,11 +160,11 @@ def same(effect: Effect, entry: Named, *, several: bool) -> bool:
     return here and alike(effect.mechanism, entry.mechanism)
 
 
-def _name(entry: AnswerEntry) -> str:
+def _name(entry: Mechanism) -> str:
     return entry.mechanism if entry.at in ("", "ground", "drive", "sensor") else f"{entry.mechanism}@{entry.at}"
 
 
-def _with_outcome(effect: JudgedEffect, answer: Answer, *, several: bool) -> JudgedEffect:
+def _with_outcome(effect: JudgedEffect, answer: Diagnosis, *, several: bool) -> JudgedEffect:
     """Return an effect with what became of it, and the probability that was stated of what was found of it."""
     for entry in answer.found:
         if same(effect, entry, several=several):
@@ -182,7 +176,7 @@ def _with_outcome(effect: JudgedEffect, answer: Answer, *, several: bool) -> Jud
     return replace(effect, outcome=MISNAMED if answer.found else MISSED)
 
 
-def _of_effect(effect: Effect, found: Sequence[AnswerEntry], *, several: bool) -> Iterator[JudgedParameter]:
+def _of_effect(effect: Effect, found: Sequence[Mechanism], *, several: bool) -> Iterator[JudgedParameter]:
     """Yield each parameter of an effect that was named exactly, with whether its interval holds the truth."""
     for entry in found:
         if entry.mechanism != effect.mechanism or not same(effect, entry, several=several):
@@ -224,14 +218,14 @@ def _parameter(name: str, truth: float, said: Interval, *, turn: bool = False) -
 
 
 def _stated(
-    ranking: Sequence[AnswerRank], effects: Sequence[Effect], *, several: bool, rough: bool = False
+    ranking: Sequence[Candidate], effects: Sequence[Effect], *, several: bool, rough: bool = False
 ) -> Iterator[tuple[float, float]]:
     """Yield each probability that was stated of a mechanism, and 1 if that was at work, else 0.
 
     Of mechanisms that no recording tells apart it is the probability that it is one of them. In a `rough` world all
     laws of dry friction are one.
     """
-    shares: dict[tuple[str, str], list[AnswerRank]] = {}
+    shares: dict[tuple[str, str], list[Candidate]] = {}
     for row in ranking:
         name = row.mechanism
         if name not in (*VAGUE, "nothing_missing"):
@@ -247,9 +241,9 @@ def _at_work(effects: Sequence[Effect], entry: Named, *, several: bool) -> bool:
     return any(same(effect, entry, several=several) for effect in effects)
 
 
-def _heldout(fit: AnswerFit, best: Yardstick) -> HeldOutJudged | None:
+def _heldout(fit: HeldOutScores, best: Yardstick) -> HeldOutJudged | None:
     """Return the errors on held-out data of nominal, found and true model, and the share of what can be won."""
-    before, after, true = fit.before.heldout_nrmse, fit.after.heldout_nrmse, best.nrmse
+    before, after, true = fit.before.nrmse, fit.after.nrmse, best.nrmse
     if not all(map(math.isfinite, (before, after, true))):
         return None
     to_win = before - true

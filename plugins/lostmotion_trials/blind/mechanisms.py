@@ -13,7 +13,7 @@ from lostmotion_trials.blind.pilot import Effect, EffectDraft, Pilot
 from lostmotion_trials.blind.plans import Plan
 from lostmotion_trials.blind.simulator import GAPPED, BlindMachine
 
-__all__ = ["GAIN", "NAMES", "NOISY", "SPRUNG", "TABLE", "UNKNOWN", "Effect", "Mechanism", "Pilot", "drawn"]
+__all__ = ["GAIN", "NAMES", "NOISY", "SPRUNG", "TABLE", "UNKNOWN", "Effect", "HiddenMechanism", "Pilot", "drawn"]
 
 LARGEST = 0.3
 """A hidden force has at the most this share of the inertial force, rms."""
@@ -21,7 +21,7 @@ GAIN = (5.0, 1000.0)
 
 
 @dataclass(frozen=True)
-class Mechanism:
+class HiddenMechanism:
     """How a mechanism is planned; where it can act ("own": where the gap is; "": any); which machines it fits.
 
     `kin` are those of which one machine has one at the most; `tone`: it needs a drive whose frequency stays.
@@ -46,64 +46,68 @@ class Mechanism:
 
 ANYWHERE = ("ground", "base")
 SPRUNG = (*GAPPED, "linear_oscillator")
-TABLE: Mapping[str, Mechanism] = {
-    "coulomb_friction": Mechanism(plans.one("force", lambda _, v: np.sign(v)), "rub", ANYWHERE),
-    "stribeck_friction": Mechanism(plans.stribeck, "rub", ANYWHERE),
-    "dahl_friction": Mechanism(plans.bristle(low=0.05, high=0.5), "rub", ANYWHERE),
-    "lugre_friction": Mechanism(plans.bristle(excess=True), "rub", ANYWHERE),
-    "bouc_wen_hysteresis": Mechanism(plans.bristle(name="travel", low=0.1, high=1.0), "rub", ANYWHERE),
-    "viscous_damping": Mechanism(plans.one("coefficient", lambda _, v: v), "drag", ("ground",), ("robot_joint",)),
-    "quadratic_damping": Mechanism(plans.one("coefficient", lambda _, v: v * np.abs(v)), "drag", ANYWHERE),
-    "contact_damping": Mechanism(plans.contact_drag, "contact", ("own",), GAPPED),
-    "linear_stiffness": Mechanism(
+TABLE: Mapping[str, HiddenMechanism] = {
+    "coulomb_friction": HiddenMechanism(plans.one("force", lambda _, v: np.sign(v)), "rub", ANYWHERE),
+    "stribeck_friction": HiddenMechanism(plans.stribeck, "rub", ANYWHERE),
+    "dahl_friction": HiddenMechanism(plans.bristle(low=0.05, high=0.5), "rub", ANYWHERE),
+    "lugre_friction": HiddenMechanism(plans.bristle(excess=True), "rub", ANYWHERE),
+    "bouc_wen_hysteresis": HiddenMechanism(plans.bristle(name="travel", low=0.1, high=1.0), "rub", ANYWHERE),
+    "viscous_damping": HiddenMechanism(plans.one("coefficient", lambda _, v: v), "drag", ("ground",), ("robot_joint",)),
+    "quadratic_damping": HiddenMechanism(plans.one("coefficient", lambda _, v: v * np.abs(v)), "drag", ANYWHERE),
+    "contact_damping": HiddenMechanism(plans.contact_drag, "contact", ("own",), GAPPED),
+    "linear_stiffness": HiddenMechanism(
         plans.one("coefficient", lambda x, _: x), "spring", ANYWHERE, (*GAPPED, "rigid_drive")
     ),
-    "cubic_stiffness": Mechanism(plans.one("coefficient", lambda x, _: x**3), "spring", ANYWHERE, SPRUNG, signed=True),
-    "asymmetric_gap": Mechanism(plans.asymmetric, "gap", ("own",), GAPPED, signed=True),
-    "gap_drift": Mechanism(plans.drift, "gap", ("",), GAPPED),
-    "offset_force": Mechanism(plans.one("force", lambda x, _: np.ones_like(x)), "push", ("",), SPRUNG, signed=True),
-    "parametric_stiffness": Mechanism(plans.parametric, "wave", ("",), SPRUNG, tone=True),
-    "excitation_harmonic": Mechanism(plans.harmonic, "wave", ("",), tone=True),
-    "excitation_delay": Mechanism(plans.late_drive, "late"),
-    "excitation_gain": Mechanism(plans.more_drive, "more", ("",), SPRUNG, signed=True),
-    "sensor_delay": Mechanism(plans.late_sensor, "late"),
-    "sensor_gain": Mechanism(plans.more_sensor, "more", ("",), SPRUNG, signed=True),
-    "sensor_quantisation": Mechanism(lambda p, _a, _r: EffectDraft(p.q, lambda s: {"step": s}), "round"),
-    "random_force": Mechanism(lambda p, _a, _r: EffectDraft(p.q, lambda s: {"rms": s}), "chance"),
-    "backlash": Mechanism(plans.play, "gap", ("",), ("linear_oscillator",)),
-    "end_stop": Mechanism(plans.stop, "gap", ("ground",), ("linear_oscillator", "robot_joint")),
-    "hunt_crossley_contact": Mechanism(plans.crushed, "contact", ("own",), GAPPED),
-    "hertz_contact": Mechanism(plans.curved, "spring", ("own",), GAPPED),
-    "bilinear_stiffness": Mechanism(
+    "cubic_stiffness": HiddenMechanism(
+        plans.one("coefficient", lambda x, _: x**3), "spring", ANYWHERE, SPRUNG, signed=True
+    ),
+    "asymmetric_gap": HiddenMechanism(plans.asymmetric, "gap", ("own",), GAPPED, signed=True),
+    "gap_drift": HiddenMechanism(plans.drift, "gap", ("",), GAPPED),
+    "offset_force": HiddenMechanism(
+        plans.one("force", lambda x, _: np.ones_like(x)), "push", ("",), SPRUNG, signed=True
+    ),
+    "parametric_stiffness": HiddenMechanism(plans.parametric, "wave", ("",), SPRUNG, tone=True),
+    "excitation_harmonic": HiddenMechanism(plans.harmonic, "wave", ("",), tone=True),
+    "excitation_delay": HiddenMechanism(plans.late_drive, "late"),
+    "excitation_gain": HiddenMechanism(plans.more_drive, "more", ("",), SPRUNG, signed=True),
+    "sensor_delay": HiddenMechanism(plans.late_sensor, "late"),
+    "sensor_gain": HiddenMechanism(plans.more_sensor, "more", ("",), SPRUNG, signed=True),
+    "sensor_quantisation": HiddenMechanism(lambda p, _a, _r: EffectDraft(p.q, lambda s: {"step": s}), "round"),
+    "random_force": HiddenMechanism(lambda p, _a, _r: EffectDraft(p.q, lambda s: {"rms": s}), "chance"),
+    "backlash": HiddenMechanism(plans.play, "gap", ("",), ("linear_oscillator",)),
+    "end_stop": HiddenMechanism(plans.stop, "gap", ("ground",), ("linear_oscillator", "robot_joint")),
+    "hunt_crossley_contact": HiddenMechanism(plans.crushed, "contact", ("own",), GAPPED),
+    "hertz_contact": HiddenMechanism(plans.curved, "spring", ("own",), GAPPED),
+    "bilinear_stiffness": HiddenMechanism(
         plans.one("difference", lambda x, _: -0.5 * np.abs(x)), "spring", ("ground",), SPRUNG, signed=True
     ),
-    "quadratic_stiffness": Mechanism(
+    "quadratic_stiffness": HiddenMechanism(
         plans.one("coefficient", lambda x, _: -(x**2)), "spring", ("ground",), SPRUNG, signed=True
     ),
-    "hidden_mode": Mechanism(plans.rattling, "mass", ("ground",)),
-    "inertia_change": Mechanism(plans.heavier, "mass", ("ground",), signed=True),
-    "directional_friction": Mechanism(plans.two_ways, "rub", ANYWHERE),
-    "position_dependent_friction": Mechanism(plans.wavy, "rub", ANYWHERE),
-    "load_dependent_friction": Mechanism(
+    "hidden_mode": HiddenMechanism(plans.rattling, "mass", ("ground",)),
+    "inertia_change": HiddenMechanism(plans.heavier, "mass", ("ground",), signed=True),
+    "directional_friction": HiddenMechanism(plans.two_ways, "rub", ANYWHERE),
+    "position_dependent_friction": HiddenMechanism(plans.wavy, "rub", ANYWHERE),
+    "load_dependent_friction": HiddenMechanism(
         plans.loaded, "rub", ("own",), ("robot_joint", "linear_oscillator", "rigid_drive")
     ),
-    "friction_drift": Mechanism(plans.warming, "rub", ANYWHERE),
-    "directional_damping": Mechanism(
+    "friction_drift": HiddenMechanism(plans.warming, "rub", ANYWHERE),
+    "directional_damping": HiddenMechanism(
         plans.one("difference", lambda _, v: -0.5 * np.abs(v)), "drag", ("ground",), signed=True
     ),
-    "damping_drift": Mechanism(plans.aging, "drag", ("ground",), signed=False),
-    "cogging": Mechanism(plans.magnets, "wave", ("ground",)),
-    "position_ripple": Mechanism(plans.sensor_wave, "round"),
-    "actuator_lag": Mechanism(plans.behind, "late"),
-    "sensor_lag": Mechanism(plans.sensor_behind, "late", ("",), GAPPED),
-    "drive_saturation": Mechanism(plans.limited, "more"),
-    "drive_dead_zone": Mechanism(plans.dead, "more"),
+    "damping_drift": HiddenMechanism(plans.aging, "drag", ("ground",), signed=False),
+    "cogging": HiddenMechanism(plans.magnets, "wave", ("ground",)),
+    "position_ripple": HiddenMechanism(plans.sensor_wave, "round"),
+    "actuator_lag": HiddenMechanism(plans.behind, "late"),
+    "sensor_lag": HiddenMechanism(plans.sensor_behind, "late", ("",), GAPPED),
+    "drive_saturation": HiddenMechanism(plans.limited, "more"),
+    "drive_dead_zone": HiddenMechanism(plans.dead, "more"),
 }
-UNKNOWN: Mapping[str, Mechanism] = {
-    "wave over position that narrows": Mechanism(plans.narrowing, "unknown"),
-    "friction that depends on position": Mechanism(plans.rough, "unknown"),
-    "bump at one position": Mechanism(plans.bump, "unknown"),
-    "drag that grows with position": Mechanism(plans.mixed, "unknown", models=SPRUNG),
+UNKNOWN: Mapping[str, HiddenMechanism] = {
+    "wave over position that narrows": HiddenMechanism(plans.narrowing, "unknown"),
+    "friction that depends on position": HiddenMechanism(plans.rough, "unknown"),
+    "bump at one position": HiddenMechanism(plans.bump, "unknown"),
+    "drag that grows with position": HiddenMechanism(plans.mixed, "unknown", models=SPRUNG),
 }
 """What no library has."""
 NAMES = (*TABLE, "unknown")

@@ -18,7 +18,7 @@ from lostmotion.contracts import Array
 from lostmotion.errors import CaseError, DataError
 from lostmotion.likelihood.drive import substeps
 from lostmotion.likelihood.system import Clock, System
-from lostmotion.workflow.drives import Signal, signal_of
+from lostmotion.workflow.drives import DriveSignal, signal_of
 from lostmotion_trials.integrators.oscillator import rattle
 
 FRICTION = "coulomb_friction"
@@ -83,7 +83,7 @@ class SeenMachine:
 class _DrivenRun:
     """A drive over run-up and recording, as a function of the time (s) from the beginning of the run-up."""
 
-    drive: Signal
+    drive: DriveSignal
     rate: float
     samples: int
 
@@ -119,9 +119,9 @@ def moved_by(system: System) -> str:
     return OWN if _mover(system) is _own else INDEPENDENT
 
 
-def _delayed(signal: Signal, begin: float) -> Signal:
+def _delayed(signal: DriveSignal, begin: float) -> DriveSignal:
     """Return a signal that begins at the time `begin` (s)."""
-    return Signal(
+    return DriveSignal(
         lambda t: signal.value(np.maximum(t - begin, 0.0)),
         lambda t: np.where(t > begin, signal.slope(np.maximum(t - begin, 0.0)), 0.0),
         signal.top,

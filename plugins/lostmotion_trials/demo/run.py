@@ -12,7 +12,7 @@ import numpy as np
 from lostmotion.contracts import Array
 from lostmotion.registry import Registry
 from lostmotion.report import figure_hero
-from lostmotion.workflow.answer import Answer, AnswerEntry, read_answer
+from lostmotion.results.diagnosis import Diagnosis, Mechanism
 from lostmotion.workflow.diagnose import run_diagnosis
 from lostmotion_trials.demo.conceal import AMPLITUDE, FREQUENCY, FRICTION, HIDDEN, conceal_joint, write_case
 
@@ -51,24 +51,23 @@ def run_demo(
     periods = QUICK if setting.quick else PERIODS
     concealed = conceal_joint(rng, periods=periods, friction=0.0 if setting.clean else FRICTION)
     case = write_case(concealed, out / "case")
-    run_diagnosis(case, out, registry, seed=setting.seed, jobs=setting.jobs, say=say)
-    answer = read_answer(out)
+    diagnosis = run_diagnosis(case, out, registry, seed=setting.seed, jobs=setting.jobs, say=say)
     figure_hero(out)
-    found = _nothing_hidden(answer) if setting.clean else _hidden(answer)
-    lines = (_recorded(concealed.time), *found, _improved(answer))
-    return Judged(lines, judge(answer, clean=setting.clean))
+    found = _nothing_hidden(diagnosis) if setting.clean else _hidden(diagnosis)
+    lines = (_recorded(concealed.time), *found, _improved(diagnosis))
+    return Judged(lines, judge(diagnosis, clean=setting.clean))
 
 
-def judge(answer: Answer, *, clean: bool) -> bool:
+def judge(diagnosis: Diagnosis, *, clean: bool) -> bool:
     """Return whether a diagnosis names what was hidden, and nothing else; its interval is shown but not judged.
 
     One interval in twenty misses the truth, as it should.
     """
-    keys = {_key(entry) for entry in answer.found}
+    keys = {_key(entry) for entry in diagnosis.found}
     return keys == (set() if clean else {HIDDEN.partition(".")[0]})
 
 
-def _key(entry: AnswerEntry) -> str:
+def _key(entry: Mechanism) -> str:
     return entry.mechanism if entry.at in ("", "ground") else f"{entry.mechanism}@{entry.at}"
 
 
@@ -77,20 +76,20 @@ def _recorded(time: Array) -> str:
     return f"recorded   {time[-1] - time[0]:.0f} s of a robot link that rattles in its backlash, {motion}"
 
 
-def _nothing_hidden(answer: Answer) -> tuple[str, str]:
-    found = ", ".join(map(_key, answer.found)) or "nothing, as it should be"
+def _nothing_hidden(diagnosis: Diagnosis) -> tuple[str, str]:
+    found = ", ".join(map(_key, diagnosis.found)) or "nothing, as it should be"
     return "hidden     nothing", f"found      {found}"
 
 
-def _hidden(answer: Answer) -> tuple[str, ...]:
+def _hidden(diagnosis: Diagnosis) -> tuple[str, ...]:
     """Return what was hidden, and what was found with its interval and whether that holds the truth."""
     key, _, name = HIDDEN.partition(".")
     told = f"hidden     {key}, {FRICTION:g} N m: the model that is fitted knows nothing of it"
-    found = [line for entry in answer.found for line in _told(entry, key, name)]
+    found = [line for entry in diagnosis.found for line in _told(entry, key, name)]
     return told, *(found or ["found      nothing: this should not happen"])
 
 
-def _told(entry: AnswerEntry, key: str, name: str) -> list[str]:
+def _told(entry: Mechanism, key: str, name: str) -> list[str]:
     """Return one entry in words; the truth stands beside the parameter that was hidden."""
     mine, lines = _key(entry), []
     for own, q in entry.parameters.items():
@@ -103,12 +102,12 @@ def _told(entry: AnswerEntry, key: str, name: str) -> list[str]:
     return lines
 
 
-def _improved(answer: Answer) -> str:
-    fit = answer.fit
-    before, after = fit.before.heldout_nrmse, fit.after.heldout_nrmse
+def _improved(diagnosis: Diagnosis) -> str:
+    fit = diagnosis.fit
+    before, after = fit.before.nrmse, fit.after.nrmse
     over = f"{fit.after.horizon:g} {fit.horizon_unit}"
     floor = f"noise {fit.noise_floor_nrmse:.1%}"
-    if not answer.found:
+    if not diagnosis.found:
         return f"held out   error {after:.1%} of the response over {over} ({floor})"
     ratio = f", {before / after:.0f} times less" if after > 0 and math.isfinite(before) and before > 2 * after else ""
     return f"held out   error falls from {before:.1%} to {after:.1%} of the response over {over}{ratio} ({floor})"
