@@ -15,8 +15,6 @@ from collections.abc import Iterator, Mapping
 from functools import cache
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeVar, get_args, get_origin, get_type_hints
 
-import numpy as np
-
 from lostmotion.errors import DataError
 
 if TYPE_CHECKING:
@@ -120,6 +118,7 @@ def _read(hint: Any) -> tuple[Any, str, str]:
 
 @cache
 def _converter() -> Converter:
+    import numpy as np
     from cattrs import Converter
 
     made = Converter()
@@ -136,7 +135,9 @@ def _converter() -> Converter:
     made.register_structure_hook(str, lambda x, _: _wanted(x, str, "a text"))
     made.register_unstructure_hook_func(lambda kind: kind is np.ndarray, lambda x: made.unstructure(x.tolist()))
     made.register_structure_hook_func(_is_literal, _one_of)
-    made.register_unstructure_hook_func(_is_scalar, lambda x: made.unstructure(x.item()))
+    made.register_unstructure_hook_func(
+        lambda kind: isinstance(kind, type) and issubclass(kind, np.generic), lambda x: made.unstructure(x.item())
+    )
     made.register_unstructure_hook_factory(dataclasses.is_dataclass, lambda kind: _writer(kind, made))
     made.register_structure_hook_factory(dataclasses.is_dataclass, lambda kind: _reader(kind, made))
     return made
@@ -156,10 +157,6 @@ def _one_of(x: Any, kind: Any) -> Any:
     if x not in get_args(kind):
         raise TypeError(f"wanted {_choice(kind)}, found {x!r}")
     return x
-
-
-def _is_scalar(kind: Any) -> bool:
-    return isinstance(kind, type) and issubclass(kind, np.generic)
 
 
 def _writer(kind: type, converter: Converter) -> Any:

@@ -7,11 +7,13 @@ import platform
 from collections.abc import Mapping
 from importlib import metadata
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from lostmotion.codec import to_plain
 from lostmotion.errors import DataError
-from lostmotion.results.background import Origin
+
+if TYPE_CHECKING:
+    from lostmotion.results.background import Origin
 
 PACKAGES = ("lostmotion", "numpy", "numba")
 """The packages whose version may change a number."""
@@ -31,6 +33,8 @@ def origin_of(component: str, settings: Mapping[str, object], seed: int | None, 
 
     `inputs` maps a name, such as that of the file, to its `digest`. Keys are sorted.
     """
+    from lostmotion.results.background import Origin  # it loads NumPy, which the listing of plugins does not need
+
     versions = {"python": platform.python_version(), **{name: _version(name) for name in PACKAGES}}
     return Origin(component, versions, _plain(settings), seed, _plain(inputs))
 

@@ -15,6 +15,7 @@ from lostmotion.inference.course import Selection, Visit
 from lostmotion.likelihood.drive import Tone
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.space import FADE, SLOW, Free
+from lostmotion.results.diagnosis import Confusion
 from lostmotion.settings import DEFAULT
 from lostmotion.stages._excitations import Limits, candidates_for, usual_limits
 from lostmotion.stages._rehearsal import Asked, RehearsedModel, _slow, evidence, simulated
@@ -22,6 +23,7 @@ from lostmotion.stages.experiment import Proposal, _counted, natural_of, news, p
 from lostmotion.workflow import rivals
 
 RATE, LEVEL, FREQUENCY = 200.0, 10.0, 2.0
+RIVALS = (("linear_stiffness", "ground"), ("sensor_delay", ""))
 BENCHMARK = Path(__file__).parents[2] / "benchmarks" / "experiment.py"
 
 
@@ -198,6 +200,7 @@ class Outcome:
     def __init__(self, fit, visits):
         self.found = tuple(fit.problem.active)
         self.selection = Selection(fit, fit, visits)
+        self.shown = fit.problem.observations[0]
         self.settings = DEFAULT
 
 
@@ -213,21 +216,21 @@ def test_a_rival_is_named_with_the_experiment_that_decides(diagnosed):
     observation = diagnosed.selection.chosen.problem.observations[0]
     offered = candidates_for(observation, 100, usual_limits(observation, FREQUENCY), np.random.default_rng(0))
     proposals = {"linear_stiffness": Proposal(max(offered, key=lambda e: e.level), (40.0, 50.0), (4.0, 6.0), (0, 1))}
-    rows = [{"mechanism": "linear_stiffness", "at": "ground"}, {"mechanism": "sensor_delay", "at": ""}]
+    rows = [Confusion(mechanism=name, at=at, says="") for name, at in RIVALS]
     first, second = rivals.confused_with(diagnosed, rows, proposals)
-    assert second["mechanism"] == "sensor_delay"
-    assert first["excitation"]["expected_log_gain"] == 40.0
-    assert first["excitation"]["unit"] == "N"
-    assert "Raise the drive to 20 N at" in first["says"]
-    assert first["says"].endswith("this should separate them by 40 in log-likelihood, 10 times as much as a repeat.")
+    assert second.mechanism == "sensor_delay"
+    assert first.excitation.expected_log_gain == 40.0
+    assert first.excitation.unit == "N"
+    assert "Raise the drive to 20 N at" in first.says
+    assert first.says.endswith("this should separate them by 40 in log-likelihood, 10 times as much as a repeat.")
 
 
 def test_without_an_experiment_that_decides_it_says_so(diagnosed):
     observation = diagnosed.selection.chosen.problem.observations[0]
     offered = candidates_for(observation, 100, usual_limits(observation, FREQUENCY), np.random.default_rng(0))
     proposals = {"linear_stiffness": Proposal(offered[0], (1.0, 0.5), (0.0, 0.0), (0, 1))}
-    says = rivals.confused_with(diagnosed, [], proposals)[0]["says"]
-    assert "No excitation within the limits" in says
+    (only,) = rivals.confused_with(diagnosed, [], proposals)
+    assert "No excitation within the limits" in only.says
 
 
 def test_a_relative_is_named_by_its_evidence_and_not_by_its_price(diagnosed, monkeypatch):

@@ -13,7 +13,7 @@ import numpy as np
 
 from lostmotion.contracts import Array
 from lostmotion.errors import CaseError, DataError
-from lostmotion.provenance import provenance
+from lostmotion.provenance import origin_of
 from lostmotion.results import Interval
 from lostmotion.settings import DEFAULT, ChainSettings
 from lostmotion.stages._chains import Quality, autocorrelation, inference_data, quality_of
@@ -165,7 +165,7 @@ class _Course:
         """The digest of all that the chain depends on, its length left out."""
         task, cloud = self.task, self.task.cloud
         arrays = (task.maximum, cloud.weights, cloud.centres, cloud.roots, cloud.scale.middle, cloud.scale.breadth)
-        versions = provenance("identify", {}, self.seed, {})["versions"]
+        versions = origin_of("identify", {}, self.seed, {}).versions
         texts = (versions, task.digest, task.posterior.free, task.shown, self.seed, self.walkers)
         return fingerprint([*texts, self.height, *arrays])
 

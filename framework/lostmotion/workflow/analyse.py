@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from lostmotion.codec import from_plain, to_plain
+from lostmotion.codec import to_plain
 from lostmotion.contracts import Array, Quantifier, Series
 from lostmotion.defaults import (
     DENOISER,
@@ -25,13 +25,12 @@ from lostmotion.defaults import (
     SURROGATE_OF_CYCLES,
 )
 from lostmotion.errors import DataError
-from lostmotion.provenance import provenance
+from lostmotion.provenance import origin_of
 from lostmotion.rates import exponent_in
 from lostmotion.registry import Registry
 from lostmotion.report.analysis import write_analysis
 from lostmotion.results import Estimate
 from lostmotion.results.analysis import Analysis
-from lostmotion.results.background import Origin
 from lostmotion.settings import DEFAULT, Settings
 from lostmotion.signals import checked
 from lostmotion.stages.denoise import Denoised, denoise
@@ -129,9 +128,9 @@ def told_of(
     found = analyse(source, registry, request, say)
     settings = {k: v for k, v in asdict(request).items() if k not in ("jobs", "seed", "settings")}
     settings["thresholds"] = asdict(request.settings.motion)
-    made = provenance("analyse", settings, request.seed, {**registry.origins(), **source.inputs})
+    made = origin_of("analyse", settings, request.seed, {**registry.origins(), **source.inputs})
     variables, coords = arrays_of(found)
-    return statement(found, from_plain(Origin, made)), dataset_of(variables, coords, {"title": source.title})
+    return statement(found, made), dataset_of(variables, coords, {"title": source.title})
 
 
 def analyse(

@@ -15,11 +15,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from lostmotion.case import CaseFile
-from lostmotion.codec import from_plain, to_plain
+from lostmotion.codec import to_plain
 from lostmotion.contracts import Array
 from lostmotion.errors import CaseError
 from lostmotion.likelihood.space import Free
-from lostmotion.provenance import provenance
+from lostmotion.provenance import origin_of
 from lostmotion.registry import Registry
 from lostmotion.report.identification import write_identification
 from lostmotion.results.background import Origin
@@ -186,7 +186,7 @@ def _origin(case: CaseFile, order: Order, settings: Mapping[str, object], inputs
     told = {"model": case.model, "known": dict(case.known), **settings, **asdict(order.plan)}
     told["thresholds"] = order.settings.as_dict()
     del told["limits"]
-    return from_plain(Origin, provenance("identify", told, order.seed, inputs))
+    return origin_of("identify", told, order.seed, inputs)
 
 
 def inference_of(done: Identified) -> Any:
