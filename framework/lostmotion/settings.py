@@ -221,6 +221,12 @@ class NameSettings:
         "A delay of more than this share of a natural period is unusual: acquisition systems are faster.",
         most=1.0,
     )
+    early: float = _number(
+        0.04,
+        "A change that is over within this share of the recording is no more than likely: a known value that is wrong"
+        " from the beginning looks the same.",
+        most=1.0,
+    )
     error: float = _number(0.3, "A model does not hold whose free runs err by more than this share of the response.")
     error_noise: float = _number(5.0, "And by so many times the noise.")
     white: float = _number(

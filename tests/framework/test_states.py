@@ -27,22 +27,25 @@ from lostmotion.workflow.states import (
     open_of,
     unsteady,
 )
+from lostmotion_plugins.terms.bodies import InertiaChange
 from lostmotion_plugins.terms.drive import ExcitationDelay
 from lostmotion_plugins.terms.friction import CoulombFriction
 
-FRICTION, DELAY = "coulomb_friction@ground", "excitation_delay@drive"
+FRICTION, DELAY, CHANGE = "coulomb_friction@ground", "excitation_delay@drive", "inertia_change@ground"
 
 
 def fit_of(values, active, sds=None):
-    terms = (CoulombFriction(at="ground"), ExcitationDelay(at="drive"))
-    system = SimpleNamespace(keys=(FRICTION, DELAY), terms=terms)
+    terms = (CoulombFriction(at="ground"), ExcitationDelay(at="drive"), InertiaChange(at="ground"))
+    system = SimpleNamespace(keys=(FRICTION, DELAY, CHANGE), terms=terms)
     slots = {
         FRICTION: [SimpleNamespace(key=f"{FRICTION}.force", param=CoulombFriction.params[0])],
         DELAY: [SimpleNamespace(key=f"{DELAY}.delay", param=ExcitationDelay.params[0])],
+        CHANGE: [SimpleNamespace(key=f"{CHANGE}.{q.name}", param=q) for q in InertiaChange.params],
     }
     system.own = slots
     free = [SimpleNamespace(key=k, log=False, unit="N" if "force" in k else "s") for k in values]
     problem = SimpleNamespace(system=system, active=frozenset(active), free=free, scales=SimpleNamespace(time=1.0))
+    problem.observations = (SimpleNamespace(time=np.arange(100.0), samples=100, dt=1.0),)
     return SimpleNamespace(problem=problem, values=values, sd=sds or dict.fromkeys(values, 0.01))
 
 
@@ -96,6 +99,13 @@ def test_a_name_has_to_win_three_times_what_has_no_name_beside_it(gain, sure):
     d = diagnosis(after, {(FRICTION,): 1.0}, weights=weights, learned=SimpleNamespace(gain=10.0))
     doubts = doubts_of(d, FRICTION)
     assert doubts == [] if sure else ["29 in log evidence" in doubt for doubt in doubts] == [True]
+
+
+@pytest.mark.parametrize(("time", "sure"), [(3.0, False), (50.0, True)])
+def test_a_change_at_the_very_beginning_may_be_a_wrong_known_value(time, sure):
+    after = fit_of({f"{CHANGE}.change": 1.0, f"{CHANGE}.time": time}, [CHANGE])
+    doubts = doubts_of(diagnosis(after, {(CHANGE,): 1.0}), CHANGE)
+    assert doubts == [] if sure else ["first 3.0% of the recording" in doubt for doubt in doubts] == [True]
 
 
 @pytest.mark.parametrize(("left", "sure"), [(0.6, False), (0.4, True)])

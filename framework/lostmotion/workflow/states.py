@@ -43,7 +43,7 @@ def doubts_of(d: Diagnosed, key: str) -> list[str]:
     term, _ = term_of(d.after.problem, key)
     imitates = term.unlikely > 0.0 or term.acts != "motion"
     steady = unsteady(d, key) if imitates else ()
-    return [*_less_sure(d, key), *_decided_late(d, key), *_beside(d, key), *steady, *_unusual(d, key)]
+    return [*_less_sure(d, key), *_decided_late(d, key), *_beside(d, key), *steady, *_unusual(d, key), *_early(d, key)]
 
 
 def _less_sure(d: Diagnosed, key: str) -> Iterator[str]:
@@ -128,6 +128,21 @@ def _unusual(d: Diagnosed, key: str) -> Iterator[str]:
     share = abs(d.after.values[late[0].key]) / period
     if share > d.settings.name.late:
         yield f"A delay of {share:.0%} of a natural period is unusual: measure the time between the channels by itself."
+
+
+def _early(d: Diagnosed, key: str) -> Iterator[str]:
+    """Yield a sentence on a change that is over when the recording has hardly begun."""
+    problem = d.after.problem
+    for slot in term_of(problem, key)[1]:
+        if not slot.param.lasting or slot.param.dimension != TIME or slot.key not in d.after.values:
+            continue
+        fitted = problem.observations[0]
+        share = (d.after.values[slot.key] - float(fitted.time[0])) / (fitted.samples * fitted.dt)
+        if share < d.settings.name.early:
+            yield (
+                f"The change is over within the first {max(share, 0.0):.1%} of the recording: a known value that is"
+                " wrong from the beginning looks the same."
+            )
 
 
 def doubted(entry: Mechanism, sure: float = DEFAULT.name.sure) -> Mechanism:
