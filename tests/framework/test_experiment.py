@@ -127,6 +127,7 @@ def test_simulated_noise_has_the_memory_that_was_found(springs):
     assert not _slow(truth.problem, truth.theta, 0, np.random.default_rng(0)).any()
 
 
+@pytest.mark.slow
 def test_a_machine_that_runs_away_is_not_proposed(springs):
     *_, (truth, _) = springs
     observation = truth.problem.observations[0]
@@ -135,6 +136,7 @@ def test_a_machine_that_runs_away_is_not_proposed(springs):
     assert simulated(RehearsedModel.of(truth), mad, np.random.default_rng(0)) is None
 
 
+@pytest.mark.slow
 def test_proposed_experiment_separates_springs_and_a_repeat_hardly(bench, springs):
     """Cubic or linear spring: at one level the one stands in for the other. Expected 108 and 15; found 100 and 11."""
     machine, inputs, (truth, other) = springs
@@ -211,6 +213,7 @@ def diagnosed(springs):
     return Outcome(truth, {k: Visit(k, f, 0.0 if f is truth else -2.0) for k, f in fits.items()})
 
 
+@pytest.mark.slow
 def test_a_rival_is_named_with_the_experiment_that_decides(diagnosed):
     assert list(rivals.rivals_of(diagnosed)) == ["linear_stiffness"]
     observation = diagnosed.selection.chosen.problem.observations[0]
@@ -225,6 +228,7 @@ def test_a_rival_is_named_with_the_experiment_that_decides(diagnosed):
     assert first.says.endswith("this should separate them by 40 in log-likelihood, 10 times as much as a repeat.")
 
 
+@pytest.mark.slow
 def test_without_an_experiment_that_decides_it_says_so(diagnosed):
     observation = diagnosed.selection.chosen.problem.observations[0]
     offered = candidates_for(observation, 100, usual_limits(observation, FREQUENCY), np.random.default_rng(0))
@@ -233,6 +237,7 @@ def test_without_an_experiment_that_decides_it_says_so(diagnosed):
     assert "No excitation within the limits" in only.says
 
 
+@pytest.mark.slow
 def test_a_relative_is_named_by_its_evidence_and_not_by_its_price(diagnosed, monkeypatch):
     """A set with a further parameter pays for it: what the recording cannot rule out is named all the same."""
     monkeypatch.setattr(rivals, "related", lambda a, b: True)
@@ -248,6 +253,7 @@ def test_a_relative_is_named_by_its_evidence_and_not_by_its_price(diagnosed, mon
         assert bool(rivals.rivals_of(diagnosed)) is named
 
 
+@pytest.mark.slow
 def test_no_rival_no_experiment(springs):
     *_, (truth, _) = springs
     alone = Outcome(truth, {truth.problem.active: Visit(truth.problem.active, truth, 0.0)})

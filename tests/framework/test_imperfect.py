@@ -77,6 +77,7 @@ def test_kinds_of_drives_take_turns(ten):
     assert kinds == [*KINDS, *KINDS]
 
 
+@pytest.mark.slow
 def test_every_kind_makes_a_case_that_can_be_diagnosed(ten):
     for number in range(10):
         case, truth = told(ten, number), sealed(ten, number)
@@ -89,6 +90,7 @@ def test_every_kind_makes_a_case_that_can_be_diagnosed(ten):
         assert "world" not in case
 
 
+@pytest.mark.slow
 def test_seed_reproduces_and_another_does_not(ten, tmp_path):
     first = {number: concealed(ROUGH, tmp_path / "again", number).digests for number in (3, 7)}
     other = {number: concealed(replace(ROUGH, seed=1), tmp_path / "other", number).digests for number in (3, 7)}
@@ -99,6 +101,7 @@ def test_seed_reproduces_and_another_does_not(ten, tmp_path):
         assert first[number] != other[number]
 
 
+@pytest.mark.slow
 def test_known_values_are_off_by_a_tenth_of_a_per_cent_to_one(ten):
     seen = []
     for number in range(10):
@@ -112,6 +115,7 @@ def test_known_values_are_off_by_a_tenth_of_a_per_cent_to_one(ten):
     assert min(seen) < 0.0 < max(seen)
 
 
+@pytest.mark.slow
 def test_readings_lie_on_a_lattice(ten):
     for number in range(10):
         truth = sealed(ten, number)

@@ -87,6 +87,7 @@ def test_a_harmonic_drive_moves_the_first_input_alone(model):
     assert not inputs[:, len(model.driven) :].any()
 
 
+@pytest.mark.slow
 def test_the_two_engines_agree_on_a_place_with_a_lever():
     """Friction between the teeth of wheels of ratio 3, through lanes and in matrices."""
     model = default().make("model", "gear_pair", motion="rotation")

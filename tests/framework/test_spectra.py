@@ -71,6 +71,7 @@ def test_offset_and_coarse_steps_of_an_encoder_do_no_harm():
     assert refined_period(counts, DT) == pytest.approx(PERIOD, rel=1e-5)
 
 
+@pytest.mark.slow
 def test_two_tones_have_the_period_of_both():
     x = wave(20_000, 3.0) + wave(20_000, 4.5)
     assert refined_period(x, DT) == pytest.approx(1.0 / 1.5, rel=1e-6)
