@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from lostmotion.codec import from_plain, to_plain, told
 from lostmotion.defaults import FLOW_EXPONENT
 from lostmotion.errors import DataError
-from lostmotion.provenance import provenance
+from lostmotion.provenance import origin_of
 from lostmotion.results import STATUSES
 from lostmotion.results.background import Origin
 from lostmotion.study.cells import BEGINNING, CODES, LONGEST, WIDE, Study
@@ -165,15 +165,15 @@ class MapLayout:
 
 def layout_of(study: Study) -> MapLayout:
     """Return the layout of a map over a whole grid."""
-    return MapLayout(study, tuple(axis.name for axis in study.axes), study.shape, origin_of(study))
+    return MapLayout(study, tuple(axis.name for axis in study.axes), study.shape, map_origin(study))
 
 
 def listed(study: Study, cells: NDArray[np.int64], *, level: int) -> MapLayout:
     """Return the layout of a list of places (many, axes) on the grid of a study: those of one halving, the `level`."""
-    return MapLayout(study, ("cell",), (len(cells),), origin_of(study, level=level), cells)
+    return MapLayout(study, ("cell",), (len(cells),), map_origin(study, level=level), cells)
 
 
-def origin_of(study: Study, *, level: int | None = None, levels: int | None = None) -> Origin:
+def map_origin(study: Study, *, level: int | None = None, levels: int | None = None) -> Origin:
     """Return all that a number in the map of a study depends on; a list has a `level`, a refined map `levels`."""
     rig, further = study.rig, {name: str(quantifier) for name, quantifier in study.further.items()}
     model = rig.assembly.model
@@ -191,7 +191,7 @@ def origin_of(study: Study, *, level: int | None = None, levels: int | None = No
         levels=levels,
         motion=model.motion if model.motion != type(model).motion else None,
     )
-    return from_plain(Origin, provenance("map", to_plain(settings), study.seed, study.origins))
+    return origin_of("map", to_plain(settings), study.seed, study.origins)
 
 
 def origin_in(attrs: Mapping[str, object], path: str = "the map") -> Origin:

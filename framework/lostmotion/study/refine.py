@@ -13,7 +13,7 @@ from scipy.ndimage import distance_transform_edt
 
 from lostmotion.contracts import Array
 from lostmotion.study.cells import Columns, Study, blank_columns
-from lostmotion.study.layout import MapLayout, listed, origin_of
+from lostmotion.study.layout import MapLayout, listed, map_origin
 from lostmotion.study.store import load
 from lostmotion.study.sweep import Cells, Crew, Say, sweep
 
@@ -56,7 +56,7 @@ def finished_layout(study: Study, levels: int) -> MapLayout:
     """Return the layout of the map that `refined` returns."""
     fine = replace(study, axes=tuple(axis.finer(levels) for axis in study.axes))
     dims = tuple(axis.name for axis in study.axes)
-    return MapLayout(fine, dims, fine.shape, origin_of(study, levels=levels), refined=True)
+    return MapLayout(fine, dims, fine.shape, map_origin(study, levels=levels), refined=True)
 
 
 def _whole(
