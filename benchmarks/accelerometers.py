@@ -185,11 +185,11 @@ def case_of(machine: Machine) -> Any:
 
 def one(seed: int, number: int) -> dict[str, Any]:
     """Return what a diagnosis says of a machine, beside the truth."""
+    from lostmotion.diagnosis.findings import draws_of, intervals
+    from lostmotion.diagnosis.search import diagnose
     from lostmotion.likelihood.system import System
+    from lostmotion.preparation.candidates import candidates_of
     from lostmotion.registry import default
-    from lostmotion.stages.candidates import candidates_of
-    from lostmotion.stages.diagnose import diagnose
-    from lostmotion.workflow.findings import draws_of, intervals
 
     machine = machine_of(seed, number)
     observation, states = recorded(machine, seed)

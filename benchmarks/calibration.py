@@ -24,7 +24,7 @@ from pathlib import Path
 from tqdm import tqdm
 
 from lostmotion.case import dump_case
-from lostmotion.stages.identify import SamplingPlan
+from lostmotion.identification.sampling import SamplingPlan
 from lostmotion_trials.coverage.design import Design
 from lostmotion_trials.coverage.machines import Stand
 from lostmotion_trials.coverage.results import CalibrationSummary

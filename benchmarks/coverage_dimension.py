@@ -18,9 +18,9 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from lostmotion.analysis.denoise import denoise
 from lostmotion.contracts import Quantifier, Series
 from lostmotion.results import Embedding, Estimate
-from lostmotion.stages.denoise import denoise
 from lostmotion_plugins.denoisers.projective import LocalProjective
 from lostmotion_plugins.quantifiers.dimension import CorrelationDimension
 from lostmotion_plugins.quantifiers.noise import NoiseLevel

@@ -22,9 +22,9 @@ from scipy.integrate import solve_ivp
 
 from lostmotion.case import dump_case
 from lostmotion.codec import to_plain
+from lostmotion.diagnosis.run import run_diagnosis
 from lostmotion.registry import Registry
 from lostmotion.results.diagnosis import Diagnosis
-from lostmotion.workflow.diagnose import run_diagnosis
 
 PLACES = ("second", "joint", "ground")
 NOISE, SHARE = 0.01, 0.12

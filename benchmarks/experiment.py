@@ -21,6 +21,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from lostmotion.case import CaseFile, Prior
+from lostmotion.diagnosis.experiment import news, propose
 from lostmotion.inference.candidates import fit_with, screen, slopes_of
 from lostmotion.inference.fit import maximise
 from lostmotion.inference.setup import problem_of, search
@@ -28,7 +29,6 @@ from lostmotion.likelihood.drive import Tone
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.system import System, key_of
 from lostmotion.registry import Registry
-from lostmotion.stages.experiment import news, propose
 
 FINE = 40
 """Leapfrog steps between samples."""

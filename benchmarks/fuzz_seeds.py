@@ -148,9 +148,9 @@ def _chain(folder):
     import emcee
     from emcee.backends import Backend
 
-    from lostmotion.stages import _keep
-    from lostmotion.stages._cloud import Cloud
-    from lostmotion.stages._scores import Scores
+    from lostmotion.identification import checkpoint as _keep
+    from lostmotion.identification.normal_scores import Scores
+    from lostmotion.identification.t_mixture import Cloud
 
     rng = np.random.default_rng(0)
     start = emcee.State(

@@ -14,18 +14,18 @@ from functools import partial
 import numpy as np
 
 from fuzz_seeds import CASE, COLUMNS, TABLES, N
+from lostmotion.analysis import source
+from lostmotion.analysis.source import WantedChannel, source_of
 from lostmotion.case import Channel, RecordingSpec, dump_case, load_case
 from lostmotion.errors import LostMotionError
+from lostmotion.identification import checkpoint as _keep
 from lostmotion.inference.setup import known_of
 from lostmotion.likelihood.system import System
+from lostmotion.maps import store
+from lostmotion.preparation.prepare import prepare
 from lostmotion.recording import load, load_recording
 from lostmotion.recording.formats import columns_of
 from lostmotion.registry import Registry, default
-from lostmotion.stages import _keep
-from lostmotion.study import store
-from lostmotion.workflow import source
-from lostmotion.workflow.prepare import prepare
-from lostmotion.workflow.source import WantedChannel, source_of
 
 STORED = ("diagnosis", "analysis", "chain", "map", "campaign")
 KINDS = (*TABLES, "case", "values", "plugin", *STORED)
@@ -248,9 +248,9 @@ def report(kind, facts, arrays, seeds, rng, folder, write_only):
     if write_only:
         return
     if kind == "diagnosis":
-        from lostmotion.report import write_report as write
+        from lostmotion.diagnosis.report.page import write_report as write
     else:
-        from lostmotion.report.analysis import write_analysis as write
+        from lostmotion.analysis.report.page import write_analysis as write
     write(folder)
 
 
@@ -264,7 +264,7 @@ def chain(seeds, rng, folder, write_only):
 def stored_map(seeds, rng, folder, write_only):
     import shutil
 
-    from lostmotion.study.map import Map
+    from lostmotion.maps.map import Map
 
     shutil.rmtree(folder / "map.zarr", ignore_errors=True)
     names = list(seeds.files["map"])
@@ -279,7 +279,7 @@ def stored_map(seeds, rng, folder, write_only):
 def campaign(seeds, rng, folder, write_only):
     import shutil
 
-    from lostmotion.workflow.campaign import Campaign
+    from lostmotion.campaigns.campaign import Campaign
 
     place = folder / "campaign"
     shutil.rmtree(place, ignore_errors=True)

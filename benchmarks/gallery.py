@@ -23,12 +23,12 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from lostmotion.contracts import Assembly
+from lostmotion.diagnosis.run import run_diagnosis
 from lostmotion.likelihood.drive import Drive
 from lostmotion.likelihood.system import System
 from lostmotion.registry import Registry, default
 from lostmotion.results import Interval
 from lostmotion.results.diagnosis import Candidate, Diagnosis, Mechanism
-from lostmotion.workflow.diagnose import run_diagnosis
 
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "tests" / "science"))

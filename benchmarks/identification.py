@@ -21,13 +21,13 @@ from typing import Any
 
 import numpy as np
 
+from lostmotion.identification.sampling import SampledPosterior, SamplingPlan, identify, task_of
 from lostmotion.inference.fit import Fit, maximise
 from lostmotion.inference.setup import modes, polished, problem_of, stepped
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import RANDOM, Problem
 from lostmotion.likelihood.reference import Reference
 from lostmotion.likelihood.system import System
-from lostmotion.stages.identify import SampledPosterior, SamplingPlan, identify, task_of
 from studies import TRUE, case_of, system_of
 
 from cramer_rao import bounds  # isort: skip - beside the tests, as `studies` has made known

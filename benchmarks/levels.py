@@ -32,15 +32,15 @@ from lostmotion.case import CaseFile, Prior
 from lostmotion.case.levels import Level, Measured
 from lostmotion.contracts import Array, Flow
 from lostmotion.flow import Harmonic, flow_of
+from lostmotion.identification.levels import Survey, inversion_of, quantifier_task
+from lostmotion.identification.reading import corrected, read_level
+from lostmotion.identification.rehearsal import Bench, rehearsed, rehearsed_levels
+from lostmotion.identification.sampling import identify
 from lostmotion.kernels.threads import cores
+from lostmotion.maps.cells import period_of
+from lostmotion.maps.inversion import TAIL, WEAK, Inversion, predicted
 from lostmotion.registry import default
 from lostmotion.results import Estimate
-from lostmotion.stages.identify import identify
-from lostmotion.study.cells import period_of
-from lostmotion.study.inversion import TAIL, WEAK, Inversion, predicted
-from lostmotion.workflow.levels import Survey, inversion_of, quantifier_task
-from lostmotion.workflow.reading import corrected, read_level
-from lostmotion.workflow.rehearsal import Bench, rehearsed, rehearsed_levels
 from lostmotion_trials.paper.joint import DAMPING, FREQUENCY, HALF, LEVELS, PAPER, RATIO
 
 OMEGA = 40.0

@@ -23,9 +23,9 @@ import numpy as np
 from lostmotion.case import dump_case
 from lostmotion.codec import to_plain
 from lostmotion.errors import LostMotionError
+from lostmotion.preparation.prepare import prepare
 from lostmotion.registry import default
 from lostmotion.storage import save_table
-from lostmotion.workflow.prepare import prepare
 from lostmotion_trials.blind.bound import alike, spelled, yardstick
 from lostmotion_trials.blind.hiding import hidden_in
 from lostmotion_trials.blind.mechanisms import NOISY, TABLE, Effect

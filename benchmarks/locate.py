@@ -35,16 +35,16 @@ from typing import Any
 import numpy as np
 from scipy.stats import beta
 
+from lostmotion.diagnosis.search import locate, plays_of
 from lostmotion.errors import DataError
 from lostmotion.inference.candidates import screen, slopes_of
 from lostmotion.inference.odds import Ratio, likely, log_odds
 from lostmotion.inference.setup import problem_of, search, stepped
 from lostmotion.likelihood.latent import missing_force
 from lostmotion.likelihood.system import System, key_of
+from lostmotion.preparation.prepare import Prepared, prepare
 from lostmotion.registry import default
 from lostmotion.settings import DEFAULT
-from lostmotion.stages.diagnose import locate, plays_of
-from lostmotion.workflow.prepare import Prepared, prepare
 from lostmotion_trials.blind.commitment import RUNAWAY, TOUCHES
 from lostmotion_trials.blind.hiding import hidden_in
 from lostmotion_trials.blind.mechanisms import LARGEST, TABLE, UNKNOWN, Effect, Pilot

@@ -19,10 +19,10 @@ import numpy as np
 from scipy.ndimage import distance_transform_edt
 
 from lostmotion.kernels.threads import cores
+from lostmotion.maps.map import Map
+from lostmotion.maps.run import How, Request, make_map, study_of
+from lostmotion.maps.sweep import Crew
 from lostmotion.registry import default
-from lostmotion.study.map import Map
-from lostmotion.study.sweep import Crew
-from lostmotion.workflow.mapping import How, Request, make_map, study_of
 
 ALPHA, ZETA = "alpha=0.2:0.6666:{0}:inverse", "zeta=0.008:0.05:{0}"
 """1/alpha from 1.5 to 5: the first window of chaos, the gap behind it, and the edge of the second."""

@@ -15,8 +15,8 @@ from pathlib import Path
 import numpy as np
 
 from first_light import show
-from lostmotion.stages.identify import SamplingPlan
-from lostmotion.workflow.trajectory import doubts
+from lostmotion.identification.sampling import SamplingPlan
+from lostmotion.identification.trajectory import doubts
 
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "tests" / "science"))

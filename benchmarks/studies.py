@@ -46,7 +46,7 @@ def track_for(study):
 
 def run(study):
     """Return what a diagnosis says of a study, as numbers and names."""
-    from lostmotion.stages.diagnose import diagnose
+    from lostmotion.diagnosis.search import diagnose
 
     observation, start = track_for(study), time.perf_counter()
     d = diagnose(case_of(study.unknown), [observation], system_of(), rng=np.random.default_rng(0), jobs=1)
@@ -58,7 +58,7 @@ def run(study):
 def findings(d):
     """Return names, intervals, gains and statuses of a diagnosis."""
     from lostmotion.codec import to_plain
-    from lostmotion.workflow.findings import draws_of, intervals
+    from lostmotion.diagnosis.findings import draws_of, intervals
 
     rng = np.random.default_rng(1)
     course = d.selection
@@ -88,7 +88,7 @@ def findings(d):
 
 def predictions(d, observation, hidden):
     """Return valid-prediction times on held-out starts, in Lyapunov times: before, after, and with the truth."""
-    from lostmotion.stages.compare import exponent_of, horizon_for, pieces_of, predict, rates_of
+    from lostmotion.diagnosis.compare import exponent_of, horizon_for, pieces_of, predict, rates_of
 
     pieces = pieces_of([observation], d.held)
     fits = {"before": d.before, "after": d.after, "truth": truth_of(d, hidden)}

@@ -16,9 +16,9 @@ from collections import Counter, defaultdict
 import numpy as np
 from scipy.stats import beta
 
+from lostmotion.analysis.run import AnalysedChannel, AnalysisRequest, analyse
+from lostmotion.analysis.source import Source
 from lostmotion.registry import default
-from lostmotion.workflow.analyse import AnalysedChannel, AnalysisRequest, analyse
-from lostmotion.workflow.source import Source
 from zoo import Animal, zoo
 from zoo_fresh import fresh_zoo
 from zoo_recorded import recorded

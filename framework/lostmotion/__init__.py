@@ -18,6 +18,10 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from lostmotion.analysis.denoise import denoise
+    from lostmotion.analysis.embed import embed
+    from lostmotion.analysis.quantify import quantify
+    from lostmotion.analysis.surrogates import surrogate_test
     from lostmotion.errors import LostMotionError
     from lostmotion.errors import LostMotionError as LostmotionError
     from lostmotion.notebook.case import Case, model
@@ -25,10 +29,6 @@ if TYPE_CHECKING:
     from lostmotion.notebook.priors import HalfNormal, LogNormal, LogUniform, Normal, Uniform
     from lostmotion.recording import Recording
     from lostmotion.settings import Settings
-    from lostmotion.stages.denoise import denoise
-    from lostmotion.stages.embed import embed
-    from lostmotion.stages.quantify import quantify
-    from lostmotion.stages.surrogates import surrogate_test
 
 __version__ = "0.1.0"
 __all__ = [
@@ -44,10 +44,10 @@ _DOORS = {
     "LostmotionError": "errors:LostMotionError",
     "Recording": "recording:Recording",
     "Settings": "settings:Settings",
-    "denoise": "stages.denoise:denoise",
-    "embed": "stages.embed:embed",
-    "quantify": "stages.quantify:quantify",
-    "surrogate_test": "stages.surrogates:surrogate_test",
+    "denoise": "analysis.denoise:denoise",
+    "embed": "analysis.embed:embed",
+    "quantify": "analysis.quantify:quantify",
+    "surrogate_test": "analysis.surrogates:surrogate_test",
 }
 
 

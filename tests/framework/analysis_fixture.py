@@ -222,7 +222,7 @@ def write(folder: Path, said, arrays) -> Path:
 
 
 if __name__ == "__main__":
-    from lostmotion.report.analysis import write_analysis
+    from lostmotion.analysis.report.page import write_analysis
 
     for kind, make in KINDS.items():
         write_analysis(write(Path(sys.argv[1]) / kind, *make()))

@@ -17,7 +17,7 @@ import numpy as np
 import xarray as xr
 
 from lostmotion.codec import from_plain
-from lostmotion.report.evidence import Evidence, evidence_with
+from lostmotion.diagnosis.report.evidence import Evidence, evidence_with
 from lostmotion.results.diagnosis import Diagnosis
 
 OMEGA, DRIVE, MASS, STIFF, GAP = 40.0, 100.0, 1.0, 4e4, 5e-3
@@ -400,7 +400,8 @@ def write(folder: Path, facts: dict[str, Any], data: xr.Dataset | None = None) -
 
 
 if __name__ == "__main__":
-    from lostmotion.report import figure_hero, write_report
+    from lostmotion.diagnosis.report.hero import figure_hero
+    from lostmotion.diagnosis.report.page import write_report
 
     home = write(Path(sys.argv[1]), mismatch(), arrays())
     print(write_report(home), figure_hero(home))  # noqa: T201

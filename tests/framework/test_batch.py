@@ -13,14 +13,14 @@ import pytest
 from answers import answer, entry, interval, plain
 from click.testing import CliRunner
 
+from lostmotion.campaigns import batch
+from lostmotion.campaigns.campaign import Campaign
+from lostmotion.campaigns.table import lines_of, row_of
 from lostmotion.cli import main
 from lostmotion.errors import CaseError, DataError, PlaceError
+from lostmotion.preparation.prepare import case_of
 from lostmotion.provenance import digest, provenance
 from lostmotion.settings import DEFAULT
-from lostmotion.workflow import batch
-from lostmotion.workflow.batch_table import lines_of, row_of
-from lostmotion.workflow.campaign import Campaign
-from lostmotion.workflow.prepare import case_of
 from lostmotion_trials.blind.commitment import Blind, concealed
 
 CASE = """

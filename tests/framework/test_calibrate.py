@@ -13,11 +13,11 @@ import numpy as np
 import pytest
 from toy_campaign import COUNT, Fate, Maker, buried, campaign, deadly, placed, whoami
 
+from lostmotion.campaigns.campaign import Campaign
 from lostmotion.case import Prior
 from lostmotion.codec import to_plain
 from lostmotion.errors import DataError
 from lostmotion.storage import save_json
-from lostmotion.workflow.campaign import Campaign
 from lostmotion_trials.coverage.design import Design, workshop
 from lostmotion_trials.coverage.machines import Stand
 from lostmotion_trials.coverage.page import write_calibration
@@ -158,7 +158,7 @@ def test_trials_whose_process_is_killed_are_lost_and_no_others(tmp_path):
 
 @pytest.mark.slow
 def test_processes_are_renewed_so_that_memory_does_not_grow(tmp_path, monkeypatch):
-    monkeypatch.setattr("lostmotion.workflow.campaign.RENEWED", 2)
+    monkeypatch.setattr("lostmotion.campaigns.campaign.RENEWED", 2)
     made = Campaign(whoami, Maker, 9, {}).run(tmp_path, 2)
     assert [row.number for row in made] == list(range(9))
     makers = [{row.process for row in made[k : k + 4]} for k in (0, 4, 8)]

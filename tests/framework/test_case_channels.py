@@ -9,8 +9,8 @@ import pytest
 
 from lostmotion.case import load_case
 from lostmotion.errors import CaseError
+from lostmotion.preparation.prepare import prepare
 from lostmotion.registry import default
-from lostmotion.workflow.prepare import prepare
 
 FORCE = '{ input = "force", column = "F", unit = "N" }'
 MOTOR = '{ channel = "position", column = "x", unit = "mm", name = "motor encoder" }'

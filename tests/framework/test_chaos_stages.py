@@ -5,13 +5,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 
+from lostmotion.analysis.denoise import denoise
+from lostmotion.analysis.embed import embed
+from lostmotion.analysis.quantify import quantify
 from lostmotion.contracts import Denoiser, Embedder, Quantifier, Series
 from lostmotion.errors import ContractError, DataError
 from lostmotion.results import Embedding, Estimate
 from lostmotion.signals import checked, delay_vectors
-from lostmotion.stages.denoise import denoise
-from lostmotion.stages.embed import embed
-from lostmotion.stages.quantify import quantify
 
 
 @dataclass(frozen=True)

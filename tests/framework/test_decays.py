@@ -7,10 +7,10 @@ import time
 import numpy as np
 import pytest
 
+from lostmotion.diagnosis import decays
+from lostmotion.diagnosis.decays import note_anew, off, stretches_of
 from lostmotion.likelihood.observation import Observation
 from lostmotion.signals.decay import Decay, decay_of
-from lostmotion.workflow import decays
-from lostmotion.workflow.decays import note_anew, off, stretches_of
 
 DT = 1e-3
 

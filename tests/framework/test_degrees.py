@@ -9,11 +9,11 @@ from types import SimpleNamespace
 import pytest
 import report_fixture as fixture
 
+from lostmotion.diagnosis.report.page import render
+from lostmotion.diagnosis.verdict import angle_of
 from lostmotion.recording.spec import Channel, RecordingSpec
-from lostmotion.report.page import render
 from lostmotion.report.words import angles_in, readable
 from lostmotion.results import Interval
-from lostmotion.workflow.verdict import angle_of
 
 SI = {"position": "rad", "velocity": "rad/s", "force": "N m", "time": "s"}
 

@@ -7,6 +7,7 @@ import pytest
 from scipy.signal import lfilter
 from scipy.stats import binom
 
+from lostmotion.diagnosis.disagreements import by_recording, over_time
 from lostmotion.inference.disagreement import (
     between,
     beyond_chance,
@@ -17,7 +18,6 @@ from lostmotion.inference.disagreement import (
     trend,
 )
 from lostmotion.likelihood.observation import Observation
-from lostmotion.workflow.disagreements import by_recording, over_time
 
 DT = 1e-3
 

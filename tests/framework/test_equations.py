@@ -13,9 +13,9 @@ from hypothesis import strategies as st
 from lostmotion.case import load_case
 from lostmotion.contracts import place_of
 from lostmotion.errors import CaseError
+from lostmotion.preparation.prepare import case_of
 from lostmotion.registry import default
 from lostmotion.testing import check
-from lostmotion.workflow.prepare import case_of
 from lostmotion.written import model_of
 
 SHAKEN = "m*(x'' + base_acceleration) + c*x' + k1*x + gap(x, k0, x0) = force"

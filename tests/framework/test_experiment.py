@@ -10,6 +10,10 @@ import numpy as np
 import pytest
 
 from lostmotion.case import Experiment, load_case
+from lostmotion.diagnosis import rivals
+from lostmotion.diagnosis.excitations import Limits, candidates_for, usual_limits
+from lostmotion.diagnosis.experiment import Proposal, _counted, natural_of, news, propose
+from lostmotion.diagnosis.rehearsal import Asked, RehearsedModel, _slow, evidence, simulated
 from lostmotion.errors import CaseError
 from lostmotion.inference.course import Selection, Visit
 from lostmotion.likelihood.drive import Tone
@@ -17,10 +21,6 @@ from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.space import FADE, SLOW, Free
 from lostmotion.results.diagnosis import Confusion
 from lostmotion.settings import DEFAULT
-from lostmotion.stages._excitations import Limits, candidates_for, usual_limits
-from lostmotion.stages._rehearsal import Asked, RehearsedModel, _slow, evidence, simulated
-from lostmotion.stages.experiment import Proposal, _counted, natural_of, news, propose
-from lostmotion.workflow import rivals
 
 RATE, LEVEL, FREQUENCY = 200.0, 10.0, 2.0
 RIVALS = (("linear_stiffness", "ground"), ("sensor_delay", ""))

@@ -11,11 +11,11 @@ import numpy as np
 import pytest
 
 from lostmotion.errors import DataError
+from lostmotion.maps.layout import layout_of
+from lostmotion.maps.run import How, Request, make_map, study_of
+from lostmotion.maps.store import _require_same, load
+from lostmotion.maps.sweep import Crew
 from lostmotion.registry import Registry, sources
-from lostmotion.study.layout import layout_of
-from lostmotion.study.store import _require_same, load
-from lostmotion.study.sweep import Crew
-from lostmotion.workflow.mapping import How, Request, make_map, study_of
 
 REQUEST = Request(
     "lin_backlash",
@@ -28,7 +28,7 @@ REQUEST = Request(
 )
 FAR = """
 import pickle, sys
-from lostmotion.study.sweep import _far
+from lostmotion.maps.sweep import _far
 texts, packed, cells = pickle.load(open(sys.argv[1], "rb"))
 assert not set(texts) & set(sys.modules)
 columns = _far(texts, packed, cells)

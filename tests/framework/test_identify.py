@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 
 from lostmotion.errors import CaseError, DataError
+from lostmotion.identification.chains import grouped, quality_of, quiet_arviz
+from lostmotion.identification.moves import state_of
+from lostmotion.identification.sampling import Cloud, SamplingPlan, ShownCoordinate, Task, identify, task_of
 from lostmotion.likelihood.problem import Free
 from lostmotion.likelihood.sensors import Sensor
-from lostmotion.stages._chains import grouped, quality_of, quiet_arviz
-from lostmotion.stages._sampling import state_of
-from lostmotion.stages.identify import Cloud, SamplingPlan, ShownCoordinate, Task, identify, task_of
 
 MEAN = np.array([1.0, -2.0, 0.3])
 COVARIANCE = np.array([[0.04, 0.015, 0.0], [0.015, 0.01, 0.0], [0.0, 0.0, 0.25]])

@@ -11,15 +11,15 @@ from lostmotion.case import CaseFile, Prior
 from lostmotion.case.levels import Level, Measured
 from lostmotion.codec import to_plain
 from lostmotion.errors import CaseError, DataError
+from lostmotion.identification.levels import Survey, _free, derived, inversion_of, quantifier_task, wanted_of
+from lostmotion.identification.result import level_told
 from lostmotion.likelihood.space import Free
+from lostmotion.maps.atlas import CHAOTIC, PERIODIC, Atlas
+from lostmotion.maps.inversion import WEAK, Inversion, grouped, likelihood_of, predicted
+from lostmotion.maps.map import RING, Map
+from lostmotion.maps.numbers import NumberLaw, NumberPower, law_of
+from lostmotion.maps.run import How, Request, make_map, study_of
 from lostmotion.registry import default
-from lostmotion.study.atlas import CHAOTIC, PERIODIC, Atlas
-from lostmotion.study.inversion import WEAK, Inversion, grouped, likelihood_of, predicted
-from lostmotion.study.map import RING, Map
-from lostmotion.study.numbers import NumberLaw, NumberPower, law_of
-from lostmotion.workflow.identification_result import level_told
-from lostmotion.workflow.levels import Survey, _free, derived, inversion_of, quantifier_task, wanted_of
-from lostmotion.workflow.mapping import How, Request, make_map, study_of
 
 ALPHA, ZETA = np.linspace(0.2, 2.0, 37), np.linspace(0.01, 0.1, 10)
 

@@ -10,18 +10,19 @@ import pytest
 from click.testing import CliRunner
 
 from lostmotion import registry
+from lostmotion.analysis import run as analyse
+from lostmotion.analysis.beat import Beat
 from lostmotion.cli import main
 from lostmotion.contracts import Series
+from lostmotion.diagnosis import run as diagnose
 from lostmotion.errors import ContractError, PluginWarning
 from lostmotion.likelihood.motion import derivatives
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.system import System
+from lostmotion.preparation.prepare import Prepared
+from lostmotion.preparation.vetting import Guests, raising, usable_terms
 from lostmotion.registry import Registry
 from lostmotion.results import Embedding
-from lostmotion.workflow import analyse, diagnose
-from lostmotion.workflow.beat import Beat
-from lostmotion.workflow.prepare import Prepared
-from lostmotion.workflow.vetting import Guests, raising, usable_terms
 
 pytestmark = pytest.mark.filterwarnings("ignore::lostmotion.errors.PluginWarning")
 ALL = [*guests.GOOD, *(cls for cls, _ in (*guests.TERMS, *guests.METHODS))]
@@ -121,7 +122,7 @@ def test_a_map_goes_on_without_a_quantifier_that_breaks(known, tmp_path):
     assert "guest_q_nan has no number for 2 of 2 motions" in done.stderr
     assert "`lostmotion plugins check guest_q_nan`" in done.stderr
     assert "guest_crest" not in done.stderr
-    from lostmotion.study.store import load
+    from lostmotion.maps.store import load
 
     table = load(tmp_path / "map.nc")
     assert np.isfinite(table["guest_crest"]).all()

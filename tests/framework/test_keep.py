@@ -15,14 +15,14 @@ from scipy.stats import norm
 from toys import Toy, free_of, task_at
 
 from lostmotion.errors import DataError
-from lostmotion.stages.identify import SamplingPlan, identify
+from lostmotion.identification.sampling import SamplingPlan, identify
 
 SCRIPT = """
 import sys, time
 import numpy as np
 from pathlib import Path
 sys.path.insert(0, {here!r})
-import lostmotion.stages.identify as stage
+import lostmotion.identification.sampling as stage
 from test_keep import slow_task, SamplingPlan
 stage.EVERY = 0.0
 result = stage.identify(slow_task(), rng=np.random.default_rng(3), plan=SamplingPlan(ess=300), keep=Path(sys.argv[1]))
@@ -92,7 +92,7 @@ def cut_after(calls):
 
 def test_cut_short_after_any_block_it_ends_the_same(tmp_path, monkeypatch):
     """The same with an exception in place of a kill, so that every place is visited: pilots, start, each block."""
-    monkeypatch.setattr("lostmotion.stages.identify.EVERY", 0.0)
+    monkeypatch.setattr("lostmotion.identification.sampling.EVERY", 0.0)
     plan = SamplingPlan(ess=500)
     rng = np.random.default_rng(1)
     undisturbed = identify(quick_task(), rng=rng, plan=plan)

@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
+from lostmotion.diagnosis.search import locate
 from lostmotion.inference.locate import covariates, further, summary
 from lostmotion.inference.odds import Ratio, averaged, gained, inflation, likely, p_values
 from lostmotion.inference.shares import Covariate, adjusted, phase_randomised, shares_of, significant
 from lostmotion.likelihood.latent import Missing
 from lostmotion.likelihood.observation import Observation
 from lostmotion.registry import default
-from lostmotion.stages.diagnose import locate
 
 SAMPLES, PERIOD, DT = 3000, 100, 1e-3
 

@@ -7,10 +7,10 @@ import pytest
 
 from lostmotion.contracts import Assembly
 from lostmotion.errors import CaseError, LostMotionError
+from lostmotion.maps.axes import MapAxis, axis_of
+from lostmotion.maps.rig import SweptMachine, reach
+from lostmotion.maps.run import Request, study_of
 from lostmotion.registry import default
-from lostmotion.study.axes import MapAxis, axis_of
-from lostmotion.study.rig import SweptMachine, reach
-from lostmotion.workflow.mapping import Request, study_of
 
 X, Y = "alpha=0.2:0.5:4:inverse", "zeta=0.01:0.04:3"
 

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from lostmotion.errors import DataError
+from lostmotion.maps.run import How, Request, make_map, study_of
+from lostmotion.maps.store import load
+from lostmotion.maps.sweep import Crew, _result
 from lostmotion.registry import default
-from lostmotion.study.store import load
-from lostmotion.study.sweep import Crew, _result
-from lostmotion.workflow.mapping import How, Request, make_map, study_of
 
 distributed = pytest.importorskip("distributed", reason="distributed is not installed: pip install lostmotion[cluster]")
 

@@ -10,13 +10,13 @@ import xarray as xr
 from PIL import Image
 
 from lostmotion.errors import DataError
+from lostmotion.maps import figure as map_figure
+from lostmotion.maps.cells import computed
+from lostmotion.maps.map import Map
+from lostmotion.maps.refine import _split
+from lostmotion.maps.run import How, Request, make_map, study_of
+from lostmotion.maps.sweep import Crew
 from lostmotion.registry import default
-from lostmotion.report import map_figure
-from lostmotion.study.cells import computed
-from lostmotion.study.map import Map
-from lostmotion.study.refine import _split
-from lostmotion.study.sweep import Crew
-from lostmotion.workflow.mapping import How, Request, make_map, study_of
 
 
 def quiet(done, total):

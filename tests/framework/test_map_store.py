@@ -14,12 +14,12 @@ import pytest
 import xarray as xr
 
 from lostmotion.errors import CaseError, DataError
+from lostmotion.maps.cells import computed, period_of
+from lostmotion.maps.layout import layout_of
+from lostmotion.maps.run import How, Request, make_map, study_of
+from lostmotion.maps.sweep import Crew
 from lostmotion.registry import default
 from lostmotion.results import STATUSES
-from lostmotion.study.cells import computed, period_of
-from lostmotion.study.layout import layout_of
-from lostmotion.study.sweep import Crew
-from lostmotion.workflow.mapping import How, Request, make_map, study_of
 
 SMALL = Request(
     "lin_backlash", ("alpha=0.2:0.6:6:inverse", "zeta=0.01:0.04:5"), periods=60, transient=20, starts=2, seed=3

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from lostmotion.errors import CaseError, DataError
+from lostmotion.preparation.beginning import begun, scales_of
 from lostmotion.recording.outline import Wishes, outlined
 from lostmotion.registry import Registry
-from lostmotion.workflow.beginning import begun, scales_of
 
 N, RATE = 800, 200.0
 T = np.arange(N) / RATE

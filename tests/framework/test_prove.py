@@ -12,9 +12,9 @@ import pytest
 from answers import answer, entry, interval
 from toy_campaign import Maker, whoami
 
+from lostmotion.campaigns.campaign import Campaign
 from lostmotion.codec import from_plain, to_plain
 from lostmotion.errors import DataError
-from lostmotion.workflow.campaign import Campaign
 from lostmotion_trials.blind import judging
 from lostmotion_trials.blind import score as proof
 from lostmotion_trials.blind.bound import spelled

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from lostmotion.flow import Harmonic
+from lostmotion.identification.reading import ERRORS, corrected, read_level
+from lostmotion.identification.rehearsal import Bench, rehearsed
 from lostmotion.registry import default
 from lostmotion.results import Estimate
-from lostmotion.workflow.reading import ERRORS, corrected, read_level
-from lostmotion.workflow.rehearsal import Bench, rehearsed
 
 
 @pytest.mark.parametrize("name", ERRORS)

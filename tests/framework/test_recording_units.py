@@ -8,12 +8,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from lostmotion.analysis.source import WantedChannel, source_of
 from lostmotion.errors import DataError
 from lostmotion.quantities import si_factor
 from lostmotion.recording import Channel, RecordingSpec, load_recording
 from lostmotion.recording.units import is_unit, note_unit, plain, seconds, split_name, time_unit, unit_line
 from lostmotion.registry import Registry
-from lostmotion.workflow.source import WantedChannel, source_of
 
 N = 2000
 RATE = 997.0

@@ -12,17 +12,17 @@ import pytest
 
 from lostmotion.case import CaseFile, Prior
 from lostmotion.contracts import Param, Term
+from lostmotion.diagnosis.search import locate
 from lostmotion.errors import CaseError, ContractError, DataError
 from lostmotion.inference.candidates import _hint
 from lostmotion.inference.setup import known_of
 from lostmotion.likelihood.latent import Missing
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.system import System
+from lostmotion.preparation.candidates import candidates_of
+from lostmotion.preparation.prepare import prepare
 from lostmotion.quantities import FORCE
 from lostmotion.registry import default
-from lostmotion.stages.candidates import candidates_of
-from lostmotion.stages.diagnose import locate
-from lostmotion.workflow.prepare import prepare
 
 KNOWN = {"m": 1.0, "c": 8.0, "k": 1e4}
 CASE = """

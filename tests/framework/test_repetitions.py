@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from lostmotion.diagnosis.repetitions import looks_of, repetition_notes, share_repeated
 from lostmotion.likelihood.observation import Observation, tone_of
-from lostmotion.workflow.repetitions import looks_of, repetition_notes, share_repeated
 
 SAMPLES, TRAIN, DT, PERIOD = 2000, 1400, 0.01, 37.7
 

@@ -9,10 +9,12 @@ import pytest
 import report_fixture as made
 import xarray as xr
 
+from lostmotion.diagnosis.report import prediction
+from lostmotion.diagnosis.report.evidence import Evidence, read_evidence
+from lostmotion.diagnosis.report.hero import figure_hero
+from lostmotion.diagnosis.report.page import SECTIONS as PLAN
+from lostmotion.diagnosis.report.page import write_report
 from lostmotion.errors import DataError
-from lostmotion.report import figure_hero, prediction, write_report
-from lostmotion.report.evidence import Evidence, read_evidence
-from lostmotion.report.page import SECTIONS as PLAN
 
 BESIDE = {
     "response": ("missing",),

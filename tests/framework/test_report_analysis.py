@@ -12,13 +12,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from lostmotion.analysis.report.measures import natural
+from lostmotion.analysis.report.page import SECTIONS, render, write_analysis
+from lostmotion.analysis.report.summary import figure_summary
+from lostmotion.analysis.report.tables import estimate, opening, verdict
+from lostmotion.analysis.report.view import read_analysis
 from lostmotion.codec import to_plain
 from lostmotion.errors import DataError
-from lostmotion.report.analysis import SECTIONS, render, write_analysis
-from lostmotion.report.analysis_measures import natural
-from lostmotion.report.analysis_summary import figure_summary
-from lostmotion.report.analysis_tables import estimate, opening, verdict
-from lostmotion.report.analysis_view import read_analysis
 from lostmotion.report.words import power_of_ten, shortened
 from lostmotion.results.analysis import DrivePeriod, Measure, Sign
 

@@ -9,7 +9,9 @@ import numpy as np
 import report_fixture as made
 
 from lostmotion.codec import to_plain
-from lostmotion.report import decay, style, write_report
+from lostmotion.diagnosis.report import decay
+from lostmotion.diagnosis.report.page import write_report
+from lostmotion.report import style
 from lostmotion.results.behaviour import DecayCycles
 
 

@@ -6,8 +6,10 @@ import numpy as np
 import pytest
 import report_fixture as made
 
-from lostmotion.report import sensors, style, write_report
-from lostmotion.report.evidence import read_evidence
+from lostmotion.diagnosis.report import sensors
+from lostmotion.diagnosis.report.evidence import read_evidence
+from lostmotion.diagnosis.report.page import write_report
+from lostmotion.report import style
 
 ROWS = [
     {"name": "motor <b>", "channel": "position", "unit": "m", "noise_sd": 4e-5, "kind": "white"},

@@ -2,7 +2,8 @@
 
 import report_fixture as made
 
-from lostmotion.report import sharing, write_report
+from lostmotion.diagnosis.report import sharing
+from lostmotion.diagnosis.report.page import write_report
 
 
 def values(*medians, unit):

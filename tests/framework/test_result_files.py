@@ -8,6 +8,7 @@ import math
 import pytest
 
 from lostmotion.codec import from_plain, schema, to_plain
+from lostmotion.maps.layout import MapSettings
 from lostmotion.results import Interval
 from lostmotion.results.analysis import Analysis
 from lostmotion.results.background import Origin
@@ -20,7 +21,6 @@ from lostmotion.results.identification import (
     Parameter,
     Sampling,
 )
-from lostmotion.study.layout import MapSettings
 
 ORIGIN = Origin("identify", {"python": "3"}, {"terms": ["a"], "thresholds": {"select": {"decisive": 3.0}}}, 0, {})
 SAMPLING = Sampling(

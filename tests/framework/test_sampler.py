@@ -7,11 +7,11 @@ import pytest
 from scipy.stats import norm
 from toys import Toy, free_of, task_at
 
+from lostmotion.identification.normal_scores import Scores
+from lostmotion.identification.population import effective, tempered
+from lostmotion.identification.sampling import SamplingPlan, ShownCoordinate, Task, identify
+from lostmotion.identification.t_mixture import Cloud
 from lostmotion.likelihood.problem import Free
-from lostmotion.stages._cloud import Cloud
-from lostmotion.stages._population import effective, tempered
-from lostmotion.stages._scores import Scores
-from lostmotion.stages.identify import SamplingPlan, ShownCoordinate, Task, identify
 
 
 def two_modes(size, share):

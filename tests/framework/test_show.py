@@ -7,12 +7,12 @@ import pytest
 import report_fixture as made
 
 from lostmotion.codec import from_plain, to_plain
+from lostmotion.diagnosis.attractors import MOST, distances_between, section
+from lostmotion.diagnosis.report import show
+from lostmotion.diagnosis.show_words import said
 from lostmotion.likelihood.observation import Observation
-from lostmotion.report import show
 from lostmotion.results.behaviour import Behaviour
 from lostmotion.signals.distances import distances, energy_distance, same_chance
-from lostmotion.workflow.attractors import MOST, distances_between, section
-from lostmotion.workflow.show_words import said
 
 PERIOD = 40.0
 

@@ -8,12 +8,12 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from lostmotion.analysis.beat import Beat, MotionEvidence
+from lostmotion.analysis.motion import _locked, judged
+from lostmotion.analysis.signs import FEWEST_SAMPLES, signs_of
+from lostmotion.analysis.surrogates import SurrogateTest
 from lostmotion.contracts import Series
 from lostmotion.results import Embedding, Estimate
-from lostmotion.stages.surrogates import SurrogateTest
-from lostmotion.workflow.beat import Beat, MotionEvidence
-from lostmotion.workflow.motion import _locked, judged
-from lostmotion.workflow.signs import FEWEST_SAMPLES, signs_of
 from lostmotion_plugins.quantifiers.correlation_curves import flatness
 from lostmotion_plugins.quantifiers.dimension import SCATTER, TILT
 

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
+from lostmotion.analysis.source import WantedChannel, source_of
 from lostmotion.errors import CaseError, DataError
 from lostmotion.registry import Registry
-from lostmotion.workflow.source import WantedChannel, source_of
 
 ROWS = 400
 CASE = """

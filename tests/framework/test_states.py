@@ -6,17 +6,12 @@ import numpy as np
 import pytest
 
 from lostmotion.codec import to_plain
-from lostmotion.inference.course import Visit
-from lostmotion.likelihood.problem import RANDOM
-from lostmotion.results import Interval
-from lostmotion.results.diagnosis import Mechanism
-from lostmotion.settings import DEFAULT
-from lostmotion.stages.compare import PARTS, confirmed, worsened
-from lostmotion.workflow import confirming
-from lostmotion.workflow import diagnose as ways
-from lostmotion.workflow.confirming import usual
-from lostmotion.workflow.findings import shown
-from lostmotion.workflow.states import (
+from lostmotion.diagnosis import confirming
+from lostmotion.diagnosis import run as ways
+from lostmotion.diagnosis.compare import PARTS, confirmed, worsened
+from lostmotion.diagnosis.confirming import usual
+from lostmotion.diagnosis.findings import shown
+from lostmotion.diagnosis.states import (
     LIKELY,
     NAMED,
     OPEN,
@@ -27,6 +22,11 @@ from lostmotion.workflow.states import (
     open_of,
     unsteady,
 )
+from lostmotion.inference.course import Visit
+from lostmotion.likelihood.problem import RANDOM
+from lostmotion.results import Interval
+from lostmotion.results.diagnosis import Mechanism
+from lostmotion.settings import DEFAULT
 from lostmotion_plugins.terms.bodies import InertiaChange
 from lostmotion_plugins.terms.drive import ExcitationDelay
 from lostmotion_plugins.terms.friction import CoulombFriction
@@ -88,8 +88,8 @@ def _slots(monkeypatch):
         system = problem.system
         return system.terms[system.keys.index(key)], system.own[key]
 
-    monkeypatch.setattr("lostmotion.workflow.states.term_of", term_of)
-    monkeypatch.setattr("lostmotion.workflow.confirming.term_of", term_of)
+    monkeypatch.setattr("lostmotion.diagnosis.states.term_of", term_of)
+    monkeypatch.setattr("lostmotion.diagnosis.confirming.term_of", term_of)
 
 
 @pytest.mark.parametrize(("gain", "sure"), [(29.0, False), (31.0, True)])

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 import report_fixture as made
 
-from lostmotion.report import strip, style
+from lostmotion.diagnosis.report import strip
+from lostmotion.report import style
 
 WORST = {"window": 1, "begin": 1.0, "end": 2.0, "ratio": 4.3, "p": 0.001, "beyond_chance": True}
 TOLD = {

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from lostmotion.identification.task import within
 from lostmotion.likelihood.problem import Free
-from lostmotion.stages._task import within
 
 FREE = (Free("c", "1", 0.0, -1.0, 1.0), Free("log_noise", "1", 0.0, -10.0, 2.0))
 

@@ -6,6 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from lostmotion.diagnosis import unknowns
 from lostmotion.inference.curves import _told_apart
 from lostmotion.inference.learned import OverPhase, OverPosition, names_of, spread
 from lostmotion.inference.proposal import Axis, proposed
@@ -14,7 +15,6 @@ from lostmotion.likelihood.system import System
 from lostmotion.quantities import DAMPING, FORCE, LENGTH, SPEED
 from lostmotion.registry import default
 from lostmotion.settings import DEFAULT
-from lostmotion.workflow import unknowns
 from lostmotion_plugins.terms.friction import CoulombFriction
 
 X = Axis("x", LENGTH, FORCE, "translation")

@@ -6,17 +6,17 @@ import numpy as np
 import pytest
 import report_fixture as made
 
+from lostmotion.diagnosis import verdict
+from lostmotion.diagnosis.notes import drowned
+from lostmotion.diagnosis.report.opening import badge
+from lostmotion.diagnosis.run import unused
+from lostmotion.diagnosis.search import _check_moving
 from lostmotion.errors import DataError
 from lostmotion.inference.setup import lasting
 from lostmotion.likelihood.observation import Observation, Sensor
-from lostmotion.report.opening import badge
 from lostmotion.results import Interval
 from lostmotion.results.diagnosis import Mechanism
 from lostmotion.results.mismatch import UnexplainedForce
-from lostmotion.stages.diagnose import _check_moving
-from lostmotion.workflow import verdict
-from lostmotion.workflow.diagnose import unused
-from lostmotion.workflow.notes import drowned
 from lostmotion_plugins.models.basic import LinearOscillator
 
 

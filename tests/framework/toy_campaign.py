@@ -8,7 +8,7 @@ from functools import partial
 
 import numpy as np
 
-from lostmotion.workflow.campaign import Campaign
+from lostmotion.campaigns.campaign import Campaign
 from lostmotion_trials.coverage.ranks import rank_of
 from lostmotion_trials.coverage.results import MachineTrial, Sought, Standing
 

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from lostmotion.identification.sampling import Cloud, ShownCoordinate, Task
 from lostmotion.likelihood.problem import Free
-from lostmotion.stages.identify import Cloud, ShownCoordinate, Task
 
 
 @dataclass(frozen=True)

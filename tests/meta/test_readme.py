@@ -82,8 +82,8 @@ def test_no_address_of_an_index_and_no_path_of_a_machine(name):
 
 
 def test_recording_and_case_of_the_readme_belong_together(tmp_path):
+    from lostmotion.preparation.prepare import prepare
     from lostmotion.registry import Registry
-    from lostmotion.workflow.prepare import prepare
 
     (command,) = (block.split() for block in blocks("sh") if "lostmotion simulate" in block)
     subprocess.run([sys.executable, "-m", *command], cwd=tmp_path, capture_output=True, check=True, env=os.environ)

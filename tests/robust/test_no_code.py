@@ -11,15 +11,16 @@ from click.testing import CliRunner
 
 from lostmotion.cli import main
 from lostmotion.errors import DataError
+from lostmotion.maps.map import Map
 from lostmotion.recording import read_columns
 from lostmotion.report.pages import template
-from lostmotion.study.map import Map
 
 ROOT = Path(__file__).parents[2]
 SOURCES = sorted([*(ROOT / "framework").rglob("*.py"), *(ROOT / "plugins" / "lostmotion_plugins").rglob("*.py")])
+PAGES = sorted(p for top in ("framework", "plugins") for p in (ROOT / top).rglob("*.html.j2"))
 KNOWN = {
     "likelihood/adopted.py": {"exec"},  # our own text, filled with numbers and with functions of loaded plugins
-    "study/sweep.py": {"pickle.loads"},  # what the client of a dask cluster sent, over the cluster's own pickles
+    "maps/sweep.py": {"pickle.loads"},  # what the client of a dask cluster sent, over the cluster's own pickles
     "written.py": {"exec"},  # our own text: arithmetic on indices and numbers, made of a tree that was parsed
     "testing/rules.py": {"pickle.loads"},  # bytes that were made a moment ago
 }
@@ -86,11 +87,12 @@ def test_a_module_beside_a_recording_is_not_taken_for_one_of_pythons(
     assert not (tmp_path / "run").exists()
 
 
-@pytest.mark.parametrize("name", sorted(p.name for p in (ROOT / "framework/lostmotion/report").glob("*.html.j2")))
-def test_every_page_escapes_what_it_is_given(name: str) -> None:
-    page = template(name)
+@pytest.mark.parametrize("path", PAGES, ids=lambda path: path.parent.parent.name)
+def test_every_page_escapes_what_it_is_given(path: Path) -> None:
+    top = "framework" if path.is_relative_to(ROOT / "framework") else "plugins"
+    page = template(path.name, ".".join(path.parent.relative_to(ROOT / top).parts))
     assert page.environment.autoescape is True
-    text = (ROOT / "framework/lostmotion/report" / name).read_text(encoding="utf-8")
+    text = path.read_text(encoding="utf-8")
     assert "|safe" not in text.replace(" ", "")
     assert "{%autoescape" not in text.replace(" ", "")
 

@@ -24,7 +24,7 @@ from lostmotion.likelihood.predict import WORST, FreeRuns, free_runs
 from lostmotion.likelihood.problem import USUAL, Innovations
 from lostmotion.likelihood.space import Free, ParameterSpace
 from lostmotion.likelihood.system import System
-from lostmotion.study.cells import CODES
+from lostmotion.maps.cells import CODES
 from lostmotion_plugins.models.exact import ExactBacklash
 from lostmotion_plugins.models.lin import LinBacklash
 

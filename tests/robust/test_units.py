@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from lostmotion.codec import to_plain
+from lostmotion.diagnosis.run import run_diagnosis
 from lostmotion.likelihood.drive import Drive
 from lostmotion.likelihood.observation import rounded
 from lostmotion.likelihood.system import System
+from lostmotion.preparation.prepare import prepare
 from lostmotion.registry import Registry
-from lostmotion.workflow.diagnose import run_diagnosis
-from lostmotion.workflow.prepare import prepare
 from lostmotion_plugins.models.lin import LinBacklash
 from lostmotion_plugins.terms.friction import CoulombFriction
 

@@ -14,10 +14,10 @@ from field import elsewhere
 from truths import system_of
 
 from lostmotion.case import CaseFile, Prior
+from lostmotion.diagnosis.findings import draws_of, intervals
+from lostmotion.diagnosis.search import diagnose
 from lostmotion.likelihood.drive import Tone
 from lostmotion.likelihood.observation import Observation
-from lostmotion.stages.diagnose import diagnose
-from lostmotion.workflow.findings import draws_of, intervals
 
 
 def sign(v, speed):

@@ -15,16 +15,16 @@ from pathlib import Path
 import numpy as np
 from scipy.signal import decimate
 
+from lostmotion.identification.sampling import SampledPosterior, SamplingPlan, identify
+from lostmotion.identification.trajectory import SampledCase, chosen_terms, sampled, task_for
 from lostmotion.inference.fit import Fit, maximise, robust_covariance
 from lostmotion.inference.modes import distinct
 from lostmotion.inference.setup import problem_of, separated, stepped
 from lostmotion.likelihood.predict import filtered, free_run, observed
 from lostmotion.likelihood.problem import NOISE, RANDOM, Problem
 from lostmotion.likelihood.system import System
+from lostmotion.preparation.prepare import prepare
 from lostmotion.registry import default
-from lostmotion.stages.identify import SampledPosterior, SamplingPlan, identify
-from lostmotion.workflow.prepare import prepare
-from lostmotion.workflow.trajectory import SampledCase, chosen_terms, sampled, task_for
 
 EMPS_FILES = ("DATA_EMPS", "DATA_EMPS_PULSES")
 EMPS = """

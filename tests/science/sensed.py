@@ -9,8 +9,8 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from lostmotion.case import dump_case
+from lostmotion.diagnosis.run import run_diagnosis
 from lostmotion.registry import Registry
-from lostmotion.workflow.diagnose import run_diagnosis
 
 CHAIN = {
     "m1": 1.1, "c1": 0.6, "k1": 120.0, "m2": 0.8, "c2": 0.3, "k2": 25.0, "k0": 700.0, "c0": 0.4, "x0": 1.5e-3,

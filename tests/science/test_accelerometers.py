@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from scipy.stats import binom
 
+from lostmotion.diagnosis.notes import vague
 from lostmotion.inference.fit import maximise
 from lostmotion.inference.setup import problem_of, scales_of, search, split, stepped
 from lostmotion.inference.unseen import place_of_body
@@ -21,7 +22,6 @@ from lostmotion.likelihood.problem import NOISE, RANDOM
 from lostmotion.likelihood.reference import Reference
 from lostmotion.likelihood.system import System
 from lostmotion.registry import default
-from lostmotion.workflow.notes import vague
 
 SOURCE = Path(__file__).parents[2] / "benchmarks" / "accelerometers.py"
 SPEC = importlib.util.spec_from_file_location("benchmarks_accelerometers", SOURCE)

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from truths import FORCE, FRICTION, case_of, observation_of, system_of
 
-from lostmotion.stages.compare import exponent_of, horizon_for, pieces_of, predict, rates_of
-from lostmotion.stages.diagnose import diagnose
-from lostmotion.workflow.findings import draws_of, intervals
+from lostmotion.diagnosis.compare import exponent_of, horizon_for, pieces_of, predict, rates_of
+from lostmotion.diagnosis.findings import draws_of, intervals
+from lostmotion.diagnosis.search import diagnose
 
 pytestmark = pytest.mark.slow
 

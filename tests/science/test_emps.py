@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from machines import CARRIAGE, EMPS, EMPS_FILES, PUBLISHED
 
+from lostmotion.diagnosis.findings import intervals
+from lostmotion.diagnosis.run import judged
+from lostmotion.diagnosis.search import diagnose
 from lostmotion.likelihood.system import System
+from lostmotion.preparation.prepare import prepare
 from lostmotion.registry import default
-from lostmotion.stages.diagnose import diagnose
-from lostmotion.workflow.diagnose import judged
-from lostmotion.workflow.findings import intervals
-from lostmotion.workflow.prepare import prepare
 
 TOLERANCE = {"m": 0.03, "c": 0.03, "coulomb_friction.force": 0.03, "offset_force.force": 0.10}
 

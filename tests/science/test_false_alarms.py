@@ -7,9 +7,9 @@ import pytest
 from scipy.signal import lfilter
 from scipy.stats import binom
 
+from lostmotion.analysis.surrogates import surrogate_test
 from lostmotion.contracts import Series
 from lostmotion.results import Embedding
-from lostmotion.stages.surrogates import surrogate_test
 from lostmotion_plugins.quantifiers.cheap import MutualInformation, PredictionError, TimeReversal
 from lostmotion_plugins.surrogates.cycles import PseudoPeriodic
 from lostmotion_plugins.surrogates.iterated import Iaaft

@@ -13,12 +13,12 @@ from lostmotion.case.levels import Level, Measured
 from lostmotion.codec import to_plain
 from lostmotion.contracts import Orbit
 from lostmotion.flow import Harmonic, flow_of
+from lostmotion.identification.levels import Survey, inversion_of
+from lostmotion.identification.reading import read_level
+from lostmotion.identification.rehearsal import Bench, rehearsed, rehearsed_levels
+from lostmotion.identification.result import level_told
+from lostmotion.maps.inversion import predicted
 from lostmotion.registry import default
-from lostmotion.study.inversion import predicted
-from lostmotion.workflow.identification_result import level_told
-from lostmotion.workflow.levels import Survey, inversion_of
-from lostmotion.workflow.reading import read_level
-from lostmotion.workflow.rehearsal import Bench, rehearsed, rehearsed_levels
 
 REGISTRY = default()
 M, K0, OMEGA = 1.0, 4e4, 40.0

@@ -19,8 +19,8 @@ from lostmotion.likelihood.bends import stretched, unbent
 from lostmotion.likelihood.engine import Innovations
 from lostmotion.likelihood.problem import Free
 from lostmotion.likelihood.system import ALWAYS, System
+from lostmotion.preparation.prepare import prepare
 from lostmotion.registry import Registry
-from lostmotion.workflow.prepare import prepare
 from lostmotion_plugins.terms.elastic import CubicStiffness, LinearStiffness, OffsetForce
 from lostmotion_plugins.terms.friction import CoulombFriction
 from lostmotion_plugins.terms.friction_kinds import DirectionalFriction

@@ -2,8 +2,8 @@
 
 import pytest
 
+from lostmotion.preparation.prepare import prepare
 from lostmotion.registry import default
-from lostmotion.workflow.prepare import prepare
 from lostmotion_trials.blind.bound import yardstick
 from lostmotion_trials.blind.commitment import Blind, concealed, publish, unsealed
 from lostmotion_trials.blind.judging import judged

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from machines import EMPS_FILES, LEVEL, PUBLISHED, damper, emps, travel
 
-from lostmotion.stages.identify import SamplingPlan
-from lostmotion.workflow.trajectory import doubts
+from lostmotion.identification.sampling import SamplingPlan
+from lostmotion.identification.trajectory import doubts
 
 pytestmark = [pytest.mark.real, pytest.mark.slow]
 TOLERANCE = {"m": 0.01, "c": 0.08, "coulomb_friction.force": 0.02, "offset_force.force": 0.03}

@@ -15,8 +15,8 @@ import pytest
 from machines import FRICTION, PUBLISHED
 from rig_cases import CASES
 
+from lostmotion.diagnosis.run import run_diagnosis
 from lostmotion.registry import default
-from lostmotion.workflow.diagnose import run_diagnosis
 
 pytestmark = [pytest.mark.real, pytest.mark.slow]
 RIGS = tuple(name for name in CASES if name != "emps_whole")

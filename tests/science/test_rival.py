@@ -6,18 +6,18 @@ import numpy as np
 import pytest
 from sensed import case_of, model_of, moved, multisine, noisy
 
+from lostmotion.diagnosis.compare import horizon_for, pieces_of
+from lostmotion.diagnosis.confirming import unconfirmed
+from lostmotion.diagnosis.search import fitted_keys
 from lostmotion.inference.candidates import fit_with, screen, slopes_of
 from lostmotion.inference.course import Selection, Visit
 from lostmotion.inference.rival import USUAL, evidence_of, expanded, fitted, righted
 from lostmotion.inference.selection import Selector
 from lostmotion.inference.setup import problem_of, search, split
 from lostmotion.likelihood.system import System
+from lostmotion.preparation.prepare import prepare
 from lostmotion.registry import Registry
 from lostmotion.settings import DEFAULT
-from lostmotion.stages.compare import horizon_for, pieces_of
-from lostmotion.stages.diagnose import fitted_keys
-from lostmotion.workflow.confirming import unconfirmed
-from lostmotion.workflow.prepare import prepare
 
 VALUES = {"m": 1.2, "c": 0.8, "k": 300.0}
 T = np.arange(0.0, 12.0, 0.02)

@@ -11,12 +11,12 @@ from test_unknown_force import CLEAN, RIPPLE, fitted
 from truths import case_of
 
 from lostmotion.contracts import Param, Term
+from lostmotion.diagnosis.search import diagnose
 from lostmotion.inference.scout import scouted
 from lostmotion.likelihood.system import System
+from lostmotion.preparation.candidates import candidates_of
 from lostmotion.quantities import FORCE, LENGTH
 from lostmotion.registry import default
-from lostmotion.stages.candidates import candidates_of
-from lostmotion.stages.diagnose import diagnose
 
 PITCH = 0.002
 """Thirteen periods over the travel, a fifth of the half gap."""

@@ -10,6 +10,7 @@ from several import C, K, M, fitted, least, recorded, rubbed, rubbing
 
 from lostmotion.case import dump_case
 from lostmotion.codec import to_plain
+from lostmotion.diagnosis.run import run_diagnosis
 from lostmotion.inference.sharing import (
     covariance_of,
     holm,
@@ -21,7 +22,6 @@ from lostmotion.inference.sharing import (
     widened,
 )
 from lostmotion.registry import Registry
-from lostmotion.workflow.diagnose import run_diagnosis
 
 FORCE = "coulomb_friction.force"
 

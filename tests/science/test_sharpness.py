@@ -10,12 +10,12 @@ from independent import FINE, Machine, recording
 from scipy.linalg import expm
 from truths import TRUE, case_of, system_of
 
+from lostmotion.identification.sampling import SamplingPlan, identify, task_of
 from lostmotion.inference.fit import maximise
 from lostmotion.inference.setup import problem_of, stepped
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import RANDOM
 from lostmotion.likelihood.system import System
-from lostmotion.stages.identify import SamplingPlan, identify, task_of
 
 PERIODIC = {"2.6": 200.0 / 2.6, "4.1": 200.0 / 4.1}
 PARTS = FINE // EVERY

@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 from sensed import case_of, model_of, moved, multisine, noisy
 
+from lostmotion.diagnosis.run import run_diagnosis
 from lostmotion.inference.curves import band_of
 from lostmotion.inference.setup import problem_of, search, split
 from lostmotion.inference.unexplained import CurveSearch
 from lostmotion.likelihood.system import System
+from lostmotion.preparation.prepare import prepare
 from lostmotion.registry import Registry
-from lostmotion.workflow.diagnose import run_diagnosis
-from lostmotion.workflow.prepare import prepare
 
 VALUES = {"m": 1.2, "c": 2.0, "k": 300.0}
 T = np.arange(0.0, 24.0, 0.02)

@@ -11,8 +11,8 @@ from lostmotion.case import CaseFile, Prior
 from lostmotion.inference.setup import noise_frees, problem_of
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.system import System
+from lostmotion.preparation.candidates import candidates_of
 from lostmotion.registry import default
-from lostmotion.stages.candidates import candidates_of
 
 TRUE = {"m": 1.0, "c": 8.0, "k1": 0.0, "k0": 4e4, "x0": 0.005}
 FRICTION, FORCE = "coulomb_friction", "coulomb_friction.force"

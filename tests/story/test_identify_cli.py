@@ -10,10 +10,10 @@ import pytest
 from click.testing import CliRunner
 
 from lostmotion.cli import main
+from lostmotion.identification.chains import quiet_arviz
+from lostmotion.identification.trajectory import best_fits, chosen_terms
+from lostmotion.preparation.prepare import prepare
 from lostmotion.registry import default
-from lostmotion.stages._chains import quiet_arviz
-from lostmotion.workflow.prepare import prepare
-from lostmotion.workflow.trajectory import best_fits, chosen_terms
 
 CASE = """
 title = "Small Lin"

@@ -57,7 +57,7 @@ def command(ctx: click.Context, /, recording: Path, out: Path, quiet: bool, **as
     Writes analysis.json, analysis.nc and report.html into DIR. Exit status 0 when the chain ran to its end, whatever
     it says; 2 for a recording that cannot be used.
     """
-    from lostmotion.workflow.analyse import AnalysisRequest, run_analysis
+    from lostmotion.analysis.run import AnalysisRequest, run_analysis
 
     with progress("analyse", quiet=quiet) as say:
         found = run_analysis(recording, out, registry_of(ctx), AnalysisRequest(**asked), say)  # type: ignore[arg-type]

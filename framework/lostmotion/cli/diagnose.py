@@ -54,9 +54,9 @@ def command(ctx: click.Context, /, cases: tuple[Path, ...], out: Path, model: st
 
 def _begun(ctx: click.Context, case: Path, out: Path, model: str) -> Path:
     """Return a case; where a recording was given, one that is written for it into the folder of the results."""
+    from lostmotion.preparation.beginning import begun
     from lostmotion.recording import ENDINGS
     from lostmotion.recording.outline import Wishes
-    from lostmotion.workflow.beginning import begun
 
     if case.suffix[1:].lower() not in ENDINGS:
         if model:
@@ -70,7 +70,7 @@ def _begun(ctx: click.Context, case: Path, out: Path, model: str) -> Path:
 
 
 def _one(ctx: click.Context, case: Path, out: Path, *, quiet: bool, seed: int, jobs: int, settings: Settings) -> None:
-    from lostmotion.workflow.diagnose import run_diagnosis
+    from lostmotion.diagnosis.run import run_diagnosis
 
     with progress("diagnose", quiet=quiet) as say:
         found = run_diagnosis(case, out, registry_of(ctx), seed=seed, jobs=jobs, say=say, settings=settings)
@@ -82,8 +82,8 @@ def _one(ctx: click.Context, case: Path, out: Path, *, quiet: bool, seed: int, j
 def _many(
     ctx: click.Context, cases: tuple[Path, ...], out: Path, *, quiet: bool, seed: int, jobs: int, settings: Settings
 ) -> None:
-    from lostmotion.workflow.batch import Batch, named, run_batch
-    from lostmotion.workflow.batch_table import ASIDE, SUMMARY, lines_of
+    from lostmotion.campaigns.batch import Batch, named, run_batch
+    from lostmotion.campaigns.table import ASIDE, SUMMARY, lines_of
 
     plugins = tuple(str(Path(file).absolute()) for file in ctx.find_root().params.get("plugin") or ())
     batch = Batch(named(cases), out.absolute(), plugins, seed, settings)

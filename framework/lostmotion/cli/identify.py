@@ -13,9 +13,9 @@ from lostmotion.cli._lazy import examples, registry_of
 from lostmotion.cli.options import on_a_case, settable, with_maps, with_terms
 
 if TYPE_CHECKING:
+    from lostmotion.identification.run import Identified
     from lostmotion.results.identification import Parameter
     from lostmotion.settings import Settings
-    from lostmotion.workflow.identify import Identified
 
 
 @click.command(
@@ -55,8 +55,8 @@ def command(
     cut short goes on where it stopped. Exit status 0 when the sampling ended, converged or not; no interval is given of
     a chain that has not converged. 2 for a case that cannot be used.
     """
-    from lostmotion.stages.identify import SamplingPlan
-    from lostmotion.workflow.identify import Order, run_identification
+    from lostmotion.identification.run import Order, run_identification
+    from lostmotion.identification.sampling import SamplingPlan
 
     plan = SamplingPlan(**{key: given.pop(key) for key in ("ess", "max_steps", "walkers")}, limits=settings.chain)  # type: ignore[arg-type]
     order = Order(seed=seed, jobs=jobs, plan=plan, settings=settings, **given)  # type: ignore[arg-type]

@@ -47,8 +47,8 @@ def command(
     Exit status 0 when the case can be used; 2 where a role cannot be told, or the recording cannot be used: then the
     message says which option helps.
     """
+    from lostmotion.preparation.beginning import begun
     from lostmotion.recording.outline import Wishes
-    from lostmotion.workflow.beginning import begun
 
     if out.exists() and not force:
         raise click.UsageError(f"{out} is there already: give another --out, or --force")

@@ -13,7 +13,7 @@ import click
 from lostmotion.cli._lazy import PluginName, examples, registry_of
 
 if TYPE_CHECKING:
-    from lostmotion.study.map import Map
+    from lostmotion.maps.map import Map
 
 _AXIS = "NAME=LOW:HIGH:N[:log|inverse]"
 
@@ -94,8 +94,8 @@ def command(
     and exponents are per t_bar. The same command continues a map that was interrupted, at any moment; the bytes do not
     depend on that, nor on the number of workers. Exit status 0 when the map is whole, 2 when it cannot be made.
     """  # noqa: D301 - click wants the character itself
-    from lostmotion.study.sweep import Crew
-    from lostmotion.workflow.mapping import How, Request, make_map, study_of
+    from lostmotion.maps.run import How, Request, make_map, study_of
+    from lostmotion.maps.sweep import Crew
 
     own = {key: settings.pop(key) for key in ("refine", "jobs", "address", "figure", "fresh", "quiet")}
     axes = tuple(text for text in (x, y, *more) if text)
@@ -113,7 +113,7 @@ def command(
         each = seconds / (done * study.starts * (study.periods + study.transient))
         click.echo(f"{done} cells computed in {seconds:.1f} s, {1e6 * each:.2f} us a cell-period")
     if own["figure"]:
-        from lostmotion.report.map_figure import save
+        from lostmotion.maps.figure import save
 
         click.echo(str(save(found.dataset, out.with_suffix(".png"))))
 
@@ -146,7 +146,7 @@ def _bar(quiet: bool) -> Iterator[Callable[[int, int], None]]:
 
 def _tell_failures(name: str, found: Map) -> None:
     """Tell on standard error for how many motions a quantifier of somebody else broke down."""
-    from lostmotion.study.cells import CODES
+    from lostmotion.maps.cells import CODES
 
     flags = found.dataset[f"{name}_status"].to_numpy()
     if failed := int((flags == CODES["failed"]).sum()):

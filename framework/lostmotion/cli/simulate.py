@@ -83,8 +83,8 @@ def command(
 
     A parameter of the model that may be zero, such as k1 or mgl, is zero when it is not set.
     """  # noqa: D301
+    from lostmotion.simulation.simulate import Plan, assembly_of, simulate
     from lostmotion.storage import require_ending
-    from lostmotion.workflow.simulate import Plan, assembly_of, simulate
 
     require_ending(out)
     registry = registry_of(ctx)
@@ -100,7 +100,7 @@ def command(
 
 def _numbers(texts: tuple[str, ...], option: str) -> dict[str, float]:
     """Return the `NAME=VALUE` of an option given several times; one text may hold several, with commas between."""
-    from lostmotion.workflow.drives import number, pairs
+    from lostmotion.simulation.drives import number, pairs
 
     found = pairs(",".join(texts), option)
     return {name: number(value, f"{name} of {option}") for name, value in found.items()}

@@ -7,9 +7,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from lostmotion.analysis.report import page as page
+from lostmotion.analysis.report.view import AGAIN, ARRAYS, RESULT, view_of
 from lostmotion.codec import to_plain
-from lostmotion.report import analysis as page
-from lostmotion.report.analysis_view import AGAIN, ARRAYS, RESULT, view_of
 from lostmotion.results.analysis import Analysis
 from lostmotion.storage import folder_for, load_arrays, load_result, save_datasets, save_json, save_text
 

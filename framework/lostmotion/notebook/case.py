@@ -14,11 +14,11 @@ import numpy as np
 from lostmotion.case import WRITTEN, CaseFile, Experiment, Prior, SensorSpec, check_alike, dump_case
 from lostmotion.contracts import Model
 from lostmotion.errors import CaseError, PluginError, nearest
+from lostmotion.preparation.prepare import Prepared, case_of, prepared_with
+from lostmotion.preparation.vetting import sound
 from lostmotion.recording import Recording, load_recording
 from lostmotion.registry import Registry, default
 from lostmotion.storage import folder_for, save_table
-from lostmotion.workflow.prepare import Prepared, case_of, prepared_with
-from lostmotion.workflow.vetting import sound
 from lostmotion.written import Written, is_equation, model_of
 
 

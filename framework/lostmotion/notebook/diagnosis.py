@@ -12,14 +12,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from lostmotion.codec import from_plain, to_plain
+from lostmotion.diagnosis.findings import Outcome
+from lostmotion.diagnosis.report import learned, missing, page, portraits, posteriors, prediction, ranking
+from lostmotion.diagnosis.report.evidence import Evidence, evidence_with
 from lostmotion.notebook.machine import FittedModel, fitted_of, machine_of
 from lostmotion.registry import Registry, default
-from lostmotion.report import learned, missing, page, portraits, posteriors, prediction, ranking, style
-from lostmotion.report.evidence import Evidence, evidence_with
+from lostmotion.report import style
 from lostmotion.results import Interval
 from lostmotion.results.diagnosis import Candidate, Diagnosis, HeldOutScore, Mechanism
 from lostmotion.storage import folder_for, load_arrays, load_json, save_datasets, save_json, save_text
-from lostmotion.workflow.findings import Outcome
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -26,7 +26,7 @@ from lostmotion.recording import Recording
 from lostmotion.recording.checks import filled
 from lostmotion.registry import Registry, default
 from lostmotion.settings import Settings, read
-from lostmotion.workflow import simulate as _simulate
+from lostmotion.simulation import simulate as _simulate
 
 if TYPE_CHECKING:
     import xarray
@@ -61,7 +61,7 @@ def diagnose(
     `settings` changes thresholds that decide, such as `{"select.decisive": 4.0}` (`lostmotion.settings` lists them).
     Raises `CaseError` or `DataError` where the case cannot be used, with the sentence of the command line.
     """
-    from lostmotion.workflow.diagnose import told_of
+    from lostmotion.diagnosis.run import told_of
 
     known_to = registry or default()
     asked = case_from(case, model, known, estimate, known_to)
@@ -102,9 +102,9 @@ def identify(
     wanted. `route` is "trajectory" or "quantifiers", which needs the path of a case, and may be given `maps`.
     `settings` are as for `diagnose`.
     """
-    from lostmotion.stages.identify import SamplingPlan
-    from lostmotion.workflow.identify import Order, identified, inference_of, route_of
-    from lostmotion.workflow.prepare import case_of
+    from lostmotion.identification.run import Order, identified, inference_of, route_of
+    from lostmotion.identification.sampling import SamplingPlan
+    from lostmotion.preparation.prepare import case_of
 
     known_to = registry or default()
     limits = read(settings)
@@ -154,8 +154,8 @@ def analyse(
     of their `draws`. `unit` is that of exponents: "1/s", "bit/s", "1/period" or "bit/period". `settings` are as
     for `diagnose`.
     """
-    from lostmotion.workflow.analyse import AnalysisRequest, told_of
-    from lostmotion.workflow.source import WantedChannel, source_in, source_of
+    from lostmotion.analysis.run import AnalysisRequest, told_of
+    from lostmotion.analysis.source import WantedChannel, source_in, source_of
 
     request = AnalysisRequest(
         columns=_texts(columns),
@@ -256,8 +256,8 @@ def map(
     many `starts`, followed over so many `periods`, of which a `transient` is left out; `refine` halves cells so often
     where neighbours differ.
     """
-    from lostmotion.study.sweep import Crew
-    from lostmotion.workflow.mapping import How, Request, make_map, study_of
+    from lostmotion.maps.run import How, Request, make_map, study_of
+    from lostmotion.maps.sweep import Crew
 
     request = Request(
         model,
@@ -296,7 +296,7 @@ def case_from(
 
 def _guessed(recording: Recording, given: Modelled, known: Mapping[str, float], estimate: Mapping[str, Prior]) -> Case:
     """Return a case of a recording, with wide priors of what is neither known nor estimated."""
-    from lostmotion.workflow.beginning import guesses, sizes_of
+    from lostmotion.preparation.beginning import guesses, sizes_of
 
     first = Case(recording, given, known, estimate, recording.name)
     machine: Any = first.model

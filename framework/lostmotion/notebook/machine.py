@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from lostmotion.contracts import Array, Assembly, Model, Term
+from lostmotion.diagnosis.findings import Outcome
 from lostmotion.errors import CaseError, DataError, nearest
 from lostmotion.likelihood.sensors import Sensor
 from lostmotion.quantities import unit_of
@@ -18,8 +19,7 @@ from lostmotion.recording import Recording
 from lostmotion.recording.made import made as recorded
 from lostmotion.registry import Registry
 from lostmotion.results.background import FittedMachine
-from lostmotion.workflow.findings import Outcome
-from lostmotion.workflow.simulate import Moved, set_in_motion
+from lostmotion.simulation.simulate import Moved, set_in_motion
 from lostmotion.written import model_of
 
 Signal = ArrayLike | Callable[[Array], Array]

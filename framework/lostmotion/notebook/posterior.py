@@ -9,10 +9,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from lostmotion.codec import to_plain
-from lostmotion.report import identification as page
-from lostmotion.report import identification_figures as drawing
+from lostmotion.identification.report import figures as drawing
+from lostmotion.identification.report import page as page
+from lostmotion.identification.report.view import AGAIN, DRAWS, RESULT, IdentificationView, view_of
 from lostmotion.report import style
-from lostmotion.report.identification_view import AGAIN, DRAWS, RESULT, IdentificationView, view_of
 from lostmotion.results import Interval
 from lostmotion.results.identification import Identification
 from lostmotion.storage import folder_for, load_arrays, load_result, save_datasets, save_json, save_text

@@ -86,10 +86,10 @@ def written(page: Path, render: Callable[[], str], source: str) -> Path:
     return save_text(page, text)
 
 
-def template(name: str, package: str = "lostmotion.report") -> Template:
+def template(name: str, package: str) -> Template:
     """Return a page template that escapes every string and stumbles over every name it does not know.
 
-    It lies in a `package`, and may include what lies beside the pages of the framework, such as the style sheet.
+    It lies in a `package`, and may include what all pages share, such as the frame and the style sheet.
     """
     folders = dict.fromkeys((package, "lostmotion.report"))
     pages = Environment(

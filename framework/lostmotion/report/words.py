@@ -194,3 +194,11 @@ def _decimals(width: float, value: float) -> int:
     """Return the decimals that show two figures of a width, or four of the value where there is no width."""
     size = width / 30 if width > 0 and math.isfinite(width) else abs(value) / 1e4
     return min(12, max(0, -math.floor(math.log10(size)) - 1)) if size > 0 else 1
+
+
+def words_of(name: str) -> str:
+    """Return the name of a parameter in words; that of a term's parameter says whose it is."""
+    term, _, own = name.rpartition(".")
+    mechanism, _, place = term.partition("@")
+    where = f" ({place})" if place else ""
+    return f"{spoken(mechanism)}{where}: {spoken(own)}" if term else name

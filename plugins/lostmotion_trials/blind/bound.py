@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from lostmotion.diagnosis.compare import pieces_of, predict, rates_of
 from lostmotion.inference.candidates import joined
 from lostmotion.inference.fit import Fit, maximise, restarted, warmed
 from lostmotion.inference.leftovers import significant_random_force
@@ -21,10 +22,9 @@ from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.predict import Horizon
 from lostmotion.likelihood.problem import NOISE, RANDOM, Problem
 from lostmotion.likelihood.system import System, key_of
+from lostmotion.preparation.prepare import Prepared
 from lostmotion.results import Interval
 from lostmotion.results.diagnosis import Diagnosis, HeldOutScores, Mechanism
-from lostmotion.stages.compare import pieces_of, predict, rates_of
-from lostmotion.workflow.prepare import Prepared
 from lostmotion_trials.blind.pilot import Effect
 from lostmotion_trials.blind.sealed import SealedMachine
 from lostmotion_trials.blind.simulator import BlindDrive, BlindMachine

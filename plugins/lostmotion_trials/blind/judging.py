@@ -9,11 +9,11 @@ from functools import partial
 from pathlib import Path
 
 from lostmotion.errors import LostMotionError, PlaceError
+from lostmotion.preparation.prepare import prepare
 from lostmotion.registry import Registry
 from lostmotion.results import Interval
 from lostmotion.results.diagnosis import Candidate, Confusion, Diagnosis, HeldOutScores, Mechanism
 from lostmotion.storage import load_result
-from lostmotion.workflow.prepare import prepare
 from lostmotion_trials.blind.bound import ALIKE, Yardstick, alike, covered, with_names, yardstick
 from lostmotion_trials.blind.commitment import unsealed
 from lostmotion_trials.blind.mechanisms import TABLE

@@ -9,13 +9,13 @@ from functools import lru_cache, partial
 from pathlib import Path
 from typing import TypeVar
 
+from lostmotion.campaigns.campaign import Campaign, Trial
 from lostmotion.codec import to_plain
+from lostmotion.diagnosis.run import run_diagnosis
 from lostmotion.errors import LostMotionError, PlaceError
 from lostmotion.provenance import digest, provenance
 from lostmotion.registry import Registry
 from lostmotion.storage import folder_for, save_json
-from lostmotion.workflow.campaign import Campaign, Trial
-from lostmotion.workflow.diagnose import run_diagnosis
 from lostmotion_trials.blind.commitment import Blind, concealed, label, publish
 from lostmotion_trials.blind.judging import judged
 from lostmotion_trials.blind.page import write_proof

@@ -77,7 +77,7 @@ def command(ctx: click.Context, /, case: Path, out: Path, drives: tuple[str, ...
     interrupted, at any moment, or enlarges it by more --machines; the bytes depend neither on that nor on --jobs. Exit
     status 0 when the campaign ended, passed or not; 2 for what cannot be used.
     """
-    from lostmotion.stages.identify import SamplingPlan
+    from lostmotion.identification.sampling import SamplingPlan
     from lostmotion_trials.coverage.design import Design
     from lostmotion_trials.coverage.machines import Stand
     from lostmotion_trials.coverage.run import run_calibration

@@ -13,12 +13,12 @@ import numpy as np
 from lostmotion.case import CaseFile, Prior, load_case
 from lostmotion.contracts import Array, Group, Model, Term
 from lostmotion.errors import CaseError
+from lostmotion.identification.sampling import SamplingPlan
 from lostmotion.inference.setup import known_of
 from lostmotion.likelihood.system import Slot, System, key_of
 from lostmotion.provenance import digest
 from lostmotion.registry import Registry
-from lostmotion.stages.identify import SamplingPlan
-from lostmotion.workflow.simulate import assembly_of
+from lostmotion.simulation.simulate import assembly_of
 from lostmotion_trials.coverage.machines import SeenMachine, Stand, moved_by, recorded
 
 ROUTES = ("trajectory", "quantifiers")

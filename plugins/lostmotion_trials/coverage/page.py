@@ -16,8 +16,7 @@ from lostmotion.contracts import Array
 from lostmotion.errors import DataError
 from lostmotion.report import style
 from lostmotion.report.pages import DrawnSection, template, written
-from lostmotion.report.posteriors import words_of
-from lostmotion.report.words import DASH, figures, pretty, readable, sentence, spoken
+from lostmotion.report.words import DASH, figures, pretty, readable, sentence, spoken, words_of
 from lostmotion.storage import load_json, require_files
 from lostmotion_trials.coverage.figures import CAPTIONS, Found, ecdf, histograms, intervals
 from lostmotion_trials.coverage.results import (

@@ -11,11 +11,11 @@ from pathlib import Path
 
 import numpy as np
 
+from lostmotion.campaigns.campaign import Campaign, Say
 from lostmotion.codec import to_plain
 from lostmotion.contracts import Array
 from lostmotion.provenance import provenance
 from lostmotion.storage import folder_for, save_json, whole
-from lostmotion.workflow.campaign import Campaign, Say
 from lostmotion_trials.coverage import ranks
 from lostmotion_trials.coverage.design import Design, workshop
 from lostmotion_trials.coverage.page import write_calibration

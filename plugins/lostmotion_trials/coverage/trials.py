@@ -16,13 +16,13 @@ from lostmotion.case import dump_case
 from lostmotion.case.levels import Level
 from lostmotion.contracts import Array
 from lostmotion.errors import CaseError, LostMotionError, PlaceError
+from lostmotion.identification.levels import Survey, inversion_of, quantifier_task
+from lostmotion.identification.sampling import SampledPosterior, identify
+from lostmotion.identification.trajectory import chosen_terms, sampled
+from lostmotion.preparation.prepare import case_of, prepare
 from lostmotion.quantities import ANGULAR, SI, unit_of
-from lostmotion.stages.identify import SampledPosterior, identify
+from lostmotion.simulation.drives import Options, pairs
 from lostmotion.storage import save_table
-from lostmotion.workflow.drives import Options, pairs
-from lostmotion.workflow.levels import Survey, inversion_of, quantifier_task
-from lostmotion.workflow.prepare import case_of, prepare
-from lostmotion.workflow.trajectory import chosen_terms, sampled
 from lostmotion_trials.coverage.design import Design, DrawnMachine, Workshop, workshop
 from lostmotion_trials.coverage.machines import SeenMachine
 from lostmotion_trials.coverage.ranks import rank_of

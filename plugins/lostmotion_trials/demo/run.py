@@ -10,10 +10,10 @@ from pathlib import Path
 import numpy as np
 
 from lostmotion.contracts import Array
+from lostmotion.diagnosis.report.hero import figure_hero
+from lostmotion.diagnosis.run import run_diagnosis
 from lostmotion.registry import Registry
-from lostmotion.report import figure_hero
 from lostmotion.results.diagnosis import Diagnosis, Mechanism
-from lostmotion.workflow.diagnose import run_diagnosis
 from lostmotion_trials.demo.conceal import AMPLITUDE, FREQUENCY, FRICTION, HIDDEN, conceal_joint, write_case
 
 PERIODS = 40

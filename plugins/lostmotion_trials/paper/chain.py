@@ -8,9 +8,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from lostmotion.analysis.embed import embed
+from lostmotion.analysis.quantify import quantify
 from lostmotion.contracts import Array, Series
-from lostmotion.stages.embed import embed
-from lostmotion.stages.quantify import quantify
 from lostmotion_trials.paper.lab import Lab
 
 DIMS = 8

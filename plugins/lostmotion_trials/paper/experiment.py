@@ -7,11 +7,11 @@ from dataclasses import replace
 
 import numpy as np
 
+from lostmotion.analysis.quantify import quantify
 from lostmotion.contracts import Series
 from lostmotion.rates import exponent_in
 from lostmotion.results import Estimate
 from lostmotion.signals import spectrum, without_harmonics
-from lostmotion.stages.quantify import quantify
 from lostmotion_trials.paper.chain import Slopes, cleaned, first_minimum, size, slopes, unfolded
 from lostmotion_trials.paper.drawings import (
     CaoDrawing,

@@ -1,0 +1,1 @@
+"""The page of an analysis: reads its result and curves, and computes nothing."""

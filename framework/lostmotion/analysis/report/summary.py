@@ -1,0 +1,63 @@
+"""The one wide picture of an analysis, for a README or a talk: portrait, section, divergence, dimension."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from lostmotion.analysis.report.measures import draw_dimensions, draw_divergence
+from lostmotion.analysis.report.motion import draw_portrait, draw_section
+from lostmotion.analysis.report.view import AnalysisView, read_analysis, scale
+from lostmotion.report import style
+
+Panel = Callable[[Axes, AnalysisView], None]
+
+
+def figure_summary(folder: Path) -> Path:
+    """Return the path of `summary.png` in the folder: portrait, section, divergence and dimension side by side."""
+    with style.applied():
+        return style.save(draw(read_analysis(folder)), folder / "summary.png")
+
+
+def draw(view: AnalysisView) -> Figure:
+    """Return the panels side by side; one whose arrays are absent stays out."""
+    panels = _panels(view)
+    figure = style.blank(3.5, width=3.5 * max(1, len(panels)))
+    row = figure.subplots(1, max(1, len(panels)), squeeze=False)[0]
+    for axes, (title, panel) in zip(row, panels, strict=False):
+        panel(axes, view)
+        axes.set_title(title)
+    if not panels:
+        row[0].set_axis_off()
+        row[0].text(0.5, 0.5, "no arrays", ha="center")
+    return figure
+
+
+def _panels(view: AnalysisView) -> list[tuple[str, Panel]]:
+    able: tuple[tuple[str, Panel, bool], ...] = (
+        ("Phase portrait", _portrait, view.has("x")),
+        ("Poincaré section", _section, view.has("section")),
+        ("Neighbouring states part", _divergence, view.has("lyapunov_time", "lyapunov_divergence")),
+        ("Correlation dimension", draw_dimensions, view.has("d2_dim", "d2_dimension_by_dim")),
+    )
+    return [(title, panel) for title, panel, can in able if can]
+
+
+def _cleanest(view: AnalysisView, name: str, cleaned: str) -> str:
+    return cleaned if view.has(cleaned) else name
+
+
+def _portrait(axes: Axes, view: AnalysisView) -> None:
+    draw_portrait(axes, view, (_cleanest(view, "x", "cleaned"), style.AFTER), scale(view))
+
+
+def _section(axes: Axes, view: AnalysisView) -> None:
+    draw_section(axes, view, (_cleanest(view, "section", "section_cleaned"), style.AFTER), scale(view))
+
+
+def _divergence(axes: Axes, view: AnalysisView) -> None:
+    draw_divergence(axes, view)
+    axes.legend(loc="lower right", fontsize=8)

@@ -1,0 +1,231 @@
+"""What was measured of a channel as a result: its numbers and sentences, and the arrays behind them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from lostmotion.analysis.surrogates import SurrogateTest
+from lostmotion.contracts import Array, Series
+from lostmotion.results import Embedding, Estimate
+from lostmotion.results.analysis import (
+    Analysis,
+    ChosenDelay,
+    ChosenDimension,
+    DrivePeriod,
+    Measure,
+    RecordedNoise,
+    SurrogateOutcome,
+)
+from lostmotion.results.background import Origin
+from lostmotion.signals import poincare, spectrum, stroboscopic, without_harmonics
+from lostmotion.storage import StoredArray
+
+if TYPE_CHECKING:
+    from lostmotion.analysis.run import AnalysedChannel
+
+SHARE = "share of the signal's standard deviation"
+CORRELATION = "grassberger_procaccia"
+Columns = dict[str, StoredArray]
+UNITS = {"lag": "s", "time": "s", "ami": "nat", "ami_floor": "nat", "slope": "1"}
+"""The units of curves that have one."""
+
+
+def statement(found: AnalysedChannel, origin: Origin) -> Analysis:
+    """Return what was found out about a channel."""
+    clean, denoised, embedding = found.clean, found.denoised, found.clean.embedding
+    delay, dimension = embedding.methods
+    return Analysis(
+        title=found.source.title,
+        verdict=found.verdict.motion,
+        strength=found.verdict.strength,
+        says=found.verdict.says,
+        signs=found.verdict.signs,
+        because=found.verdict.because,
+        delay=ChosenDelay(samples=int(embedding.lag), seconds=embedding.lag * clean.dt, method=delay),
+        dimension=ChosenDimension(value=int(embedding.dim), method=dimension, theiler=int(embedding.theiler)),
+        noise=RecordedNoise(
+            before=denoised.before.value,
+            after=denoised.after.value,
+            unit=SHARE,
+            before_interval=(denoised.before.low, denoised.before.high),
+            method=found.denoiser,
+        ),
+        lyapunov=measure(found.exponent, found.exponent_method),
+        d2=measure(found.dimension, CORRELATION),
+        k2=measure(found.entropy, CORRELATION),
+        others=tuple(measure(one, name, name) for name, one in found.others.items()),
+        surrogates=tuple(map(outcome, found.tests)),
+        drive=_drive(found),
+        notes=notes(found),
+        provenance=origin,
+    )
+
+
+def measure(found: Estimate, method: str, name: str | None = None) -> Measure:
+    """Return an estimate without its curves."""
+    return Measure(
+        name=name,
+        value=found.value,
+        low=found.low,
+        high=found.high,
+        unit=found.unit,
+        method=method,
+        status=found.status,
+        says=found.says,
+        details=found.details,
+    )
+
+
+def outcome(test: SurrogateTest) -> SurrogateOutcome:
+    """Return a surrogate test without its draws."""
+    return SurrogateOutcome(
+        null=test.null,
+        method=test.method,
+        statistic=test.statistic,
+        draws=len(test.values),
+        p=test.p,
+        sided=test.sided,
+        original=test.original,
+        says=test.says,
+    )
+
+
+def _drive(found: AnalysedChannel) -> DrivePeriod:
+    period = math.nan if found.beat.period is None else found.beat.period
+    return DrivePeriod(period=period, samples_per_period=period / found.source.dt, source=found.beat.source)
+
+
+def notes(found: AnalysedChannel) -> tuple[str, ...]:
+    """Return what a reader should doubt."""
+    source, embedding = found.source, found.clean.embedding
+    said = [*source.notes, *found.beat.notes, *found.aside]
+    if embedding.status != "ok":
+        said.append(embedding.says)
+    for what, one in (("exponent", found.exponent), ("correlation dimension", found.dimension)):
+        if one.status == "uncertain" or (one.ok and one.says):
+            said.append(f"On the {what}: {one.says}")
+    periods = math.nan if found.beat.period is None else len(source.x) * source.dt / found.beat.period
+    if periods < 50:
+        said.append(
+            f"The recording holds {periods:.0f} periods: exponents and dimensions want some hundreds, so record longer."
+        )
+    return tuple(dict.fromkeys(said))
+
+
+def arrays_of(found: AnalysedChannel) -> tuple[Columns, Columns]:
+    """Return the variables and the coordinates of `analysis.nc`."""
+    variables = {
+        **_series(found),
+        **_spectra(found),
+        **_sections(found),
+        **_embedding("embedding_", found.clean.embedding),
+        **_exponent(found.exponent),
+        **_dimension(found.dimension),
+        **_tests(found),
+    }
+    if found.clean is not found.raw:
+        variables |= _embedding("embedding_raw_", found.raw.embedding)
+    time = np.arange(found.raw.n) * found.raw.dt
+    return variables, {"time": StoredArray(("time",), time, "s", "time from the start")}
+
+
+def _series(found: AnalysedChannel) -> Columns:
+    source, raw, clean = found.source, found.raw, found.clean
+    table = {"x": StoredArray(("time",), raw.x, source.unit, f"{source.label}, mean taken off")}
+    if clean is not raw:
+        table["cleaned"] = StoredArray(("time",), clean.x, source.unit, f"{source.label}, noise reduced")
+    if source.excitation is not None:
+        table["excitation"] = StoredArray(("time",), source.excitation, "", "measured excitation")
+    return table
+
+
+def _spectra(found: AnalysedChannel) -> Columns:
+    raw, unit = found.raw, found.source.unit
+    density = f"({unit})^2/Hz" if unit else "1/Hz"
+    frequency, power = spectrum(raw.x, raw.dt)
+    table = {
+        "frequency": StoredArray(("frequency",), frequency, "Hz", "frequency"),
+        "density": StoredArray(("frequency",), power, density, "power spectral density"),
+    }
+    if found.beat.period is not None:
+        rest, _ = without_harmonics(raw.x, raw.dt, found.beat.period)
+        table["density_rest"] = StoredArray(
+            ("frequency",), spectrum(rest, raw.dt)[1], density, "power spectral density, harmonics taken out"
+        )
+    return table
+
+
+def _sections(found: AnalysedChannel) -> Columns:
+    unit = found.source.unit
+    table = {"section": StoredArray(("hit", "axis"), _section(found.raw), unit, "section as recorded")}
+    if found.clean is not found.raw:
+        table["section_cleaned"] = StoredArray(("hit_cleaned", "axis"), _section(found.clean), unit, "section, cleaned")
+    return table
+
+
+def _section(series: Series) -> Array:
+    """Return the section (hits, 2) at drive phase 0, or where a series without a drive crosses its mean upwards."""
+    lag = series.embedding.lag
+    if series.period is None:
+        return np.asarray(poincare(series.x, dt=series.dt, lag=lag).points)
+    return np.asarray(stroboscopic(series.x, series.dt, series.period, lag=lag).points)
+
+
+def _embedding(prefix: str, chosen: Embedding) -> Columns:
+    """Return the curves of an embedding: those over the lag, those over the dimension, those of false neighbours."""
+    axes = {"lag": ("lag", "ami", "ami_floor", "autocorrelation"), "dim": ("dim", "e1", "e2")}
+    axes["dim_fnn"] = ("dim_fnn", "fnn", "fnn_distance", "fnn_loneliness")
+    table = {}
+    for axis, names in axes.items():
+        for name in (n for n in names if n in chosen.curves):
+            table[prefix + name] = StoredArray((prefix + axis,), chosen.curves[name], UNITS.get(name, "1"), name)
+    return table
+
+
+def _exponent(found: Estimate) -> Columns:
+    """Return the divergence with its variants and local slopes; the slope in the unit of the estimate."""
+    dims = {"members": ("lyapunov_variant", "lyapunov_time")}
+    table = {}
+    for name in ("time", "divergence", "members", "slope"):
+        if name in found.curve:
+            unit = UNITS.get(name, "1") if name != "slope" else "1/s"
+            table[f"lyapunov_{name}"] = StoredArray(dims.get(name, ("lyapunov_time",)), found.curve[name], unit, name)
+    return table
+
+
+def _dimension(found: Estimate) -> Columns:
+    plane, line = ("d2_dim", "d2_radius"), ("d2_dim",)
+    dims: Mapping[str, tuple[str, ...]] = {
+        "radius": ("d2_radius",),
+        "log_correlation": plane,
+        "slope": plane,
+        "dim": line,
+        "dimension_by_dim": line,
+        "low_by_dim": line,
+        "high_by_dim": line,
+    }
+    return {
+        f"d2_{name}": StoredArray(d, found.curve[name], "1", name) for name, d in dims.items() if name in found.curve
+    }
+
+
+def _tests(found: AnalysedChannel) -> Columns:
+    if not found.tests:
+        return {}
+    width = max(len(t.values) for t in found.tests)
+    values = np.full((len(found.tests), width), np.nan)
+    for row, test in zip(values, found.tests, strict=True):
+        row[: len(test.values)] = test.values
+    originals = np.array([t.original for t in found.tests])
+    table = {
+        "surrogate_values": StoredArray(("test", "draw"), values, "1", "statistic of the surrogates"),
+        "surrogate_original": StoredArray(("test",), originals, "1", "statistic of the recording"),
+    }
+    if found.surrogate_dims is not None:
+        said = "dimension of surrogates"
+        table["surrogate_d2_by_dim"] = StoredArray(("d2_draw", "d2_dim"), found.surrogate_dims, "1", said)
+    return table

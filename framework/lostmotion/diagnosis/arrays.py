@@ -1,0 +1,176 @@
+"""The arrays behind a diagnosis, as they are stored and drawn."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from lostmotion.contracts import Array
+from lostmotion.diagnosis.attractors import section
+from lostmotion.diagnosis.findings import Outcome
+from lostmotion.diagnosis.search import Diagnosed, Located, base_keys
+from lostmotion.inference.fit import Fit
+from lostmotion.quantities import unit_of
+from lostmotion.storage import StoredArray
+
+PORTRAIT = 3000
+WHOSE = {
+    "recorded": "smoothed motion of the recording",
+    "before": "free run of the nominal model",
+    "after": "free run of the augmented model",
+}
+PREDICTED = "free-running prediction of the"
+
+
+def arrays_of(outcome: Outcome, motions: Mapping[str, Array]) -> tuple[dict[str, StoredArray], dict[str, StoredArray]]:
+    """Return the variables and the coordinates of `arrays.nc`; `motions` are those of `motions_of`."""
+    d = outcome.diagnosis
+    variables = {
+        **_series(outcome),
+        **_further(outcome),
+        **_curves(d),
+        **_portraits(d, motions),
+        **_growth(outcome),
+        **_draws(outcome),
+    }
+    coords = {
+        "time": StoredArray(("time",), d.shown.time, "s", "time from the start of the recording"),
+        "covariate": StoredArray(("covariate",), list(d.located.curves)),
+        "lead": StoredArray(("lead",), outcome.before.lead, "s", "time from the start of a free run"),
+        "lag": StoredArray(("lag",), np.arange(1, len(outcome.before.acf) + 1), "1", "lag in samples"),
+        "parameter": StoredArray(("parameter",), base_keys(d.before)),
+        "parameter_after": StoredArray(("parameter_after",), base_keys(d.after)),
+        "parameter_unit": StoredArray(("parameter",), _units_of(d.before)),
+        "parameter_after_unit": StoredArray(("parameter_after",), _units_of(d.after)),
+    }
+    return variables, coords
+
+
+def _units_of(fit: Fit) -> list[str]:
+    """Return the SI unit of each physical parameter of a fit."""
+    units = {free.key: free.unit for free in fit.problem.free}
+    return [units[key] for key in base_keys(fit)]
+
+
+def units_of(d: Diagnosed) -> dict[str, str]:
+    """Return the SI units of position, velocity, acceleration and force in the model of a diagnosis."""
+    if d.after.problem.system.model.motion == "rotation":
+        return {"position": "rad", "velocity": "rad/s", "acceleration": "rad/s^2", "force": "N m"}
+    return {"position": "m", "velocity": "m/s", "acceleration": "m/s^2", "force": "N"}
+
+
+def _series(outcome: Outcome) -> dict[str, StoredArray]:
+    d, units = outcome.diagnosis, units_of(outcome.diagnosis)
+    shown, missing = d.shown, d.located.missing
+    model = d.after.problem.system.model
+    seen = unit_of(shown.channel, model.motion)
+    heldout = np.ones(shown.samples)
+    if shown.samples > d.held[0].samples:
+        heldout[: shown.samples - d.held[0].samples] = 0.0
+    time = ("time",)
+    table = {
+        "response": StoredArray(time, shown.response, seen, f"recorded {shown.sensors[0].label}"),
+        "heldout": StoredArray(time, heldout, "1", "1 where no fit has seen the data"),
+        "record": StoredArray(time, np.zeros(shown.samples), "1", "number of the recording"),
+        "position": StoredArray(time, missing.position, units["position"], "smoothed position"),
+        "velocity": StoredArray(time, missing.velocity, units["velocity"], "smoothed velocity"),
+        "missing_force": StoredArray(time, missing.force, units["force"], "missing force, found terms taken out"),
+        "missing_force_sd": StoredArray(time, missing.sd, units["force"], "standard deviation of the missing force"),
+        "forecast_before": StoredArray(time, outcome.before.forecasts[:, 0], seen, f"{PREDICTED} nominal model"),
+        "restart": StoredArray(time, outcome.before.restarts, "1", "1 where a free run begins"),
+    }
+    if not shown.free:
+        unit = unit_of(model.inputs[shown.lead], model.motion)
+        table["excitation"] = StoredArray(time, shown.excitation, unit, "measured input")
+    if d.left is not None:
+        left = d.left.missing
+        table["left_force"] = StoredArray(time, left.force, units["force"], "force left unexplained")
+        table["left_force_sd"] = StoredArray(time, left.sd, units["force"], "standard deviation of the force left")
+        table["law"] = StoredArray(time, d.law, units["force"], "force of the found terms")
+        table["forecast_after"] = StoredArray(time, outcome.after.forecasts[:, 0], seen, f"{PREDICTED} augmented model")
+    return table
+
+
+def _further(outcome: Outcome) -> dict[str, StoredArray]:
+    """Return readings and predictions of the sensors behind the first: `response_2`, `forecast_before_2`, ..."""
+    d, time, table = outcome.diagnosis, ("time",), {}
+    motion = d.after.problem.system.model.motion
+    for i, sensor in enumerate(d.shown.sensors[1:], start=1):
+        unit = unit_of(sensor.channel, motion)
+        table[f"response_{i + 1}"] = StoredArray(time, d.shown.readings[:, i], unit, f"recorded {sensor.label}")
+        before, after = outcome.before.forecasts[:, i], outcome.after.forecasts[:, i]
+        table[f"forecast_before_{i + 1}"] = StoredArray(time, before, unit, f"{PREDICTED} nominal model")
+        if d.found:
+            table[f"forecast_after_{i + 1}"] = StoredArray(time, after, unit, f"{PREDICTED} augmented model")
+    return table
+
+
+def _curves(d: Diagnosed) -> dict[str, StoredArray]:
+    units = {**units_of(d), "phase": "cycles", "time": "s"}
+    units |= {name: units[name.split()[0]] for name in d.located.curves}
+    names = list(d.located.curves)
+    width = max(len(c.mean) for c in d.located.curves.values())
+    force = units["force"]
+
+    def stacked(located: Located, part: str) -> Array:
+        return np.array([_padded(getattr(located.curves[n], part), width) for n in names])
+
+    dims = ("covariate", "bin")
+    table = {"bin_center": StoredArray(dims, stacked(d.located, "center"), "see covariate_unit", "middle of each bin")}
+    table["covariate_unit"] = StoredArray(("covariate",), [units[n] for n in names])
+    for part in ("mean", "low", "high"):
+        table[f"before_{part}"] = StoredArray(dims, stacked(d.located, part), force, f"missing force, {part}")
+        if d.left is not None:
+            table[f"after_{part}"] = StoredArray(dims, stacked(d.left, part), force, f"force left, {part}")
+    if d.law_curves:
+        means = np.array([_padded(d.law_curves[n].mean, width) for n in names])
+        table["law_mean"] = StoredArray(dims, means, force, "force of the found terms")
+    return table
+
+
+def _padded(values: Array, width: int) -> Array:
+    return np.concatenate([values[:width], np.full(max(width - len(values), 0), np.nan)])
+
+
+def _growth(outcome: Outcome) -> dict[str, StoredArray]:
+    lead, lag = ("lead",), ("lag",)
+    said = "rms error over the standard deviation of the response"
+    table = {
+        "growth_before": StoredArray(lead, outcome.before.growth, "1", said),
+        "acf_before": StoredArray(lag, outcome.before.acf, "1", "autocorrelation of standardised one-step errors"),
+        "acf_limit": StoredArray(
+            (), 1.96 / np.sqrt(outcome.diagnosis.held[0].samples), "1", "95 % bound of white errors"
+        ),
+    }
+    if outcome.diagnosis.found:
+        table["growth_after"] = StoredArray(lead, outcome.after.growth, "1", said)
+        table["acf_after"] = StoredArray(lag, outcome.after.acf, "1", "autocorrelation of standardised one-step errors")
+    return table
+
+
+def _draws(outcome: Outcome) -> dict[str, StoredArray]:
+    told = "draws of the parameters,"
+    return {
+        "posterior_before": StoredArray(
+            ("draw", "parameter"), outcome.draws_before, "see parameter_unit", f"{told} nominal model"
+        ),
+        "posterior_after": StoredArray(
+            ("draw", "parameter_after"), outcome.draws_after, "see parameter_after_unit", f"{told} with what was found"
+        ),
+    }
+
+
+def _portraits(d: Diagnosed, motions: Mapping[str, Array]) -> dict[str, StoredArray]:
+    """Return phase portraits and stroboscopic sections of the recording and of free runs of both models."""
+    units, period = units_of(d), d.shown.period
+    table = {}
+    for name, states in motions.items():
+        tail = states[-PORTRAIT:] if period else states[:: max(1, len(states) // PORTRAIT)]
+        points = section(states, period) if period else None
+        for axis, column, unit in (("x", 0, units["position"]), ("v", 1, units["velocity"])):
+            table[f"portrait_{name}_{axis}"] = StoredArray(("portrait",), tail[:, column], unit, WHOSE[name])
+            if points is not None:
+                told = f"{WHOSE[name]}, once each drive period"
+                table[f"section_{name}_{axis}"] = StoredArray(("section",), points[:, column], unit, told)
+    return table

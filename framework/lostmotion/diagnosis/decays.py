@@ -1,0 +1,226 @@
+"""Free decays in a diagnosis: of the recording, cycle by cycle, and of free runs of the models from the same starts."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lostmotion.contracts import Array
+from lostmotion.diagnosis.search import Diagnosed
+from lostmotion.inference.fit import Fit
+from lostmotion.inference.natural import term_of
+from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.predict import free_run, observed
+from lostmotion.quantities import quantity_of, unit_of
+from lostmotion.recording.doubts import is_impulsive
+from lostmotion.report.words import readable, spoken
+from lostmotion.results import percent
+from lostmotion.results.behaviour import DecayCycles, Decays
+from lostmotion.signals.decay import Decay, decay_of
+from lostmotion.signals.impacts import hits_of, onsets_of
+from lostmotion.signals.trends import says
+
+MOST_STRETCHES, MOST_CYCLES = 10, 240
+"""So many hits are looked at, and so many cycles of all of them together: a tenth of a second or two."""
+DIGITS = 5
+BOUND = 1e3
+"""A free run beyond so many times the largest reading runs away."""
+PARTS, FEWEST = 8, 3
+"""Parts of a decay in which a model is compared with the recording, and the fewest cycles of a part."""
+KNOWN, SURE, OVERLAP = 0.02, 3.0, 5
+"""Relative error up to which a part is known; errors that make a difference; cycles that share their noise."""
+REACH = 1.2
+"""Ratio of amplitudes over which the ends of a decay of a model are carried on."""
+LEVEL, NEAR, CLOSE = 0.05, 0.15, 0.02
+"""Change of a decrement that counts as none; distances of decrement and frequency up to which a model follows."""
+NONE_MEASURED = (
+    "No free decay could be measured: wanted are four cycles or more of one mode, which stand out of the noise and fall"
+    " by 10 % or more."
+)
+
+
+class Stretch(NamedTuple):
+    """The samples from `start` up to `stop` of a recording, in which nothing drives the machine."""
+
+    start: int
+    stop: int
+
+
+def decay_in(d: Diagnosed) -> Decays | None:
+    """Return what the recording shown says of free decays, and the models beside it; None where it holds none.
+
+    Of a recording that nothing drives, but in which no decay can be measured, there is a sentence alone.
+    """
+    stretches = stretches_of(d.shown)
+    most = MOST_CYCLES // max(len(stretches), 1)
+    seen = [(s, decay_of(d.shown.response[s.start : s.stop], d.shown.dt, most=most)) for s in stretches]
+    measured = [(stretch, decay) for stretch, decay in seen if decay is not None]
+    if not measured:
+        return Decays(NONE_MEASURED) if d.shown.free else None
+    models = {"before": _of_model(d.before, d.shown, measured)}
+    if d.found:
+        models["after"] = _of_model(d.after, d.shown, measured)
+    unit = unit_of(d.shown.channel, d.after.problem.system.model.motion)
+    rows = {
+        name: tuple(_listed(stretch, made, d.shown) for stretch, made in pairs if made)
+        for name, pairs in models.items()
+    }
+    told = _told(d, measured, {name: [decay for _, decay in pairs] for name, pairs in models.items()}, unit)
+    recorded = tuple(_listed(stretch, decay, d.shown) for stretch, decay in measured)
+    return Decays(told, unit, recorded, rows["before"], rows.get("after"))
+
+
+def stretches_of(observation: Observation) -> tuple[Stretch, ...]:
+    """Return where nothing drives the machine: between onsets if no input was recorded, or between hits of a hammer."""
+    if observation.free:
+        starts = sorted({0, *onsets_of(observation.response, observation.dt)})
+        ends = [*starts[1:], observation.samples]
+        return tuple(map(Stretch, starts, ends))[:MOST_STRETCHES]
+    if not is_struck(observation):
+        return ()
+    hits = hits_of(observation.excitation, observation.dt)
+    ends = [*(hit.start for hit in hits[1:]), observation.samples]
+    pairs = (Stretch(hit.stop, end) for hit, end in zip(hits, ends, strict=True))
+    return tuple(pair for pair in pairs if pair.stop > pair.start)[:MOST_STRETCHES]
+
+
+def is_struck(observation: Observation) -> bool:
+    """Return whether one force alone drives the machine, and is that of a hammer."""
+    one = observation.driven is not None and len(observation.driven) == 1
+    if not one or quantity_of(observation.driven[0]) != "force":  # type: ignore[index]
+        return False
+    return bool(observation.excitation.any()) and is_impulsive(observation.excitation)
+
+
+def note_anew(observation: Observation) -> Iterator[str]:
+    """Yield a note where a vibration begins anew in a recording without any input."""
+    if not observation.free:
+        return
+    times = [f"{place * observation.dt:.4g} s" for place in onsets_of(observation.response, observation.dt) if place]
+    if times:
+        where = times[0] if len(times) == 1 else f"{', '.join(times[:-1])} and {times[-1]}"
+        yield (
+            f"{observation.name}: no input was recorded, yet the vibration begins anew at {where} after the start: an"
+            " input that nobody recorded acted there, and the fit takes it for missing physics. Cut the recording with"
+            " t_start and t_end, so that each piece holds one decay, or record the force and give it as an input."
+        )
+
+
+Measured = Sequence[tuple[Stretch, Decay]]
+
+
+def _of_model(fit: Fit, observation: Observation, measured: Measured) -> list[tuple[Stretch, Decay | None]]:
+    """Return the decay of a free run of a model from the start of each measured one, None where it has none."""
+    problem = fit.problem.on((observation,))
+    states = problem.smooth(fit.theta).states
+    bound = BOUND * float(np.nanmax(np.abs(observation.response)))
+    most, found = MOST_CYCLES // len(measured), []
+    for stretch, seen in measured:
+        start, stop = stretch
+        run = free_run(problem, fit.theta, states[start], start, stop - start)
+        decay = None
+        if np.all(np.abs(run) < 1e100):
+            shown = observed(problem, fit.theta, run, (start, 0))
+            decay = _alike(shown, observation.dt, seen, most) if np.all(np.abs(shown) < bound) else None
+        found.append((stretch, decay))
+    return found
+
+
+def _alike(shown: Array, dt: float, seen: Decay, most: int) -> Decay | None:
+    """Return the decay of a run (samples,) in the mode next to the one that was measured, else in its loudest."""
+    near = decay_of(shown, dt, noise=seen.noise, near=float(np.median(seen.frequency)), most=most)
+    return near or decay_of(shown, dt, noise=seen.noise, most=most)
+
+
+def _listed(stretch: Stretch, decay: Decay, observation: Observation) -> DecayCycles:
+    """Return the cycles of a decay, with the time from the start of the recording."""
+    return DecayCycles(
+        time=_figures(decay.time + (observation.begin + stretch.start) * observation.dt),
+        amplitude=_figures(decay.amplitude),
+        frequency=_figures(decay.frequency),
+        decrement=_figures(decay.decrement),
+        damping_ratio=_figures(decay.damping_ratio),
+    )
+
+
+def _figures(values: Array) -> tuple[float, ...]:
+    return tuple(float(f"{value:.{DIGITS}g}") for value in values)
+
+
+def _told(d: Diagnosed, measured: Measured, models: dict[str, list[Decay | None]], unit: str) -> str:
+    """Return in words how the widest of the measured decays goes, and how far the models are from it."""
+    widest = max(range(len(measured)), key=lambda i: float(np.ptp(np.log(measured[i][1].amplitude))))
+    stretch, decay = measured[widest]
+    scale = readable(float(decay.amplitude.max()), unit)
+    opening = ""
+    if len(measured) > 1:
+        begun = (d.shown.begin + stretch.start) * d.shown.dt
+        opening = f"Of {len(measured)} decays, the one from {begun:.4g} s on goes furthest: "
+    words = says(decay, scale.unit, factor=scale.factor)
+    parts = [_beside(_named(d, name), decay, made[widest]) for name, made in models.items()]
+    compared = "; ".join(parts)
+    return f"{opening}{words if not opening else words[:1].lower() + words[1:]} {compared[:1].upper()}{compared[1:]}."
+
+
+def _named(d: Diagnosed, version: str) -> str:
+    if not d.found:
+        return "the model"
+    if version == "before":
+        return "the nominal model"
+    terms = [spoken(term_of(d.after.problem, key)[0].name) for key in d.named]
+    terms += ["what was learned"] if d.learned else []
+    return f"the model with {' and '.join([', '.join(terms[:-1]), terms[-1]] if len(terms) > 1 else terms)}"
+
+
+def _beside(who: str, seen: Decay, made: Decay | None) -> str:
+    """Return how far the decay of a model is from the recorded one."""
+    if made is None:
+        return f"a free run of {who} is no decay that could be measured"
+    loss, pitch = off(seen, made, "decrement"), off(seen, made, "frequency")
+    if math.isnan(loss):
+        return f"{who} shares too few amplitudes with the recording to be compared"
+    if loss < NEAR and pitch < CLOSE:
+        return f"{who} follows the recorded decrement within {percent(loss)} and the frequency within {percent(pitch)}"
+    return (
+        f"{who} decays with {_range(made.decrement, 'a decrement')}, up to {percent(loss)} from the recorded one, and"
+        f" {_range(made.frequency, 'a frequency', ' Hz')}, up to {percent(pitch)} from it"
+    )
+
+
+def _range(values: Array, what: str, unit: str = "") -> str:
+    """Return "a decrement of 0.094 at all amplitudes", or from where to where it goes as the motion dies."""
+    middle, first, last = (float(v) for v in (np.median(values), values[0], values[-1]))
+    if abs(last - first) < (LEVEL if not unit else 0.1 * LEVEL) * abs(middle):
+        return f"{what} of {middle:.3g}{unit} at all amplitudes"
+    return f"{what} that goes from {first:.3g} to {last:.3g}{unit}"
+
+
+def off(seen: Decay, made: Decay, name: str) -> float:
+    """Return how far a model is from the recorded `name` at most, as a share, over eight parts of the decay at most.
+
+    Only amplitudes count that both have; NaN where these are too few. Loud cycles weigh more, as the noise has it. A
+    part counts where its mean is known to 2 % (neighbouring cycles share their noise), or the model is three standard
+    errors away from it; where none does, all cycles make one part.
+    """
+    order = np.argsort(made.amplitude)
+    size = made.amplitude[order]
+    shared = np.flatnonzero((seen.amplitude > size[0] / REACH) & (seen.amplitude < size[-1] * REACH))
+    if shared.size < FEWEST:
+        return math.nan
+    expected = np.interp(np.log(seen.amplitude[shared]), np.log(size), getattr(made, name)[order])
+    values, errors = getattr(seen, name)[shared], getattr(seen, f"{name}_error")[shared]
+    weights = seen.amplitude[shared] ** 2
+
+    def part(inside: NDArray[np.intp]) -> tuple[float, bool]:
+        model, true = (float(np.average(v[inside], weights=weights[inside])) for v in (expected, values))
+        error = math.sqrt(OVERLAP * float(np.sum((weights * errors)[inside] ** 2))) / float(np.sum(weights[inside]))
+        apart, scale = abs(model - true), max(abs(true), 1e-300)
+        return apart / scale, error < KNOWN * scale or apart > SURE * error
+
+    parts = np.array_split(np.arange(shared.size), min(PARTS, shared.size // FEWEST))
+    counted = [share for share, counts in map(part, parts) if counts]
+    return max(counted) if counted else part(np.arange(shared.size))[0]

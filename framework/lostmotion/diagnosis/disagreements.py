@@ -1,0 +1,216 @@
+"""Where in time, at which hit and at which drive level the models disagree most, as `diagnosis.json` says it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from lostmotion.contracts import Array
+from lostmotion.diagnosis.decays import is_struck
+from lostmotion.diagnosis.search import Diagnosed
+from lostmotion.inference.disagreement import (
+    FEWEST,
+    SHORTEST,
+    Windows,
+    between,
+    beyond_chance,
+    block_of,
+    even_windows,
+    hit_windows,
+    means_of,
+    squares_of,
+    trend,
+)
+from lostmotion.likelihood.observation import Observation
+from lostmotion.quantities import unit_of
+from lostmotion.report.words import chance
+from lostmotion.results.mismatch import (
+    BothTrends,
+    ByRecording,
+    DisagreementOverTime,
+    LevelTrend,
+    Peaks,
+    RecordingMismatch,
+    WorstWindow,
+)
+from lostmotion.settings import DEFAULT
+from lostmotion.signals.impacts import Hit, hits_of
+
+EXPECTED = 1.0
+
+
+def disagreement_in(d: Diagnosed, rng: np.random.Generator) -> tuple[DisagreementOverTime | None, ByRecording | None]:
+    """Return the disagreement over the time of the recording that is shown, and by recording where there are several.
+
+    None where no one-step error is finite.
+    """
+    fits = {"before": d.before, "after": d.after} if d.found else {"before": d.before}
+    shown = {name: squares_of(fit, d.shown) for name, fit in fits.items()}
+    if not all(np.isfinite(one).any() for one in shown.values()):
+        return None, None
+    level = d.settings.locate.level
+    over = over_time(d.shown, shown, rng, level)
+    if d.shown.samples != d.held[0].samples:
+        return over, None
+    begun = (*d.after.problem.observations, *d.held)
+    all_of = {name: [squares_of(fit, one) for one in begun] for name, fit in fits.items()}
+    motion = d.after.problem.system.model.motion
+    return over, by_recording(begun, all_of, len(d.train), motion, rng, level)
+
+
+def over_time(
+    observation: Observation,
+    squares: Mapping[str, Array],
+    rng: np.random.Generator,
+    level: float = DEFAULT.locate.level,
+) -> DisagreementOverTime:
+    """Return the disagreement over windows of a recording (over its hits, where a hammer drives it), and a sentence.
+
+    `squares` holds the squared standardised one-step errors (samples,) of the models "before" and, if there is one,
+    "after".
+    """
+    hits = hits_of(observation.excitation, observation.dt) if is_struck(observation) else ()
+    windows = _windows(observation, squares, hits)
+    edges = [round(float(e), 9) for e in (observation.begin + windows.edges) * observation.dt]
+    told = {name: _judged(one, windows, edges, rng, level) for name, one in squares.items()}
+    last = told.get("after", told["before"])
+    return DisagreementOverTime(
+        edges=tuple(edges),
+        unit="s",
+        windows="hits" if windows.aligned else "even",
+        before=told["before"][0],
+        after=last[0],
+        expected=EXPECTED,
+        worst=last[1],
+        worst_before=told["before"][1],
+        says=_says({name: worst for name, (_, worst) in told.items()}, windows.aligned, len(windows)),
+        peaks=Peaks(tuple(hit.peak for hit in hits), "N") if windows.aligned else None,
+    )
+
+
+def _windows(observation: Observation, squares: Mapping[str, Array], hits: Sequence[Hit]) -> Windows:
+    if len(hits) > 1:
+        return hit_windows(observation.samples, [hit.start for hit in hits])
+    windows = even_windows(observation.samples, observation.period)
+    block = max(block_of(one, windows) for one in squares.values())
+    shortest = FEWEST * block
+    if observation.samples < FEWEST * shortest:
+        return windows
+    return even_windows(observation.samples, observation.period, shortest=max(shortest, SHORTEST))
+
+
+def _judged(
+    squares: Array, windows: Windows, edges: Sequence[float], rng: np.random.Generator, level: float
+) -> tuple[tuple[float, ...], WorstWindow]:
+    """Return the disagreement in each window, and the window that stands out most with its p-value."""
+    means = means_of(squares, windows)
+    p = beyond_chance(squares, windows, rng)
+    at = int(np.nanargmax(means)) if p is None else _most(means, p)
+    chance_of_it = math.nan if p is None else float(p[at])
+    worst = WorstWindow(at, edges[at], edges[at + 1], float(means[at]), chance_of_it, chance_of_it <= level)
+    return tuple(means.tolist()), worst
+
+
+def _most(means: Array, p: Array) -> int:
+    """Return the window with the smallest p-value; of several, the one with the largest disagreement."""
+    order = sorted(range(len(means)), key=lambda i: (float(p[i]), -float(np.nan_to_num(means[i]))))
+    return order[0]
+
+
+def _says(worst: Mapping[str, WorstWindow], hits: bool, count: int) -> str:
+    """Return where a model disagrees most, the last model first; an empty string where that is not beyond chance."""
+    if "after" in worst and worst["after"].beyond_chance:
+        return f"The model disagrees most {_place(worst['after'], hits, count)}."
+    if not worst["before"].beyond_chance:
+        return ""
+    if "after" not in worst:
+        return f"The model disagrees most {_place(worst['before'], hits, count)}."
+    return (
+        f"The nominal model disagrees most {_place(worst['before'], hits, count)}; with what was found no stretch"
+        " stands out beyond chance."
+    )
+
+
+def _place(worst: WorstWindow, hits: bool, count: int) -> str:
+    ratio = f"{worst.ratio:.2g} times the variance expected, {chance(worst.p)} over {count}"
+    if hits:
+        return f"after hit {worst.window + 1}, at {worst.begin:.4g} s ({ratio} hits)"
+    return f"between {worst.begin:.3g} and {worst.end:.3g} s ({ratio} windows)"
+
+
+def by_recording(
+    recordings: Sequence[Observation],
+    squares: Mapping[str, Sequence[Array]],
+    fitted: int,
+    motion: str,
+    rng: np.random.Generator,
+    level: float = DEFAULT.locate.level,
+) -> ByRecording:
+    """Return one row for each recording, the first `fitted` of which went into the fit, and what goes with the level.
+
+    The level of a recording is the rms of its drive about its mean, or of its response where nothing drives it.
+    """
+    levels = np.array([_level(one) for one in recordings])
+    first = recordings[0]
+    unit = unit_of(first.channel if first.free else _driver(first), motion)
+    last = squares.get("after", squares["before"])
+    p_after, p_before = between(last, rng), between(squares["before"], rng)
+    measured = zip(recordings, levels, _means(squares["before"]), _means(last), strict=True)
+    rows = tuple(
+        RecordingMismatch(
+            name=one.name,
+            level=float(strength),
+            unit=unit,
+            fitted=i < fitted,
+            before=float(before),
+            after=float(after),
+            p_after=_at(p_after, i),
+            p_before=_at(p_before, i),
+        )
+        for i, (one, strength, before, after) in enumerate(measured)
+    )
+    trends = BothTrends(after=_trend(last, levels, rng), before=_trend(squares["before"], levels, rng))
+    says = _level_says(rows, "after", p_after, trends, level) or _level_says(rows, "before", p_before, trends, level)
+    return ByRecording(rows, "response" if first.free else "drive", EXPECTED, trends, says)
+
+
+def _means(parts: Sequence[Array]) -> Array:
+    return np.array([np.nanmean(part) for part in parts])
+
+
+def _at(values: Array | None, index: int) -> float | None:
+    return None if values is None else float(values[index])
+
+
+def _trend(parts: Sequence[Array], levels: Array, rng: np.random.Generator) -> LevelTrend | None:
+    found = trend(parts, levels, rng)
+    return LevelTrend(*found) if found else None
+
+
+def _driver(observation: Observation) -> str:
+    return observation.driven[0] if observation.driven else "force"
+
+
+def _level(observation: Observation) -> float:
+    return float(np.nanstd(observation.response if observation.free else observation.excitation))
+
+
+def _level_says(rows: Sequence[RecordingMismatch], when: str, p: Array | None, tends: BothTrends, level: float) -> str:
+    """Return in which recording the model "before" or "after" disagrees most; empty where that is not beyond chance."""
+    if p is None:
+        return ""
+    means = np.array([row.after if when == "after" else row.before for row in rows])
+    at = _most(means, p)
+    if p[at] > level:
+        return ""
+    row, tend = rows[at], tends.after if when == "after" else tends.before
+    model = "model" if when == "after" else "nominal model"
+    said = (
+        f"Of {len(rows)} recordings the {model} disagrees most in {row.name} (level {row.level:.3g} {row.unit}"
+        f" rms, {means[at]:.2g} times the variance expected, {chance(float(p[at]))})"
+    )
+    if tend and tend.p <= level:
+        said += f"; the disagreement {'grows' if tend.correlation > 0.0 else 'falls'} with the level ({chance(tend.p)})"
+    return f"{said}."

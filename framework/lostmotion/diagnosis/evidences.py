@@ -1,0 +1,36 @@
+"""The evidence for what was found, by Laplace's method and by sampling, in `diagnosis.json` and in a sentence."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from lostmotion.diagnosis.search import Diagnosed
+from lostmotion.inference.evidence import checked
+from lostmotion.results.diagnosis import EvidenceCheck, SampledEvidence
+
+FEWEST = 15.0
+"""With fewer effective draws the sampled evidence says nothing."""
+APART = 3.0
+
+
+def evidence_of(diagnosis: Diagnosed, rng: np.random.Generator) -> EvidenceCheck:
+    """Return the log evidence of the models before and after by both methods; nothing where nothing was found."""
+    if diagnosis.after is diagnosis.before:
+        return EvidenceCheck()
+    before, after = (checked(fit, rng) for fit in (diagnosis.before, diagnosis.after))
+    return EvidenceCheck(before, after, _says(before, after))
+
+
+def _says(before: SampledEvidence, after: SampledEvidence) -> str:
+    laplace, sampled = after.laplace - before.laplace, after.sampled - before.sampled
+    error = float(np.hypot(before.error, after.error))
+    if min(before.effective, after.effective) < FEWEST:
+        return (
+            f"What was found raises the log evidence by {laplace:.1f} by Laplace's method; importance sampling cannot"
+            " check it here, since its weights fall on too few draws."
+        )
+    same = abs(sampled - laplace) <= APART + 3.0 * error
+    return (
+        f"What was found raises the log evidence by {laplace:.1f} (Laplace's method) and {sampled:.1f} +- {error:.1f}"
+        f" (importance sampling): {'the two agree' if same else 'they differ, so its probability is rough'}."
+    )

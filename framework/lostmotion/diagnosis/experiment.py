@@ -1,0 +1,147 @@
+"""The next experiment: which excitation would tell two models apart that the recording at hand cannot."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from lostmotion.contracts import Array
+from lostmotion.diagnosis.excitations import Excitation, Limits, candidates_for, repeat_of, usual_limits
+from lostmotion.diagnosis.rehearsal import Asked, RehearsedModel, evidence, simulated
+from lostmotion.inference.fit import Fit
+from lostmotion.kernels.threads import each
+from lostmotion.likelihood.observation import Observation
+
+__all__ = ["Excitation", "Limits", "Proposal", "natural_of", "news", "propose", "usual_limits"]
+SAMPLES = 3000
+"""Simulated recordings are this long at most, and count for as much as the recording at hand."""
+ROUNDS, HALFWAY = 4, 2
+GOOD, BEST, DRAWS = 6, 2, 2
+"""So many candidates are looked at again with fits that have gone half of their way, and so many with whole ones, the
+mean of so many recordings."""
+PLAIN, IMITATED, SURE = 5.0, 0.2, 12.0
+"""One model can imitate the other where its absence never gains 5, or 0.2 of what its presence gains: what is left is
+the price of its parameters. A gain of 12 is none of these."""
+Ways = tuple[float, float]
+"""The expected log Bayes factor in favour of the truth: the chosen model being true, and the rival."""
+
+
+@dataclass(frozen=True)
+class Proposal:
+    """An excitation and what it is expected to tell, in log Bayes factor, over a repeat of the old one.
+
+    `ways` and `repeat_ways` hold the gain with the chosen model true, and with the rival; `counted` says which of the
+    two count: both, unless one model can imitate the other whatever the excitation.
+    """
+
+    excitation: Excitation
+    ways: Ways
+    repeat_ways: Ways
+    counted: tuple[int, ...]
+
+    @property
+    def gain(self) -> float:
+        """The lesser gain of those that count."""
+        return min(self.ways[k] for k in self.counted)
+
+    @property
+    def repeat(self) -> float:
+        """The lesser gain of a repeat, of those that count, and no less than nothing."""
+        return max(min(self.repeat_ways[k] for k in self.counted), 0.0)
+
+
+def propose(
+    chosen: Fit,
+    rival: Fit,
+    *,
+    limits: Limits | None = None,
+    rng: np.random.Generator,
+    say: Callable[[str], None] = lambda _: None,
+) -> Proposal | None:
+    """Return the excitation within `limits` that separates two fits best; None where no simulation gets through."""
+    observation = chosen.problem.observations[0]
+    natural = natural_of(chosen)
+    samples = min(SAMPLES, observation.samples)
+    share = observation.samples / samples
+    moved = replace(observation, inputs=observation.inputs[:, : len(chosen.problem.system.model.driven)])
+    offered = candidates_for(moved, samples, limits or usual_limits(observation, natural), rng)
+    weighed = _Weighed((RehearsedModel.of(chosen), RehearsedModel.of(rival)), share, rng)
+    say(f"what {len(offered)} other excitations would tell")
+    rough = weighed.ways(offered, 0)
+    say("what the best ones and a repeat would tell")
+    good = weighed.ways([e for e, _ in _best(rough, (0, 1), GOOD, max)], HALFWAY)
+    counted = _counted([ways for _, ways in good if ways])
+    again = [e for e, _ in _best(good, counted, BEST, min)]
+    *fine, (_, repeat) = weighed.means([*again, repeat_of(observation, samples, natural)])
+    found = _best(fine, counted, 1, min)
+    if not found:
+        return None
+    best, ways = found[0]
+    return Proposal(best, ways or (0.0, 0.0), repeat or (0.0, 0.0), counted)
+
+
+def natural_of(fit: Fit) -> float:
+    """Return the rms frequency (Hz) of the recorded motion."""
+    return 1.0 / (2.0 * math.pi * fit.problem.scales.time)
+
+
+def news(chosen: Fit, rival: Fit, observation: Observation) -> float:
+    """Return the log Bayes factor, chosen over rival, that a new recording adds to that of the old ones."""
+    natural = natural_of(chosen)
+    whole = repeat_of(observation, observation.samples, natural)
+    asked = Asked(1.0, 3 * ROUNDS)
+    told = [evidence(RehearsedModel.of(fit), whole, observation.readings, asked) for fit in (chosen, rival)]
+    return told[0] - told[1]
+
+
+@dataclass(frozen=True)
+class _Weighed:
+    """Two models between which an excitation is to decide, over a recording that is `share` times as long."""
+
+    models: tuple[RehearsedModel, RehearsedModel]
+    share: float
+    rng: np.random.Generator
+
+    def means(self, excitations: Sequence[Excitation]) -> list[_Tried]:
+        """Return the gains of each excitation after whole fits, the mean of several recordings."""
+        drawn = self.ways([e for e in excitations for _ in range(DRAWS)], ROUNDS)
+        told = [[ways for _, ways in drawn[k : k + DRAWS] if ways] for k in range(0, len(drawn), DRAWS)]
+        means = [(float(np.mean([a for a, _ in t])), float(np.mean([b for _, b in t]))) if t else None for t in told]
+        return list(zip(excitations, means, strict=True))
+
+    def ways(self, excitations: Sequence[Excitation], rounds: int) -> list[_Tried]:
+        """Return the gains of each excitation with each model true, or None where one does not get through."""
+        drawn = [(e, [simulated(truth, e, self.rng) for truth in self.models]) for e in excitations]
+        jobs = self.models[0].fit.problem.jobs
+        found = each(lambda one: self._told(*one, Asked(self.share, rounds)), drawn, jobs)
+        return list(zip(excitations, found, strict=True))
+
+    def _told(self, excitation: Excitation, seen: Sequence[Array | None], asked: Asked) -> Ways | None:
+        gains = []
+        for z, truth, other in zip(seen, self.models, self.models[::-1], strict=True):
+            gain = math.nan
+            if z is not None:
+                gain = evidence(truth, excitation, z, asked) - evidence(other, excitation, z, asked)
+            if not math.isfinite(gain):
+                return None
+            gains.append(gain)
+        return gains[0], gains[1]
+
+
+_Tried = tuple[Excitation, Ways | None]
+
+
+def _best(tried: Sequence[_Tried], counted: tuple[int, ...], most: int, of: Callable[..., float]) -> list[_Tried]:
+    """Return the best of what got through, by the `of` (least, largest) of the gains that count."""
+    through = [(e, ways) for e, ways in tried if ways]
+    return sorted(through, key=lambda pair: -of(pair[1][k] for k in counted))[:most]  # type: ignore[return-value]
+
+
+def _counted(found: Sequence[Ways]) -> tuple[int, ...]:
+    """Return which truths an experiment can show: both, unless one model imitates the other."""
+    tops = [max((ways[k] for ways in found), default=0.0) for k in (0, 1)]
+    shown = tuple(k for k in (0, 1) if tops[k] > min(max(PLAIN, IMITATED * tops[1 - k]), SURE))
+    return shown or (0, 1)

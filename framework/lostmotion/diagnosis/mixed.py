@@ -1,0 +1,51 @@
+"""Draws of the parameters after a diagnosis, over every explanation that the recording leaves open.
+
+Where two explanations fit equally well, such as a gauge of the drive and a sensor of the response with a wrong gain,
+each moves the parameters of the machine in its own way: an interval that holds for one of them only is too narrow.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from lostmotion.contracts import Array
+from lostmotion.diagnosis.findings import draws_of
+from lostmotion.diagnosis.search import Diagnosed, base_keys
+from lostmotion.inference.setup import polish
+
+OPEN = 0.05
+"""An explanation with a smaller share of the posterior is left out."""
+MOST = 3
+
+
+def draws_after(diagnosis: Diagnosed, rng: np.random.Generator) -> Array:
+    """Return draws (draws, keys) of the parameters of the model after the diagnosis.
+
+    Those of the machine are a mixture over the chosen terms and their rivals, by posterior probability (Hoeting et al.,
+    Statistical Science 14 (1999) 382-417); those of terms are from the chosen ones.
+    """
+    chosen = diagnosis.after
+    made = draws_of(chosen, rng)
+    if diagnosis.learned:
+        return made
+    rivals = _rivals(diagnosis)
+    keys = base_keys(chosen)
+    order, begin = rng.permutation(len(made)), 0
+    for terms, share in rivals:
+        fit = polish(diagnosis.selection.visits[terms].fit)
+        other, count = draws_of(fit, rng), round(share * len(made))
+        columns = {key: i for i, key in enumerate(base_keys(fit))}
+        rows = order[begin : begin + count]
+        for i, key in enumerate(keys):
+            if key in columns and "." not in key:
+                made[rows, i] = other[rows, columns[key]]
+        begin += count
+    return made
+
+
+def _rivals(diagnosis: Diagnosed) -> list[tuple[frozenset[str], float]]:
+    """Return the sets of terms beside the chosen one that have a share of the posterior, largest first."""
+    shares = diagnosis.selection.probabilities()
+    here = diagnosis.selection.chosen.problem.active
+    others = [(terms, p) for terms, p in shares.items() if terms != here and p > OPEN]
+    return sorted(others, key=lambda pair: -pair[1])[:MOST]

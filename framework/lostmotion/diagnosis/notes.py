@@ -1,0 +1,143 @@
+"""What falls short in a diagnosis, in sentences: a report says it before a reader finds out."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from lostmotion.diagnosis.decays import note_anew
+from lostmotion.diagnosis.findings import Outcome
+from lostmotion.diagnosis.repetitions import repetition_notes
+from lostmotion.diagnosis.search import Diagnosed
+from lostmotion.diagnosis.states import unsteady
+from lostmotion.inference.contacts import short_contacts
+from lostmotion.inference.fit import Fit
+from lostmotion.inference.unseen import place_of_body
+from lostmotion.likelihood.initial import placed
+from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.space import LEVELS
+
+FAR = 5.0
+"""Held-out errors of an adequate model that are this many times the noise deserve a warning."""
+EDGE = 1e-3
+VAGUE = 0.01
+"""A position that no sensor shows and that is known worse than to this share of its amplitude deserves a note."""
+LOUD, DEAFENING = 0.3, 0.8
+"""Noise with a memory, and any noise, that makes up this share of what a sensor shows may as well be motion."""
+
+
+def notes_of(outcome: Outcome, said: Sequence[str]) -> list[str]:
+    """Return the notes of a diagnosis: what the recordings `said` of themselves, and what a reader should doubt."""
+    d = outcome.diagnosis
+    doubts = [*short_contacts(d.after), *_declined(d), *_on_the_edge(d), *_far_off(outcome), *_slow(d)]
+    doubts += [text for key in d.named for text in unsteady(d, key)]
+    if d.selection.stopped:
+        doubts.append(
+            f"The search ended after {len(d.selection.visits)} sets of terms, which is its bound: what is left is told"
+            " as left."
+        )
+    again = repetition_notes(_recordings(d), d.train, d.held)
+    return [*said, *_unrecorded(d), *doubts, *again, *vague(d.after, d.shown)]
+
+
+def _recordings(d: Diagnosed) -> tuple[Observation, ...]:
+    """Return the recordings as a whole."""
+    return (*d.train, *d.held) if d.shown is d.held[0] else (d.shown,)
+
+
+def _unrecorded(d: Diagnosed) -> list[str]:
+    """Return a note for each recording without an input that something drove all the same."""
+    return [note for observation in _recordings(d) for note in note_anew(observation)]
+
+
+def _slow(d: Diagnosed) -> list[str]:
+    """Return a note for each sensor whose noise has a memory, which white noise and a random force would imitate."""
+    problem, theta, notes = d.after.problem, d.after.theta, []
+    for i, sensor in enumerate(d.shown.sensors):
+        slow, fade = problem.slow(theta, 0, i)
+        if slow:
+            lasts = -problem.observations[0].dt / np.log(fade)
+            share = slow / problem.measurement(theta, 0, i)
+            whose = f" of {sensor.label}" if len(d.shown.sensors) > 1 else ""
+            notes.append(
+                f"{share:.0%} of the variance of the measurement noise{whose} has a memory of {lasts:.2g} s; the fit"
+                " allows for it."
+            )
+    return notes
+
+
+def drowned(outcome: Outcome) -> list[str]:
+    """Return a sentence for each sensor of which so much passes for noise, where held out, that it may be motion."""
+    d, told = outcome.diagnosis, []
+    problem, theta = d.after.problem, d.after.theta
+    for i, (sensor, size) in enumerate(zip(d.shown.sensors, outcome.after.scales, strict=True)):
+        slow, share = (v**0.5 / size for v in (problem.slow(theta, 0, i)[0], problem.measurement(theta, 0, i)))
+        if slow > LOUD or share > DEAFENING:
+            whose = f" of {sensor.label}" if len(d.shown.sensors) > 1 else ""
+            told.append(
+                f"What passes for noise{whose}{' has a memory and' if slow > LOUD else ''} is {share:.0%} of the"
+                " held-out readings: it may be motion that the model cannot make, such as another mode, or a sensor"
+                " that does not show what the case says (check its sign and place); then neither what was found nor"
+                " that nothing was found holds."
+            )
+    return told
+
+
+def _declined(d: Diagnosed) -> list[str]:
+    declined = sorted(d.selection.declined - set(d.found))
+    if not declined:
+        return []
+    return [
+        f"{', '.join(declined)} would raise the likelihood further, but what is left over has a memory and that rise is"
+        " not believed: a recording of a different motion would decide."
+    ]
+
+
+def _on_the_edge(d: Diagnosed) -> list[str]:
+    """Return a note for each parameter that presses against a bound of its prior."""
+    notes = []
+    for f, at in zip(d.after.problem.free, d.after.theta, strict=True):
+        reach = EDGE * (f.high - f.low)
+        if f.level not in LEVELS and "." not in f.parameter and not f.low + reach < at < f.high - reach:
+            bound = f.value(f.low if at <= f.low + reach else f.high)
+            notes.append(
+                f"{f.key} lies on the bound {bound:.4g} {f.unit} of its prior: widen the prior, or doubt what is"
+                " known; what was found may stand in for it."
+            )
+    return notes
+
+
+def _far_off(outcome: Outcome) -> list[str]:
+    d = outcome.diagnosis
+    noises = [d.after.problem.measurement(d.after.theta, 0, i) ** 0.5 for i in range(len(d.shown.sensors))]
+    errors = zip(outcome.after.by_sensor, outcome.after.scales, noises, strict=True)
+    far = min(error * scale / noise for error, scale, noise in errors)
+    if far < FAR:
+        return []
+    return [
+        f"Free runs over held-out data err by {far:.2g} times the measurement noise: something remains that one-step"
+        " errors do not show, or small errors of the state grow fast."
+    ]
+
+
+def vague(fit: Fit, observation: Observation) -> list[str]:
+    """Return a note where no sensor of a recording shows the position and it is not known well."""
+    if placed(observation):
+        return []
+    place = place_of_body(fit, observation)
+    reach, amplitude = 2.0 * float(place.sd.max()), math.sqrt(2.0) * float(place.mean.std())
+    if not reach > VAGUE * amplitude:
+        return []
+    if not (math.isfinite(reach) and reach < amplitude):
+        return [
+            "No sensor shows the position, and it cannot be told from the recording: do not trust what rests on it."
+        ]
+    rotation, share = fit.problem.system.model.motion == "rotation", 100.0 * reach / amplitude
+    size = f"{reach:.2g} rad" if rotation else f"{1e3 * reach:.2g} mm"
+    return [
+        f"No sensor shows the position: it is known to +-{size} only (2 standard deviations, largest over the"
+        f" recording), {share:.2g} % of its amplitude; what rests on the position, such as a gap, is as uncertain as"
+        " its interval says."
+    ]

@@ -1,0 +1,180 @@
+"""How sure a diagnosis is of what it found, in three words: named, likely, open."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from lostmotion.contracts import Term
+from lostmotion.diagnosis.compare import Prediction
+from lostmotion.diagnosis.search import Diagnosed
+from lostmotion.inference.natural import term_of
+from lostmotion.quantities import TIME
+from lostmotion.report.words import spoken
+from lostmotion.results.diagnosis import Mechanism, OpenTerm
+from lostmotion.settings import DEFAULT, NameSettings
+
+NAMED, LIKELY, OPEN = "named", "likely", "open"
+
+
+def holds(after: Prediction, floor: float, limits: NameSettings = DEFAULT.name) -> bool:
+    """Return whether a model predicts held-out data, where `floor` is the share of the response that is noise."""
+    return math.isfinite(after.nrmse) and not after.nrmse > max(limits.error, limits.error_noise * floor)
+
+
+def probability_of(d: Diagnosed, key: str) -> float:
+    """Return the probability that a term is at work, or one that no recording of this kind can tell from it."""
+    term, _ = term_of(d.after.problem, key)
+    kin = [
+        k for k, t in zip(d.before.problem.system.keys, d.before.problem.system.terms, strict=True) if _same(term, t)
+    ]
+    return min(sum(d.selection.inclusion(k) for k in {key, *kin}), 1.0)
+
+
+def _same(term: Term, other: Term) -> bool:
+    return other.name in term.equals or term.name in other.equals
+
+
+def doubts_of(d: Diagnosed, key: str) -> list[str]:
+    """Return why a term that was found is no more than likely, in sentences; none where it is named."""
+    term, _ = term_of(d.after.problem, key)
+    imitates = term.unlikely > 0.0 or term.acts != "motion"
+    steady = unsteady(d, key) if imitates else ()
+    return [*_less_sure(d, key), *_decided_late(d, key), *_beside(d, key), *steady, *_unusual(d, key), *_early(d, key)]
+
+
+def _less_sure(d: Diagnosed, key: str) -> Iterator[str]:
+    p = probability_of(d, key)
+    if p > d.settings.name.sure:
+        return
+    others = _others(d, key)
+    rivals = f"; its rivals are {', '.join(others)}" if others else "; its rival is a smooth force without a name"
+    yield f"Its probability is {p:.2g}{rivals}."
+
+
+def _decided_late(d: Diagnosed, key: str) -> Iterator[str]:
+    """Yield a sentence where held-out data had to decide between a term and a smooth force."""
+    chosen = d.selection.chosen.problem.active
+    if chosen in d.selection.scored and key in d.selection.unbeaten:
+        yield (
+            "On the data that were fitted a small smooth force without a name explains about as much; held-out data"
+            f" decide, by {d.selection.scored[chosen]:.2g} in log score."
+        )
+
+
+def _beside(d: Diagnosed, key: str) -> Iterator[str]:
+    """Yield a sentence where much has no name beside a term: as a learned curve, or as a random force."""
+    limits = d.settings.name
+    if d.learned and won_by(d, key) < limits.beside * d.learned.gain:
+        yield (
+            f"It wins {won_by(d, key):.3g} in log evidence, and what has no name beside it wins {d.learned.gain:.3g}:"
+            " it may be a part of that."
+        )
+    elif d.unexplained and d.left:
+        share = float(np.std(d.left.missing.force) / np.std(d.located.missing.force))
+        if share > limits.remains:
+            yield f"Of the force that was missing, {share:.0%} is still missing with it."
+
+
+def won_by(d: Diagnosed, key: str) -> float:
+    """Return the log weight that a found term adds to the other found ones; to the nominal model where no one knows."""
+    visits, terms = d.selection.visits, frozenset(d.named)
+    here, less = visits.get(terms), visits.get(terms - {key})
+    return here.weight - less.weight if here and less else d.selection.gain(key)
+
+
+def _others(d: Diagnosed, key: str) -> list[str]:
+    """Return the terms of other sets without this one that have a share of the posterior, in words."""
+    found = d.selection.chosen.problem.active
+    sets = [terms for terms, p in d.selection.probabilities().items() if key not in terms and p > d.settings.name.rival]
+    names = dict.fromkeys(k for terms in sets for k in sorted(terms - found))
+    return [spoken(term_of(d.before.problem, k)[0].name) for k in names]
+
+
+def unsteady(d: Diagnosed, key: str) -> Iterator[str]:
+    """Yield a sentence for each level of another found term that moves far when this one comes in."""
+    chosen = d.selection.chosen
+    without = d.selection.visits.get(chosen.problem.active - {key})
+    if without is None:
+        return
+    sds, limits = without.fit.sd, d.settings.name
+    for f in without.fit.problem.free:
+        owner, _, name = f.key.rpartition(".")
+        if not owner or f.log or f.key not in chosen.values:
+            continue
+        old, new = without.fit.values[f.key], chosen.values[f.key]
+        if abs(new - old) > max(limits.moved * sds[f.key], limits.moved_share * abs(old)):
+            yield (
+                f"{_called(d, owner)} has a {name} of {old:.3g} {f.unit} without {spoken(key.partition('@')[0])} and of"
+                f" {new:.3g} {f.unit} with it: a level that moves so far was not known, or the further term is wrong."
+            )
+
+
+def _called(d: Diagnosed, key: str) -> str:
+    name = spoken(term_of(d.before.problem, key)[0].name)
+    return name[:1].upper() + name[1:]
+
+
+def _unusual(d: Diagnosed, key: str) -> Iterator[str]:
+    """Yield a sentence on a delay that is longer than acquisition systems have, or that one frequency cannot show."""
+    term, slots = term_of(d.after.problem, key)
+    late = [s for s in slots if s.param.dimension == TIME and s.key in d.after.values]
+    if term.acts == "motion" or not late:
+        return
+    period = 2.0 * math.pi * d.after.problem.scales.time
+    share = abs(d.after.values[late[0].key]) / period
+    if share > d.settings.name.late:
+        yield f"A delay of {share:.0%} of a natural period is unusual: measure the time between the channels by itself."
+
+
+def _early(d: Diagnosed, key: str) -> Iterator[str]:
+    """Yield a sentence on a change that is over when the recording has hardly begun."""
+    problem = d.after.problem
+    for slot in term_of(problem, key)[1]:
+        if not slot.param.lasting or slot.param.dimension != TIME or slot.key not in d.after.values:
+            continue
+        fitted = problem.observations[0]
+        share = (d.after.values[slot.key] - float(fitted.time[0])) / (fitted.samples * fitted.dt)
+        if share < d.settings.name.early:
+            yield (
+                f"The change is over within the first {max(share, 0.0):.1%} of the recording: a known value that is"
+                " wrong from the beginning looks the same."
+            )
+
+
+def doubted(entry: Mechanism, sure: float = DEFAULT.name.sure) -> Mechanism:
+    """Return an entry of what was found: with a doubt it is likely, with a probability of `sure` at most."""
+    if not entry.doubts or entry.state not in (NAMED, LIKELY):
+        return entry
+    return replace(entry, state=LIKELY, probability=min(entry.probability, sure))
+
+
+def in_order(found: Sequence[Mechanism]) -> tuple[Mechanism, ...]:
+    """Return the entries of what was found, what is named first and what is open last."""
+    order = (NAMED, LIKELY, OPEN)
+    return tuple(sorted(found, key=lambda entry: order.index(entry.state)))
+
+
+def open_of(d: Diagnosed) -> tuple[OpenTerm, ...]:
+    """Return the terms that stay open: they would raise the likelihood, and something speaks against a name.
+
+    What was found and taken back comes first: it came closest.
+    """
+    reasons = [
+        (set(d.withdrawn), "held-out data are predicted worse with it, or more force is missing with it"),
+        (d.selection.unbeaten, "a small smooth force that nobody has named explains as much"),
+        (d.selection.declined, "what is left over has a memory, so that this gain is not believed"),
+    ]
+    rows: dict[str, OpenTerm] = {}
+    for keys, why in reasons:
+        for key in sorted(keys - set(d.found) - set(rows)):
+            if key not in d.before.problem.system.keys:
+                continue
+            term, _ = term_of(d.before.problem, key)
+            p = d.selection.inclusion(key) if key not in d.withdrawn else 0.0
+            says = f"{_called(d, key)} would raise the likelihood, but {why}."
+            rows[key] = OpenTerm(term.name, term.at, p, says)
+    return tuple(rows.values())

@@ -1,0 +1,1 @@
+"""From a case to a posterior: run, sampling, both routes, and the page."""

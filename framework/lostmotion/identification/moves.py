@@ -1,0 +1,79 @@
+"""How an ensemble moves: mostly jumps drawn from a cloud fitted to the posterior, some walks."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any, Protocol
+
+import numpy as np
+
+from lostmotion.contracts import Array
+from lostmotion.identification.t_mixture import Cloud
+from lostmotion.likelihood.problem import Free
+
+JUMPS, FEWER = 0.95, 0.5
+"""The share of jumps, and that in a chain that mixed badly with so many. The rest are walks, which need no cloud."""
+
+
+class Posterior(Protocol):
+    """What is asked of a problem that is to be sampled."""
+
+    @property
+    def free(self) -> tuple[Free, ...]:
+        """The free parameters."""
+
+    def log_prior(self, theta: Array) -> float:
+        """Return the log prior density at the coordinates `theta`."""
+
+    def log_likelihoods(self, points: Array) -> Array:
+        """Return the log-likelihood (points,) at `points` (points, parameters), minus infinity where it diverges."""
+
+
+@dataclass
+class Density:
+    """The log posterior density of many points at once; `evaluations` counts the runs of the likelihood."""
+
+    posterior: Posterior
+    evaluations: int = field(default=0)
+
+    def __call__(self, points: Array) -> Array:
+        """Return log densities (points,); minus infinity outside the prior or where the likelihood diverges."""
+        heights = np.array([self.posterior.log_prior(p) for p in points])
+        inside = np.flatnonzero(np.isfinite(heights))
+        if len(inside):
+            heights[inside] += self.posterior.log_likelihoods(points[inside])
+        self.evaluations += len(inside)
+        return np.where(np.isfinite(heights), heights, -np.inf)
+
+
+def moves(cloud: Cloud, jumps: float = JUMPS) -> list[tuple[Any, float]]:
+    """Return emcee's moves with their weights: independent jumps, differential evolution, and snooker steps."""
+    from emcee.moves import DEMove, DESnookerMove, RedBlueMove
+
+    class Jump(RedBlueMove):  # type: ignore[misc]
+        """Propose from one fixed density, whatever the walker: Tierney, Annals of Statistics 22 (1994) 1701-1728."""
+
+        def get_proposal(self, sample: Array, _complement: Any, random: Any) -> tuple[Array, Array]:
+            points = cloud.draw(len(sample), random)
+            return points, cloud.log_density(sample) - cloud.log_density(points)
+
+    return [(Jump(), jumps), (DEMove(), 0.75 * (1.0 - jumps)), (DESnookerMove(), 0.25 * (1.0 - jumps))]
+
+
+def sampler_of(moves: list[tuple[Any, float]], density: Callable[[Array], Array], backend: Any) -> Any:
+    """Return an emcee sampler over the coordinates, which hands over half of the walkers at a time."""
+    import emcee
+
+    return emcee.EnsembleSampler(*backend.shape, density, moves=moves, vectorize=True, backend=backend)
+
+
+def state_of(points: Array, heights: Array, rng: np.random.Generator) -> Any:
+    """Return emcee's state for walkers at `points` of log density `heights`.
+
+    emcee would silently pass over a seed in any other form.
+    """
+    import emcee
+
+    seed = np.random.RandomState(np.random.MT19937(int(rng.integers(2**63))))
+    return emcee.State(points, log_prob=heights, random_state=seed.get_state(legacy=True))

@@ -1,0 +1,85 @@
+"""What a posterior says of the readings, as ArviZ has it: log-likelihood, observed data, replicates, the prior."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lostmotion.case import CaseFile
+from lostmotion.contracts import Array
+from lostmotion.identification.sampling import SampledPosterior, Task
+from lostmotion.likelihood.problem import Problem
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+Places = NDArray[np.intp]
+BLOCKS = 100
+"""Blocks of readings that follow each other, each with its log-likelihood: `arviz.loo` leaves out one of them."""
+SHOWN = 300
+"""Readings of which replicates are kept, evenly over the recordings."""
+PRIOR = 1000
+POINTS = 256
+
+
+def groups_of(task: Task, result: SampledPosterior, case: CaseFile, rng: np.random.Generator) -> dict[str, xr.Dataset]:
+    """Return the groups `log_likelihood`, `observed_data`, `posterior_predictive` and `prior` of a sampled posterior.
+
+    A replicate is what the model predicts for a reading from those before it, with its error: the motion is chaotic,
+    and no draw tells readings far ahead.
+    """
+    import xarray as xr
+
+    problem = task.posterior
+    if not isinstance(problem, Problem):
+        return {}
+    readings = np.concatenate([observation.readings.ravel() for observation in problem.observations])
+    taken = np.flatnonzero(np.isfinite(readings))
+    picked = taken[np.unique(np.linspace(0, len(taken) - 1, SHOWN).astype(int))]
+    edges = np.unique(np.linspace(0, len(readings), BLOCKS + 1).astype(int))[:-1]
+    terms, replicates = _told(problem, task.coordinates(result.draws), readings, (edges, picked), rng)
+    shape = result.chain.shape[:2]
+    told = {
+        "log_likelihood": xr.Dataset({"readings": (("chain", "draw", "block"), terms.reshape(*shape, -1))}),
+        "observed_data": xr.Dataset({"readings": (("reading",), readings[picked])}),
+        "posterior_predictive": xr.Dataset(
+            {"readings": (("chain", "draw", "reading"), replicates.reshape(*shape, -1).astype(np.float32))}
+        ),
+        "prior": xr.Dataset(_prior(case, result, rng)),
+    }
+    return {
+        name: data.assign_coords(
+            {str(dim): picked if dim == "reading" else np.arange(n) for dim, n in data.sizes.items()}
+        )
+        for name, data in told.items()
+    }
+
+
+def _told(
+    problem: Problem, thetas: Array, readings: Array, where: tuple[Places, Places], rng: np.random.Generator
+) -> tuple[Array, Array]:
+    """Return the log-likelihood of each block (draws, blocks), and replicates of some readings (draws, shown)."""
+    edges, picked = where
+    terms, replicates = [], []
+    for first in range(0, len(thetas), POINTS):
+        seen = problem.many(thetas[first : first + POINTS])
+        each = -0.5 * (seen.errors**2 / seen.variances + np.log(2.0 * np.pi * seen.variances))
+        terms.append(np.add.reduceat(each, edges, axis=1))
+        spread = np.sqrt(seen.variances[:, picked])
+        replicates.append(readings[picked] - seen.errors[:, picked] + spread * rng.standard_normal(spread.shape))
+    return np.concatenate(terms), np.concatenate(replicates)
+
+
+def _prior(
+    case: CaseFile, result: SampledPosterior, rng: np.random.Generator
+) -> Mapping[str, tuple[tuple[str, str], Array]]:
+    """Return draws (1, PRIOR) of the parameters that the case gives a prior."""
+    named = [name for name in result.keys if name in case.estimate]
+    shares = rng.uniform(size=(len(named), PRIOR))
+    return {
+        name: (("chain", "draw"), np.array([[case.estimate[name].quantile(share) for share in row]]))
+        for name, row in zip(named, shares, strict=True)
+    }

@@ -1,0 +1,1 @@
+"""The page of an identification: reads its result and draws, and computes nothing."""

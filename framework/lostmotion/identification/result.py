@@ -1,0 +1,142 @@
+"""What was drawn of a posterior as a result: rows of parameters, levels of the drive, sentences."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from lostmotion.case import CaseFile
+from lostmotion.case.levels import Measured
+from lostmotion.contracts import Array
+from lostmotion.identification.levels import derived
+from lostmotion.identification.sampling import NOISES, SampledPosterior
+from lostmotion.likelihood.space import parted
+from lostmotion.maps.inversion import Inversion, Predicted
+from lostmotion.results import Interval
+from lostmotion.results.background import Origin
+from lostmotion.results.identification import (
+    DriveLevel,
+    ExpectedMotion,
+    Identification,
+    MeasuredRange,
+    Parameter,
+    RouteName,
+    Sampling,
+)
+
+SENSOR = (*NOISES.values(), "offset")
+"""What is told apart from the parameters of the machine: noise levels, and the zero of a sensor."""
+
+
+def statement(found: SampledPosterior, route: RouteName, case: CaseFile, origin: Origin) -> Identification:
+    """Return what the draws say of a case, without notes and without what belongs to one route alone."""
+    rows = _parameters(found)
+    noise = {name for name in rows if parted(name)[0] in SENSOR}
+    return Identification(
+        route=route,
+        converged=found.converged,
+        says=says(found),
+        ess_min=float(found.quality.ess.min()),
+        ess_tail_min=float(found.quality.ess_tail.min()),
+        rhat_max=float(found.quality.rhat.max()),
+        parameters={k: row for k, row in rows.items() if k not in noise},
+        noise={k: row for k, row in rows.items() if k in noise},
+        sampling=_sampling(found),
+        log_likelihood_evaluations=found.evaluations,
+        title=case.title,
+        model=case.model,
+        truth=dict(case.truth),
+        notes=(),
+        provenance=origin,
+    )
+
+
+def _parameters(found: SampledPosterior) -> Mapping[str, Parameter]:
+    """Return a row for each parameter; without convergence none has an interval."""
+    intervals, sd, quality, nothing = found.intervals, found.sd, found.quality, float("nan")
+    rows = {}
+    for i, (key, unit) in enumerate(zip(found.keys, found.units, strict=True)):
+        span = intervals.get(key, Interval(nothing, nothing, nothing, unit))
+        rows[key] = Parameter(
+            median=span.median,
+            low=span.low,
+            high=span.high,
+            unit=unit,
+            sd=sd.get(key, nothing),
+            at_maximum=found.maximum[key],
+            ess=float(quality.ess[i]),
+            rhat=float(quality.rhat[i]),
+            tau=float(quality.tau[i]),
+        )
+    return rows
+
+
+def _sampling(found: SampledPosterior) -> Sampling:
+    walkers, steps, _ = found.chain.shape
+    return Sampling(
+        walkers=walkers,
+        steps=steps,
+        burn_in=found.burn_in,
+        acceptance=found.acceptance,
+        autocorrelation_time=found.quality.slowest,
+        lacks=found.lacks,
+    )
+
+
+def says(found: SampledPosterior) -> tuple[str, ...]:
+    """Return what the report opens with."""
+    quality = found.quality
+    if not found.converged:
+        return (
+            "The chain has not converged, so no interval is given.",
+            f"What is missing: {'; '.join(found.lacks)}. Give more steps with --max-steps, or look at the trace.",
+        )
+    return (
+        f"The chain has converged: {quality.ess.min():.0f} effective draws or more of each parameter.",
+        f"R-hat is {quality.rhat.max():.3f} at most, and the longest autocorrelation time is {quality.slowest:.1f} of"
+        f" {quality.steps} steps.",
+    )
+
+
+def modes_said(modes: int) -> list[str]:
+    """Return a sentence where the posterior has more than one mode."""
+    if modes < 2:
+        return []
+    return [
+        f"The posterior has {modes} separate modes: the recording is explained by {modes} sets of parameters. The draws"
+        " hold each with its weight; look at the figure of pairs before you quote a single interval."
+    ]
+
+
+def level_told(one: Predicted) -> DriveLevel:
+    """Return a level with what was measured there and what the posterior expects."""
+    level = one.level
+    return DriveLevel(
+        name=level.name,
+        amplitude=level.amplitude,
+        unit=level.unit,
+        omega=level.omega,
+        motion=level.motion,
+        lyapunov=_measured(level.lyapunov, "1/s"),
+        d2=_measured(level.d2, "1"),
+        predicted=ExpectedMotion(chaotic_share=one.chaotic_share, lyapunov=one.lyapunov, d2=one.d2),
+    )
+
+
+def _measured(seen: Measured | None, unit: str) -> MeasuredRange | None:
+    if seen is None:
+        return None
+    half = 1.96 * seen.sd
+    return MeasuredRange(value=seen.value, low=seen.value - half, high=seen.value + half, unit=unit)
+
+
+def derived_told(posterior: Inversion, points: Array, found: SampledPosterior) -> Mapping[str, Interval]:
+    """Return the intervals of what follows from the parameters; none from a chain that has not converged."""
+    if not found.converged:
+        return {}
+    rows = {}
+    for name, values in derived(posterior, points).items():
+        low, median, high = np.quantile(values, [0.025, 0.5, 0.975]).tolist()
+        rows[name] = Interval(median, low, high, "1")
+    return rows

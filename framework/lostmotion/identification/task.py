@@ -1,0 +1,131 @@
+"""What is to be sampled, and how it is told: tasks made of fits, coordinates told as numbers in SI units."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from lostmotion.contracts import Array
+from lostmotion.errors import DataError
+from lostmotion.identification.moves import Posterior
+from lostmotion.identification.t_mixture import Cloud
+from lostmotion.inference.fit import Fit
+from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.problem import NOISE, PACE, RANDOM, Free, Problem
+from lostmotion.quantities import unit_of
+
+OFFSET = "offset"
+NOISES = {RANDOM: "random_force", PACE: "random_pace", NOISE: "measurement_noise"}
+"""What the noise levels are called once they are numbers and no longer logarithms."""
+LEAST = 0.05
+"""No mode gets a smaller share of the first proposals: Laplace's method may be far off where a mode is not normal."""
+
+
+@dataclass(frozen=True)
+class ShownCoordinate:
+    """How a coordinate is told: `exp(power * coordinate) * factor` in `unit`, or as it is where `power` is 0."""
+
+    name: str
+    unit: str
+    power: float
+    factor: float = 1.0
+
+    def value(self, coordinate: Array) -> Array:
+        """Return numbers in SI units of coordinates of any shape."""
+        return np.asarray(self.factor * np.exp(self.power * coordinate) if self.power else coordinate)
+
+    def coordinate(self, value: Array) -> Array:
+        """Return coordinates of numbers in SI units of any shape."""
+        return np.asarray(np.log(value / self.factor) / self.power if self.power else value)
+
+
+@dataclass(frozen=True)
+class Task:
+    """What is to be sampled: a posterior, where to look for it, how its coordinates are told, and its maximum.
+
+    `digest` is a text that changes with the case and its recordings: a kept chain is continued only if it is the same.
+    """
+
+    posterior: Posterior
+    cloud: Cloud
+    shown: tuple[ShownCoordinate, ...]
+    maximum: Array
+    digest: str = ""
+
+    def values(self, coordinates: Array) -> Array:
+        """Return coordinates (..., parameters) as numbers in SI units."""
+        return np.stack([one.value(coordinates[..., i]) for i, one in enumerate(self.shown)], axis=-1)
+
+    def coordinates(self, values: Array) -> Array:
+        """Return the coordinates of numbers in SI units (..., parameters)."""
+        return np.stack([one.coordinate(values[..., i]) for i, one in enumerate(self.shown)], axis=-1)
+
+
+def task_of(fits: Sequence[Fit], digest: str = "") -> Task:
+    """Return the task of sampling the posterior around the distinct maxima `fits`, the posterior being the first one's.
+
+    The modes are weighted by their evidence, and none is left out.
+    """
+    found = [f for f in fits if np.isfinite(f.local.log_posterior)]
+    if not found:
+        raise DataError("the model cannot follow this recording from any start: check units, known values and priors")
+    problem = fits[0].problem
+    highest = max(found, key=lambda f: f.local.log_posterior)
+    cloud = Cloud.of_modes(
+        np.array([f.theta for f in found]),
+        [within(f.local.covariance, problem.free) for f in found],
+        mode_weights(np.array([f.log_evidence for f in found])),
+        problem.free,
+    )
+    return Task(problem, cloud, tuple(_shown(f, problem) for f in problem.free), highest.theta, digest)
+
+
+def within(covariance: Array, free: tuple[Free, ...]) -> Array:
+    """Return the covariance with no deviation wider than that of a uniform density between the bounds.
+
+    The data may be silent about a parameter, as about a measurement noise far below the random force: its variance
+    would come out as good as infinite, and no draw would fall between the bounds.
+    """
+    widest = np.array([f.high - f.low for f in free]) / math.sqrt(12.0)
+    shrink = np.minimum(1.0, widest / np.sqrt(np.maximum(np.diag(covariance), 1e-300)))
+    return np.asarray(covariance * np.outer(shrink, shrink))
+
+
+def mode_weights(log_evidence: Array) -> Array:
+    """Return the weights (modes,) of modes with a log evidence, each at least `LEAST` before they are made to add up.
+
+    A mode whose evidence is not a number, where the information is singular, counts as the least.
+    """
+    known = np.where(np.isfinite(log_evidence), log_evidence, -np.inf)
+    if not np.isfinite(known).any():
+        return np.full(len(known), 1.0 / len(known))
+    weights = np.exp(known - np.max(known))
+    weights = np.maximum(weights / weights.sum(), LEAST)
+    return np.asarray(weights / weights.sum())
+
+
+def _shown(free: Free, problem: Problem) -> ShownCoordinate:
+    """Return how a parameter is told; a random force as the rms (N, N m) of one that is held from sample to sample."""
+    observation = _track(problem, free.recording or "")
+    motion = problem.system.model.motion
+    if free.level not in (OFFSET, *NOISES):
+        return ShownCoordinate(free.key, free.unit, 1.0 if free.log else 0.0)
+    if free.level == RANDOM:
+        return ShownCoordinate(
+            NOISES[RANDOM] + free.key[len(RANDOM) :], unit_of("force", motion), 0.5, observation.dt**-0.5
+        )
+    if free.level == PACE:
+        return ShownCoordinate(NOISES[PACE] + free.key[len(PACE) :], "1/s", 1.0)
+    labels = [sensor.label for sensor in observation.sensors]
+    channel = observation.sensors[labels.index(free.sensor) if free.sensor else 0].channel
+    if free.level == OFFSET:
+        return ShownCoordinate(free.key, unit_of(channel, motion), 0.0)
+    return ShownCoordinate(NOISES[NOISE] + free.key[len(NOISE) :], unit_of(channel, motion), 1.0)
+
+
+def _track(problem: Problem, name: str) -> Observation:
+    """Return the recording that a key names, or the first."""
+    return next((t for t in problem.observations if t.name == name), problem.observations[0])

@@ -1,0 +1,25 @@
+"""Contacts that are too short for the sampling rate of a recording."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from lostmotion.inference.fit import Fit
+
+
+def short_contacts(fit: Fit) -> list[str]:
+    """Return a note for each contact that is so stiff that a bounce falls between two samples."""
+    problem, notes = fit.problem, []
+    for place in problem.system.model.interfaces:
+        for i, observation in enumerate(problem.observations):
+            full = problem.full(fit.theta, i)
+            stiff = full[problem.system.index[place.stiffness]] if place.stiffness and place.play else 0.0
+            lasts = np.pi * np.sqrt(problem.system.inertia(full, place) / stiff) if stiff > 0.0 else np.inf
+            if lasts < observation.dt:
+                notes.append(
+                    f"{observation.name}: a bounce at the {place.name} lasts {lasts:.2g} s and samples are"
+                    f" {observation.dt:.2g} s apart. What happens between them is guessed, so intervals may be too"
+                    " narrow and findings wrong:"
+                    f" sample at {2.0 / lasts:.2g} Hz or more."
+                )
+    return notes

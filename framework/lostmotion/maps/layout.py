@@ -1,0 +1,213 @@
+"""What a map looks like in a file: dimensions, variables, chunks and their attributes, the same for zarr and netCDF."""
+
+from __future__ import annotations
+
+import itertools
+import json
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lostmotion.codec import from_plain, to_plain, told
+from lostmotion.defaults import FLOW_EXPONENT
+from lostmotion.errors import DataError
+from lostmotion.maps.cells import BEGINNING, CODES, LONGEST, WIDE, Study
+from lostmotion.provenance import origin_of
+from lostmotion.results import STATUSES
+from lostmotion.results.background import Origin
+
+SCHEMA = "lostmotion.map/1"
+WORK = 200_000
+"""Periods, over all cells and starts, that make one chunk: about half a second where the flow is exact."""
+PIECES = 4
+"""Chunks along an axis, at least: so small maps too are spread over the cores."""
+
+
+@dataclass(frozen=True)
+class Attributes:
+    """What a file says of one of its arrays."""
+
+    units: str | None = told("unit of the numbers", default=None)
+    long_name: str = told("what the numbers are", default="")
+    spacing: str | None = told("the scale in which the points of an axis are even", default=None)
+    flag_values: tuple[int, ...] | None = told("the codes that an array of flags holds", default=None)
+    flag_meanings: str | None = told("a word for each code", default=None)
+    comment: str | None = told("what else is to be known", default=None)
+
+
+@dataclass(frozen=True)
+class Variable:
+    """An array of a file without its numbers."""
+
+    dims: tuple[str, ...]
+    kind: str
+    fill: float | int
+    attrs: Attributes
+
+
+@dataclass(frozen=True)
+class Coordinate:
+    """The points along a dimension of a file, or along one of several."""
+
+    dims: tuple[str, ...]
+    values: NDArray[Any]
+    attrs: Attributes
+
+
+@dataclass(frozen=True, kw_only=True)
+class MapSettings:
+    """What a map was asked for, as the provenance of its file has it."""
+
+    model: str = told("name of the model")
+    terms: tuple[str, ...] = told("the terms that were added to it", default=())
+    fixed: Mapping[str, float] = told("what was held at a value, by name", default={})
+    axes: tuple[str, ...] = told("the axes, as the command line has them", default=())
+    exponent: str = told("the quantifier of the exponent with its settings", default="")
+    further: Mapping[str, str] = told("further quantifiers with their settings, by name", default={})
+    embedder: str | None = told("the embedder; null where no quantifier reads a series")
+    starts: int = told("starts in each cell", default=1)
+    unit: str = told("nat or bit, of exponents", default="nat")
+    level: int | None = told("the halving of which this is the list of cells", default=None)
+    levels: int | None = told("how often squares were halved", default=None)
+    motion: str | None = told("translation or rotation, where the model can be either", default=None)
+
+
+@dataclass(frozen=True)
+class MapLayout:
+    """The grid (`shape`, with names `dims`) of a map, and how it is cut into chunks.
+
+    A list of places has `cells` (many, axes) and the one dimension `cell`. A `refined` map has the level of each cell.
+    """
+
+    study: Study
+    dims: tuple[str, ...]
+    shape: tuple[int, ...]
+    origin: Origin
+    cells: NDArray[np.int64] | None = None
+    refined: bool = False
+
+    @property
+    def attrs(self) -> dict[str, str]:
+        """The attributes of the file; `provenance` holds all that a number in it depends on."""
+        study = self.study
+        return {
+            "schema": SCHEMA,
+            "Conventions": "CF-1.11",
+            "title": f"Map of {study.rig.assembly.label} over {' and '.join(axis.name for axis in study.axes)}",
+            "provenance": json.dumps(to_plain(self.origin), sort_keys=True),
+        }
+
+    @cached_property
+    def block(self) -> tuple[int, ...]:
+        """The cells of a chunk along each axis."""
+        cells = max(1.0, WORK / (self.study.starts * (self.study.periods + self.study.transient)))
+        side = max(1, round(cells ** (1.0 / len(self.shape))))
+        return tuple(min(side, max(1, math.ceil(count / PIECES))) for count in self.shape)
+
+    @property
+    def chunks(self) -> Iterator[tuple[slice, ...]]:
+        """The places of all chunks, in order."""
+        cut = [
+            [slice(a, min(a + step, n)) for a in range(0, n, step)]
+            for n, step in zip(self.shape, self.block, strict=True)
+        ]
+        return itertools.product(*cut)
+
+    def places(self, chunk: tuple[slice, ...]) -> NDArray[np.int64]:
+        """Return the places (cells, axes) of the cells of a chunk, the last axis running fastest."""
+        if self.cells is not None:
+            return self.cells[chunk[0]]
+        grid = np.meshgrid(*(np.arange(piece.start, piece.stop) for piece in chunk), indexing="ij")
+        return np.stack(grid, axis=-1).reshape(-1, len(chunk))
+
+    @cached_property
+    def variables(self) -> dict[str, Variable]:
+        """The arrays of the map; the one that is written last, `status`, stands last."""
+        every, unit = (*self.dims, "start"), self.study.unit
+        table = {
+            FLOW_EXPONENT: Variable(every, "f8", math.nan, Attributes(unit, "largest Lyapunov exponent")),
+            "lyapunov_stderr": Variable(every, "f8", math.nan, Attributes(unit, "standard error of lyapunov_max")),
+        }
+        for name, quantifier in self.study.further.items():
+            own = unit if quantifier.unit == "1/s" else quantifier.unit
+            table[name] = Variable(every, "f8", math.nan, Attributes(own, f"{name} of the motion"))
+            table[f"{name}_stderr"] = Variable(every, "f8", math.nan, Attributes(own, f"standard error of {name}"))
+            table[f"{name}_status"] = Variable(every, "i1", -1, _flags(f"what is wrong with {name}"))
+        period = Attributes("1", f"period of the motion in periods of the drive, 0 when there is none up to {LONGEST}")
+        table["period"] = Variable(every, "i2", -1, period)
+        share = Attributes(
+            "1", "share of the starts whose exponent is significantly positive (95 %) and that do not repeat"
+        )
+        table["chaotic_fraction"] = Variable(self.dims, "f8", math.nan, share)
+        if self.refined:
+            level = Attributes("1", "halving at which a cell was computed, -1 where it holds what its nearest cell has")
+            table["level"] = Variable(self.dims, "i1", -1, level)
+        table["status"] = Variable(every, "i1", -1, _flags("what is wrong with lyapunov_max"))
+        return table
+
+    @property
+    def coords(self) -> dict[str, Coordinate]:
+        """The coordinates by name."""
+        rig, table = self.study.rig, {}
+        for axis, values in zip(self.study.axes, self.study.points, strict=True):
+            if axis.name in self.dims:
+                attrs = Attributes(rig.unit(axis.name), rig.knob(axis.name).meaning, axis.spacing)
+                table[axis.name] = Coordinate((axis.name,), values, attrs)
+        drawn = f"drawn evenly from a box {WIDE:g} times as large as {BEGINNING} periods from rest reach"
+        start = Attributes("1", "number of the initial condition", comment=drawn)
+        return {**table, "start": Coordinate(("start",), np.arange(self.study.starts), start)}
+
+
+def layout_of(study: Study) -> MapLayout:
+    """Return the layout of a map over a whole grid."""
+    return MapLayout(study, tuple(axis.name for axis in study.axes), study.shape, map_origin(study))
+
+
+def listed(study: Study, cells: NDArray[np.int64], *, level: int) -> MapLayout:
+    """Return the layout of a list of places (many, axes) on the grid of a study: those of one halving, the `level`."""
+    return MapLayout(study, ("cell",), (len(cells),), map_origin(study, level=level), cells)
+
+
+def map_origin(study: Study, *, level: int | None = None, levels: int | None = None) -> Origin:
+    """Return all that a number in the map of a study depends on; a list has a `level`, a refined map `levels`."""
+    rig, further = study.rig, {name: str(quantifier) for name, quantifier in study.further.items()}
+    model = rig.assembly.model
+    settings = MapSettings(
+        model=model.name,
+        terms=rig.system.keys,
+        fixed=rig.fixed,
+        axes=tuple(axis.as_text() for axis in study.axes),
+        exponent=str(study.exponent),
+        further=further,
+        embedder=str(study.embedder) if further else None,
+        starts=study.starts,
+        unit=study.unit,
+        level=level,
+        levels=levels,
+        motion=model.motion if model.motion != type(model).motion else None,
+    )
+    return origin_of("map", to_plain(settings), study.seed, study.origins)
+
+
+def origin_in(attrs: Mapping[str, object], path: str = "the map") -> Origin:
+    """Return the origin that the attributes of a map tell; `DataError` where they tell none."""
+    try:
+        plain = json.loads(str(attrs.get("provenance")))
+    except ValueError as err:
+        raise DataError(f"{path} does not say how it was made: make it again") from err
+    return from_plain(Origin, plain, f"the provenance of {path}")
+
+
+def settings_in(origin: Origin) -> MapSettings:
+    """Return what a map was asked for."""
+    return from_plain(MapSettings, origin.settings, "the provenance of the map")
+
+
+def _flags(long_name: str) -> Attributes:
+    comment = "; ".join(f"{name}: {says}" for name, says in STATUSES.items())
+    return Attributes(None, long_name, None, tuple(CODES.values()), " ".join(CODES), comment)

@@ -1,1 +1,0 @@
-"""The verbs: each takes data and nouns, and returns a frozen result."""
