@@ -25,7 +25,7 @@ from lostmotion.diagnosis.experiment import news, propose
 from lostmotion.inference.candidates import fit_with, screen, slopes_of
 from lostmotion.inference.fit import maximise
 from lostmotion.inference.setup import problem_of, search
-from lostmotion.likelihood.drive import Tone
+from lostmotion.likelihood.drive import DriveHarmonic
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.system import System, key_of
 from lostmotion.registry import Registry
@@ -105,7 +105,7 @@ MACHINES = (
 )  # fmt: skip
 
 
-def recorded(machine, inputs, rng, tone=None):
+def recorded(machine, inputs, rng, harmonic=None):
     """Return the recording of a machine under a force (samples,), after a run-up under its beginning."""
     dt, n = 1.0 / machine.rate, len(inputs)
     true = CubicSpline(np.arange(n) * dt, inputs)
@@ -116,8 +116,8 @@ def recorded(machine, inputs, rng, tone=None):
     force = inputs + 1e-3 * math.sqrt(2.0) * float(np.std(inputs)) * rng.standard_normal(n)
     bare = Observation.of("recording", seen, force[:, None], dt, "position")
     period = bare.period
-    found = Tone(2.0 * math.pi / (period * dt) if period else 0.0, bare.travel)
-    return Observation.of("recording", seen, force[:, None], dt, "position", tone=tone or found)
+    found = DriveHarmonic(2.0 * math.pi / (period * dt) if period else 0.0, bare.travel)
+    return Observation.of("recording", seen, force[:, None], dt, "position", harmonic=harmonic or found)
 
 
 SIZES = {}

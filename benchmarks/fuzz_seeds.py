@@ -150,7 +150,7 @@ def _chain(folder):
 
     from lostmotion.identification import checkpoint as _keep
     from lostmotion.identification.normal_scores import Scores
-    from lostmotion.identification.t_mixture import Cloud
+    from lostmotion.identification.t_mixture import TMixture
 
     rng = np.random.default_rng(0)
     start = emcee.State(
@@ -162,7 +162,7 @@ def _chain(folder):
     for _ in range(3):
         backend.save_step(start, np.ones(8, dtype=bool))
     scale = Scores(*(np.full(2, v) for v in (-1.0, 1.0, 0.0, 1.0)))
-    cloud = Cloud(weights=np.ones(1), centres=np.zeros((1, 2)), roots=np.eye(2)[None], scale=scale)
+    cloud = TMixture(weights=np.ones(1), centres=np.zeros((1, 2)), roots=np.eye(2)[None], scale=scale)
     _keep.save(folder / "chain.h5", "abc", ("a", "b"), _keep.Kept(backend, cloud, start, 3, 1), 3)
 
 

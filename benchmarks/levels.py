@@ -96,7 +96,7 @@ def truth(flow: Flow, rng: np.random.Generator, periods: int = LONG) -> tuple[Kn
     registry = default()
     found = registry.make("quantifier", "lyapunov_max", periods=periods, transient=0).estimate(flow, rng=rng)
     section = registry.make("quantifier", "section_dimension", periods=periods, transient=0).estimate(flow, rng=rng)
-    states = flow.march(flow.start, periods=400, tangents=0).states
+    states = flow.strobe(flow.start, periods=400, tangents=0).states
     sd = section.details.get("stderr", math.nan)
     return (found.value, found.details.get("stderr", math.nan)), (section.value, sd), period_of(states)
 

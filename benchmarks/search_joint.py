@@ -72,7 +72,7 @@ def tried(ratio: float, damping: float, half: float, *, starts: int, periods: in
         flow = flow_of(model, values, drive=(float(level), OMEGA))
         for column in range(starts):
             place = np.array([level, 0.0]) + level * np.array([1.0, OMEGA]) * rng.uniform(-1.0, 1.0, 2)
-            orbit = flow.march(place, periods=transient + periods, tangents=1)
+            orbit = flow.strobe(place, periods=transient + periods, tangents=1)
             found[row, column] = orbit.growth[transient:, 0].mean() / flow.period / math.log(2.0)
             scatter[row, column] = orbit.states[transient:, 0].std() / level
     return Tried(ratio, damping, half, found, scatter)

@@ -16,13 +16,13 @@ from collections import Counter, defaultdict
 import numpy as np
 from scipy.stats import beta
 
+from labelled_fresh import fresh_series
+from labelled_recorded import recorded
+from labelled_series import LabelledSeries, rule_series
+from labelled_wide import wide_series
 from lostmotion.analysis.run import AnalysedChannel, AnalysisRequest, analyse
 from lostmotion.analysis.source import Source
 from lostmotion.registry import default
-from zoo import Animal, zoo
-from zoo_fresh import fresh_zoo
-from zoo_recorded import recorded
-from zoo_wide import wide_zoo
 
 SAID = ("periodic", "quasiperiodic", "chaotic", "stochastic", "undecided")
 MARKS = {"for": "+", "against": "-", "silent": "."}
@@ -31,16 +31,16 @@ RIGHT = {"unsteady": "undecided"}
 Table = dict[str, Counter[str]]
 
 
-def verdict(animal: Animal, seed: int, told: bool, draws: int) -> AnalysedChannel:
+def verdict(animal: LabelledSeries, seed: int, told: bool, draws: int) -> AnalysedChannel:
     """Return what the chain makes of one series; `told` gives it the period of the drive."""
     x = animal.draw(np.random.default_rng(seed))
     source = Source(animal.name, x, animal.dt, "", "x", None, {})
     return analyse(source, default(), AnalysisRequest(seed=seed, period=animal.period if told else None, draws=draws))
 
 
-def animals(which: str, samples: int) -> list[Animal]:
+def animals(which: str, samples: int) -> list[LabelledSeries]:
     """Return the series of one set."""
-    makers = {"rules": zoo, "wide": wide_zoo, "fresh": fresh_zoo}
+    makers = {"rules": rule_series, "wide": wide_series, "fresh": fresh_series}
     return makers[which](samples) if which in makers else recorded()
 
 

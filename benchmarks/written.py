@@ -11,7 +11,7 @@ import time
 import numpy as np
 
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.problem import NOISE, RANDOM, Free, Problem, Scales
+from lostmotion.likelihood.problem import NOISE, RANDOM, FreeParameter, Problem, Scales
 from lostmotion.likelihood.system import System
 from lostmotion.registry import default
 from lostmotion.written import model_of
@@ -40,8 +40,8 @@ def problem_of(model, values) -> Problem:
     observation = Observation.of("noise", 5e-3 * rng.standard_normal(SAMPLES), drive, 2e-3, "position")
     system = System(model)
     free = (
-        Free(RANDOM, "1", math.log(1e-3), -math.inf, math.inf),
-        Free(NOISE, "1", math.log(5e-3), -math.inf, math.inf),
+        FreeParameter(RANDOM, "1", math.log(1e-3), -math.inf, math.inf),
+        FreeParameter(NOISE, "1", math.log(5e-3), -math.inf, math.inf),
     )
     return Problem(system, (observation,), Scales(20.0, 5e-3, 0.05), system.vector(values), free, nsub=2)
 

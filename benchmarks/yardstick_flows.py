@@ -73,17 +73,18 @@ def by_heyoka() -> Followed | None:
 
 
 def followed(flow: object, tangents: int) -> Followed:
-    return lambda periods: flow.march(START, periods=periods, tangents=tangents).states  # type: ignore[attr-defined]
+    return lambda periods: flow.strobe(START, periods=periods, tangents=tangents).states  # type: ignore[attr-defined]
 
 
 CASES = [
     Case("exact flow, 10,000 periods with tangent, against the general kernel",
-         lambda: EXACT.march(START, periods=WHOLE, tangents=2), lambda: GENERAL.march(START, periods=WHOLE, tangents=2),
+         lambda: EXACT.strobe(START, periods=WHOLE, tangents=2),
+         lambda: GENERAL.strobe(START, periods=WHOLE, tangents=2),
          0.05),
     Case("exact flow, 100 periods with tangent, against DOP853 without",
-         lambda: EXACT.march(START, periods=100, tangents=2), lambda: by_scipy(100)),
+         lambda: EXACT.strobe(START, periods=100, tangents=2), lambda: by_scipy(100)),
     Case("general kernel, 100 periods with tangent, against DOP853 without",
-         lambda: GENERAL.march(START, periods=100, tangents=2), lambda: by_scipy(100)),
+         lambda: GENERAL.strobe(START, periods=100, tangents=2), lambda: by_scipy(100)),
     Case("exponent of Case 1 to 0.1 %",
          lambda: LyapunovMax(periods=400_000).estimate(EXACT, rng=np.random.default_rng(0)), None, 5.0),
 ]  # fmt: skip

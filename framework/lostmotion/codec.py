@@ -33,7 +33,7 @@ WORDS: Mapping[Any, str] = {
 }
 
 
-def told(
+def described(
     doc: str,
     *,
     unit: str = "",

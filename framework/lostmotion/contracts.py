@@ -199,7 +199,8 @@ class SensorTerm(_Beside):
 
     It shows `gain(p)` times what is there and `offset(p)` more, `delay(p)` s late, `bent` and `rounded`. One with
     states shows the first of them: `rate` is told what the `channel`, a field of its own, shows in place of `x`. What
-    leaves `marks` in values is not fitted. One that is `relative` is tried where there are several sensors.
+    shows in the stored values (`quantisation`) is not fitted. One that is `relative` is tried where there are several
+    sensors.
     """
 
     acts = "sensor"
@@ -232,7 +233,7 @@ class SensorTerm(_Beside):
         return z
 
     @staticmethod
-    def marks(z: Array) -> tuple[Values, Values]:
+    def quantisation(z: Array) -> tuple[Values, Values]:
         """Return the parameters that the stored values (samples,) betray, with their errors; or nothing."""
         return (), ()
 
@@ -244,7 +245,7 @@ class SensorTerm(_Beside):
     @property
     def marked(self) -> bool:
         """Whether the values themselves tell of this term, so that it is not fitted."""
-        return type(self).marks is not SensorTerm.marks
+        return type(self).quantisation is not SensorTerm.quantisation
 
 
 @dataclass(frozen=True)

@@ -24,7 +24,7 @@ import numpy as np
 
 from lostmotion.contracts import Array, Assembly, Flow, Model, Orbit
 from lostmotion.errors import ContractError
-from lostmotion.likelihood.drive import SILENT, Tone, widened
+from lostmotion.likelihood.drive import SILENT, DriveHarmonic, widened
 from lostmotion.likelihood.stroboscopic import stroboscopic_map
 from lostmotion.likelihood.system import System
 
@@ -167,7 +167,7 @@ class Stepped:
         """Whether the phase of a drive is one more direction of the flow, with the exponent zero."""
         return self.beat is not None and self.beat.amplitude != 0.0
 
-    def march(self, start: Array, *, periods: int, tangents: int) -> Orbit:
+    def strobe(self, start: Array, *, periods: int, tangents: int) -> Orbit:
         """Return the orbit from `start` (n,) at drive phase 0, with `tangents` tangent vectors kept orthogonal."""
         if self.lacking > ROUGH:
             return Orbit(np.full((periods + 1, len(start)), np.nan), np.full((periods, tangents), np.nan), "too_stiff")
@@ -218,8 +218,8 @@ class Stepped:
         return np.ascontiguousarray(widened(np.stack([u(t) for u in moved], axis=1), count))
 
     @property
-    def _tone(self) -> Tone:
-        return Tone(self.beat.omega, self.beat.amplitude) if self.beat else SILENT
+    def _tone(self) -> DriveHarmonic:
+        return DriveHarmonic(self.beat.omega, self.beat.amplitude) if self.beat else SILENT
 
     def _packed(self, h: float) -> tuple[Array, Array]:
         """Return the parameters of model and terms, the mobility being that of `LINE` steps."""

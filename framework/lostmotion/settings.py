@@ -50,7 +50,7 @@ class LocateSettings:
         ),
         most=1.0,
     )
-    marks: float = _number(
+    quantisation: float = _number(
         0.05,
         "Marks in the stored values, such as steps of a converter, count from this share of the noise variance on.",
         most=1.0,

@@ -69,7 +69,7 @@ class Flow(Protocol):
     def start(self) -> Array:
         """The state (n,) in which an orbit begins."""
 
-    def march(self, start: Array, *, periods: int, tangents: int) -> Orbit:
+    def strobe(self, start: Array, *, periods: int, tangents: int) -> Orbit:
         """Return the orbit from `start` (n,) at drive phase 0, with `tangents` tangent vectors kept orthogonal."""
 
 

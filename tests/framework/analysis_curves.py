@@ -13,7 +13,7 @@ OMEGA, STEPS, EVERY = 40.0, 96, 2
 DRIVE_PERIOD = 2 * math.pi / OMEGA
 
 
-def march(rate, y, n, h):
+def strobe(rate, y, n, h):
     """Return the first coordinate (n,) of an orbit, by RK4."""
     seen = np.empty(n)
     for k in range(n):
@@ -34,7 +34,7 @@ def backlash(periods=150, gap=5e-3, transient=30):
 
     h = DRIVE_PERIOD / STEPS * 1.0003
     keep = slice(transient * STEPS, None, EVERY)
-    x = march(rate, np.array([1e-3, 0.1]), (periods + transient) * STEPS, h)
+    x = strobe(rate, np.array([1e-3, 0.1]), (periods + transient) * STEPS, h)
     return 100.0 * np.sin(OMEGA * np.arange(len(x)) * h)[keep], x[keep], EVERY * h
 
 
@@ -44,7 +44,7 @@ def lorenz(n=5000, dt=0.02):
     def rate(_, y):
         return np.array([10 * (y[1] - y[0]), y[0] * (28 - y[2]) - y[1], y[0] * y[1] - 8 / 3 * y[2]])
 
-    return march(rate, np.array([1.0, 1.0, 20.0]), n, dt), dt
+    return strobe(rate, np.array([1.0, 1.0, 20.0]), n, dt), dt
 
 
 def under(dims, unit="1", **values):

@@ -11,35 +11,35 @@ from typing import Literal
 import numpy as np
 import pytest
 
-from lostmotion.codec import from_plain, schema, to_plain, told
+from lostmotion.codec import described, from_plain, schema, to_plain
 from lostmotion.errors import DataError
 from lostmotion.results import Interval
 
 
 @dataclass(frozen=True)
 class Part:
-    name: str = told("what it is called")
-    size: float = told("how large it is", unit="m")
-    numbers: Mapping[str, Interval] = told("its numbers", default={})
-    late: Interval | None = told("since when", default=None)
-    rest: float = told("what is left", default=0.0)
-    at: str = told("where it is", default="", spare=True)
+    name: str = described("what it is called")
+    size: float = described("how large it is", unit="m")
+    numbers: Mapping[str, Interval] = described("its numbers", default={})
+    late: Interval | None = described("since when", default=None)
+    rest: float = described("what is left", default=0.0)
+    at: str = described("where it is", default="", spare=True)
 
 
 @dataclass(frozen=True, kw_only=True)
 class Choice:
-    name: str = told("what it is called")
-    price: float | None = told("what it costs", default=None)
-    good: bool = told("whether it is good")
+    name: str = described("what it is called")
+    price: float | None = described("what it costs", default=None)
+    good: bool = described("whether it is good")
 
 
 @dataclass(frozen=True)
 class Whole:
-    parts: tuple[Part, ...] = told("what it is made of")
-    curve: tuple[tuple[float, ...], ...] = told("a table", key="in", default=())
-    many: int = told("how many", default=3)
-    good: bool = told("whether it is good", default=True)
-    kind: Literal["near", "far"] = told("where it is", default="near")
+    parts: tuple[Part, ...] = described("what it is made of")
+    curve: tuple[tuple[float, ...], ...] = described("a table", key="in", default=())
+    many: int = described("how many", default=3)
+    good: bool = described("whether it is good", default=True)
+    kind: Literal["near", "far"] = described("where it is", default="near")
 
 
 WHOLE = Whole((Part("a", np.float64(0.5), {"k": Interval(1.0, 0.5, 2.0, "N")}), Part("b", 1.0)), ((1.0, 2.0),))
@@ -107,16 +107,16 @@ def test_the_schema_has_each_key_with_unit_and_meaning():
 
 @dataclass(frozen=True)
 class Share:
-    hits: int = told("how many were right")
-    of: int = told("of how many")
+    hits: int = described("how many were right")
+    of: int = described("of how many")
 
 
 @dataclass(frozen=True)
 class Counted:
-    name: str = told("what was counted")
-    share: Share = told("how often it was right", flat=True)
-    late: float = told("what comes behind", default=0.0)
-    where: Interval | None = told("where it was", flat=True, default=None)
+    name: str = described("what was counted")
+    share: Share = described("how often it was right", flat=True)
+    late: float = described("what comes behind", default=0.0)
+    where: Interval | None = described("where it was", flat=True, default=None)
 
 
 def test_keys_of_a_flat_field_stand_among_those_of_its_owner():

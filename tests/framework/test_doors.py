@@ -2,9 +2,9 @@
 
 import json
 
-import guests
 import numpy as np
 import pytest
+import third_party
 
 import lostmotion
 from lostmotion.registry import Registry
@@ -29,8 +29,8 @@ k = { low = 5.0, high = 500.0, scale = "log" }
 @pytest.fixture(scope="module")
 def known():
     found = Registry.discover()
-    for cls in guests.GOOD:
-        found.add(cls if cls is not guests.Pair else guests.Pair(), "guests")
+    for cls in third_party.GOOD:
+        found.add(cls if cls is not third_party.Pair else third_party.Pair(), "guests")
     return found
 
 

@@ -8,14 +8,14 @@ import pytest
 
 from lostmotion.inference.evidence import checked
 from lostmotion.inference.fit import Fit, Local
-from lostmotion.likelihood.space import Free
+from lostmotion.likelihood.space import FreeParameter
 
 
 @dataclass(frozen=True)
 class Toy:
     """A problem whose log-likelihood is a normal bump about `middle` with the spread `sd`."""
 
-    free: tuple[Free, ...]
+    free: tuple[FreeParameter, ...]
     middle: np.ndarray
     sd: np.ndarray
 
@@ -30,7 +30,9 @@ class Toy:
 
 
 def fit_of(middle, sd, low, high):
-    free = tuple(Free(f"p{i}", "1", m, a, b) for i, (m, a, b) in enumerate(zip(middle, low, high, strict=True)))
+    free = tuple(
+        FreeParameter(f"p{i}", "1", m, a, b) for i, (m, a, b) in enumerate(zip(middle, low, high, strict=True))
+    )
     toy = Toy(free, np.array(middle), np.array(sd))
     top = np.clip(middle, low, high)
     height = float(toy.log_likelihoods(top[None])[0])

@@ -16,9 +16,9 @@ from lostmotion.diagnosis.experiment import Proposal, _counted, natural_of, news
 from lostmotion.diagnosis.rehearsal import Asked, RehearsedModel, _slow, evidence, simulated
 from lostmotion.errors import CaseError
 from lostmotion.inference.course import Selection, Visit
-from lostmotion.likelihood.drive import Tone
+from lostmotion.likelihood.drive import DriveHarmonic
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.space import FADE, SLOW, Free
+from lostmotion.likelihood.space import AR1_LEVEL, AR1_MEMORY, FreeParameter
 from lostmotion.results.diagnosis import Confusion
 from lostmotion.settings import DEFAULT
 
@@ -50,7 +50,7 @@ def sine(base=False):
     omega = 2 * math.pi * FREQUENCY
     value, slope = LEVEL * np.sin(omega * t), LEVEL * omega * np.cos(omega * t)
     inputs = np.stack([value, slope], axis=1) if base else value[:, None]
-    return Observation.of("old", np.sin(omega * t), inputs, 1 / RATE, "position", tone=Tone(omega, LEVEL))
+    return Observation.of("old", np.sin(omega * t), inputs, 1 / RATE, "position", harmonic=DriveHarmonic(omega, LEVEL))
 
 
 @pytest.mark.parametrize("base", [False, True])
@@ -118,7 +118,9 @@ def test_a_model_believes_what_it_has_made(springs):
 def test_simulated_noise_has_the_memory_that_was_found(springs):
     """The slow part of the noise fades as it was estimated: 20000 samples know its correlation to 0.01."""
     *_, (truth, _) = springs
-    slow = tuple(Free(key, "1", value, -30.0, 30.0) for key, value in ((SLOW, 0.0), (FADE, math.log(0.02))))
+    slow = tuple(
+        FreeParameter(key, "1", value, -30.0, 30.0) for key, value in ((AR1_LEVEL, 0.0), (AR1_MEMORY, math.log(0.02)))
+    )
     observation = replace(sine(), readings=np.zeros((20000, 1)), inputs=np.zeros((20000, 1)))
     problem = replace(truth.problem, observations=(observation,), free=(*truth.problem.free, *slow))
     noise = _slow(problem, problem.start, 0, np.random.default_rng(0))

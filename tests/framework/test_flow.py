@@ -34,13 +34,13 @@ def test_looks_of_a_linear_oscillator_are_its_closed_form():
     t = np.arange(len(seen)) * flow.period / 8
     steady = (1.0 / (1.0 - 1.3**2 + 0.13j) * np.exp(1.3j * t)).real
     np.testing.assert_allclose(seen[-80:, 0], steady[-80:], atol=2e-5)
-    np.testing.assert_array_equal(seen[::8], flow.march(np.zeros(2), periods=60, tangents=0).states)
+    np.testing.assert_array_equal(seen[::8], flow.strobe(np.zeros(2), periods=60, tangents=0).states)
 
 
 def test_a_base_motion_carries_its_velocity():
     """A stiff joint without gravity follows its base; `base_velocity` must be the slope of `base_position`."""
     flow = flow_of(RobotJoint(), {**JOINT, "x0": 0.0, "mgl": 0.0}, drive=Harmonic(0.05, 3.0, 0.4))
-    states = flow.march(flow.start, periods=40, tangents=0).states
+    states = flow.strobe(flow.start, periods=40, tangents=0).states
     np.testing.assert_allclose(states[-1], [0.05 * math.cos(0.4), -0.15 * math.sin(0.4)], atol=1e-3)
 
 
@@ -48,7 +48,7 @@ def test_states_of_terms_are_states_of_the_flow():
     values = {**SOFT, "dahl_friction.force": 0.1, "dahl_friction.deflection": 0.01}
     flow = flow_of(LinearOscillator() + DahlFriction(), values, drive=(1.0, 1.3))
     assert flow.states == ("position", "velocity", "dahl_friction.bristle_force")
-    orbit = flow.march(flow.start, periods=50, tangents=3)
+    orbit = flow.strobe(flow.start, periods=50, tangents=3)
     assert orbit.status == "ok"
     assert orbit.states.shape == (51, 3)
     assert orbit.growth.shape == (50, 3)
@@ -65,7 +65,7 @@ def test_a_motion_that_runs_away_says_so():
     machine = LinearOscillator() + CubicStiffness()
     values = {**SOFT, "cubic_stiffness.coefficient": -1.0}
     flow = flow_of(machine, values, drive=(0.1, 1.3), start=np.array([2.0, 0.0]))
-    orbit = flow.march(flow.start, periods=50, tangents=2)
+    orbit = flow.strobe(flow.start, periods=50, tangents=2)
     assert orbit.status == "diverged"
     assert np.isnan(orbit.states[-1]).all()
     assert np.isnan(orbit.growth[-1]).all()
@@ -79,7 +79,7 @@ def test_a_motion_that_runs_away_says_so():
 def test_a_force_that_jumps_in_position_says_so():
     values = {"m": 1.0, "c": 2.0, "k0": 4e3, "x0": 0.02, "mgl": 3.0, "contact_damping@base.coefficient": 5.0}
     flow = flow_of(RobotJoint() + ContactDamping("base"), values, drive=(0.05, 9.7))
-    assert flow.march(flow.start, periods=50, tangents=2).status == "jumps"
+    assert flow.strobe(flow.start, periods=50, tangents=2).status == "jumps"
     estimate = LyapunovMax().estimate(flow, rng=RNG)
     assert estimate.status == "jumps"
     assert math.isnan(estimate.value)
@@ -95,7 +95,7 @@ def test_a_force_that_jumps_in_position_says_so():
 )
 def test_dry_friction_of_ours_is_resolved_by_the_step(values):
     flow = flow_of(RobotJoint() + CoulombFriction("base"), {**JOINT, **values}, drive=(0.05, 9.7))
-    assert flow.march(flow.start, periods=200, tangents=2).status == "ok"
+    assert flow.strobe(flow.start, periods=200, tangents=2).status == "ok"
 
 
 @dataclass(frozen=True)
@@ -140,7 +140,7 @@ def test_rest_and_nonsense_are_answered():
     with pytest.raises(ContractError, match="up to 2 finite numbers"):
         flow_of(LinearOscillator(), SOFT, drive=2.0, start=np.zeros(3))
     with pytest.raises(ContractError, match="shape"):
-        still.march(np.zeros(3), periods=5, tangents=1)
+        still.strobe(np.zeros(3), periods=5, tangents=1)
 
 
 def test_exponents_change_their_unit_and_nothing_else():

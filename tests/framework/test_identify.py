@@ -9,8 +9,8 @@ import pytest
 from lostmotion.errors import CaseError, DataError
 from lostmotion.identification.chains import grouped, quality_of, quiet_arviz
 from lostmotion.identification.moves import state_of
-from lostmotion.identification.sampling import Cloud, SamplingPlan, ShownCoordinate, Task, identify, task_of
-from lostmotion.likelihood.problem import Free
+from lostmotion.identification.sampling import SamplingPlan, ShownCoordinate, Task, TMixture, identify, task_of
+from lostmotion.likelihood.problem import FreeParameter
 from lostmotion.likelihood.sensors import Sensor
 
 MEAN = np.array([1.0, -2.0, 0.3])
@@ -22,7 +22,7 @@ PRECISION = np.linalg.inv(COVARIANCE)
 class Bell:
     """A problem whose likelihood is normal, or falls exponentially from the lower bound of its last parameter."""
 
-    free: tuple[Free, ...] = tuple(Free(k, "N", 0.0, -40.0, 40.0) for k in "abc")
+    free: tuple[FreeParameter, ...] = tuple(FreeParameter(k, "N", 0.0, -40.0, 40.0) for k in "abc")
     pressed: bool = False
     asked: list = field(default_factory=list)
 
@@ -42,7 +42,7 @@ class Bell:
 
 def task_at(problem, theta=MEAN, covariance=COVARIANCE):
     shown = tuple(ShownCoordinate(f.key, f.unit, 1.0 if f.log else 0.0) for f in problem.free)
-    return Task(problem, Cloud.of_modes(theta[None], [covariance], np.ones(1), problem.free), shown, theta)
+    return Task(problem, TMixture.of_modes(theta[None], [covariance], np.ones(1), problem.free), shown, theta)
 
 
 def fit_of(theta=(0.1, -5.0, 1.0, 2.0, -3.0), log_posterior=0.0, log_evidence=0.0):
@@ -52,7 +52,7 @@ def fit_of(theta=(0.1, -5.0, 1.0, 2.0, -3.0), log_posterior=0.0, log_evidence=0.
         SimpleNamespace(name="two", dt=0.04, sensors=(Sensor("velocity"),)),
     )
     keys = ("c", "x0", "offset[two]", "log_noise[two]", "log_random_force[two]")
-    free = tuple(Free(k, "?", 0.0, -40.0, 40.0, log=k == "x0") for k in keys)
+    free = tuple(FreeParameter(k, "?", 0.0, -40.0, 40.0, log=k == "x0") for k in keys)
     problem = SimpleNamespace(
         free=free, observations=observations, system=SimpleNamespace(model=SimpleNamespace(motion="rotation"))
     )
@@ -89,7 +89,7 @@ def test_a_poor_start_is_made_good():
 
 
 def test_posterior_that_presses_against_its_bound():
-    free = (Free("a", "N", 0.0, -40.0, 40.0), Free("b", "N", 0.0, 0.0, 40.0))
+    free = (FreeParameter("a", "N", 0.0, -40.0, 40.0), FreeParameter("b", "N", 0.0, 0.0, 40.0))
     problem = Bell(free, pressed=True)
     task = task_at(problem, np.zeros(2), np.diag([1.0, 4.0]))
     result = identify(task, rng=np.random.default_rng(4), plan=SamplingPlan(ess=2000))
@@ -100,7 +100,7 @@ def test_posterior_that_presses_against_its_bound():
 
 
 def test_logarithms_become_numbers():
-    free = (Free("a", "m", 0.0, -40.0, 40.0, log=True), *Bell().free[1:])
+    free = (FreeParameter("a", "m", 0.0, -40.0, 40.0, log=True), *Bell().free[1:])
     task = task_at(Bell(free))
     result = identify(task, rng=np.random.default_rng(0), plan=SamplingPlan(max_steps=20))
     assert result.units == ("m", "N", "N")
@@ -171,8 +171,8 @@ def test_evaluations_are_counted():
 
 
 def test_density_of_the_cloud_is_that_of_its_draws():
-    free = (Free("a", "1", 0.0, 0.0, 3.0),)
-    cloud = Cloud.of_modes(np.array([[0.0]]), [np.array([[0.2]])], np.ones(1), free)
+    free = (FreeParameter("a", "1", 0.0, 0.0, 3.0),)
+    cloud = TMixture.of_modes(np.array([[0.0]]), [np.array([[0.2]])], np.ones(1), free)
     points = cloud.draw(40000, np.random.RandomState(3))
     counts, edges = np.histogram(points[:, 0], bins=30, range=(0.05, 2.95), density=True)
     middle = 0.5 * (edges[1:] + edges[:-1])

@@ -11,7 +11,7 @@ from lostmotion.flow import Harmonic, stepped
 from lostmotion.likelihood.drive import Drive
 from lostmotion.likelihood.motion import derivatives
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.problem import NOISE, RANDOM, Free, Problem, Scales
+from lostmotion.likelihood.problem import NOISE, RANDOM, FreeParameter, Problem, Scales
 from lostmotion.likelihood.reference import Reference
 from lostmotion.likelihood.system import Clock, System
 from lostmotion.quantities import quantity_of, unit_of
@@ -41,7 +41,7 @@ def problem_of(model, inputs, **more):
     full = system.vector({**{k: v for k, v in GAP.items() if k in system.index}, f"{key}.force": 0.1})
     readings = 0.1 * np.sin(6.0 * np.arange(SAMPLES) * DT)
     observation = Observation.of("run", readings, inputs, DT, "position")
-    frees = (Free(RANDOM, "1", -6.0, -20.0, 5.0), Free(NOISE, "1", -3.0, -20.0, 3.0))
+    frees = (FreeParameter(RANDOM, "1", -6.0, -20.0, 5.0), FreeParameter(NOISE, "1", -3.0, -20.0, 3.0))
     return Problem(system, (observation,), Scales(1.0, 0.2, 0.2), full, frees, frozenset({key}), **more)
 
 

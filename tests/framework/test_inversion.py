@@ -12,8 +12,8 @@ from lostmotion.case.levels import Level, Measured
 from lostmotion.codec import to_plain
 from lostmotion.errors import CaseError, DataError
 from lostmotion.identification.levels import Survey, _free, derived, inversion_of, quantifier_task, wanted_of
-from lostmotion.identification.result import level_told
-from lostmotion.likelihood.space import Free
+from lostmotion.identification.result import drive_level
+from lostmotion.likelihood.space import FreeParameter
 from lostmotion.maps.atlas import CHAOTIC, PERIODIC, Atlas
 from lostmotion.maps.inversion import WEAK, Inversion, grouped, likelihood_of, predicted
 from lostmotion.maps.map import RING, Map
@@ -38,7 +38,7 @@ def atlas(exponent, dimension=None, *, starts=2):
 
 def inversion(levels, made, *, known=None):
     """An inversion for x0 and zeta of a machine with k0 = 1: alpha = amplitude / x0."""
-    free = (Free("x0", "m", 1.0, 0.4, 2.0), Free("zeta", "1", 0.05, 0.01, 0.1))
+    free = (FreeParameter("x0", "m", 1.0, 0.4, 2.0), FreeParameter("zeta", "1", 0.05, 0.01, 0.1))
     laws = tuple(
         {"alpha": NumberLaw(math.log(level.amplitude), (-1.0, 0.0), True), "zeta": NumberLaw(0.0, (0.0, 1.0))}
         for level in levels
@@ -141,7 +141,7 @@ def test_predictions_are_those_of_the_map():
     assert found.chaotic_share == 1.0
     assert found.lyapunov.median == pytest.approx(2.0 * 0.15, rel=0.05)
     assert found.lyapunov.low <= found.lyapunov.median <= found.lyapunov.high
-    told = to_plain(level_told(replace(found, level=replace(level, lyapunov=Measured(0.3, 0.1)))))
+    told = to_plain(drive_level(replace(found, level=replace(level, lyapunov=Measured(0.3, 0.1)))))
     assert told["predicted"]["chaotic_share"] == 1.0
     assert {"low", "median", "high"} == told["predicted"]["lyapunov"].keys()
     assert told["lyapunov"] == {"value": 0.3, "low": pytest.approx(0.104), "high": pytest.approx(0.496), "unit": "1/s"}

@@ -4,9 +4,9 @@ import os
 import sys
 from dataclasses import dataclass, replace
 
-import guests
 import numpy as np
 import pytest
+import third_party
 from click.testing import CliRunner
 
 from lostmotion import registry
@@ -25,7 +25,7 @@ from lostmotion.registry import Registry
 from lostmotion.results import Embedding
 
 pytestmark = pytest.mark.filterwarnings("ignore::lostmotion.errors.PluginWarning")
-ALL = [*guests.GOOD, *(cls for cls, _ in (*guests.TERMS, *guests.METHODS))]
+ALL = [*third_party.GOOD, *(cls for cls, _ in (*third_party.TERMS, *third_party.METHODS))]
 
 
 @pytest.fixture
@@ -51,12 +51,12 @@ def one_sentence(text):
 
 def test_terms_are_set_aside_one_by_one_and_the_good_one_stays():
     mine = Registry()
-    for cls in (guests.Drag, *(cls for cls, _ in guests.TERMS)):
+    for cls in (third_party.Drag, *(cls for cls, _ in third_party.TERMS)):
         mine.add(cls, "guests")
     with pytest.warns(PluginWarning, match="Set aside"):
         terms, aside = usable_terms(mine)
-    assert terms == [guests.Drag]
-    for (cls, why), said in zip(sorted(guests.TERMS, key=lambda pair: pair[0].name), aside, strict=True):
+    assert terms == [third_party.Drag]
+    for (cls, why), said in zip(sorted(third_party.TERMS, key=lambda pair: pair[0].name), aside, strict=True):
         assert f"term '{cls.name}' of guests" in said
         assert why in said
         assert f"`lostmotion plugins check {cls.name}` tells all" in said
@@ -74,17 +74,17 @@ def test_a_package_that_does_not_import_is_among_what_was_set_aside(tmp_path, mo
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("cls", "why"), guests.METHODS, ids=[cls.name for cls, _ in guests.METHODS])
+@pytest.mark.parametrize(("cls", "why"), third_party.METHODS, ids=[cls.name for cls, _ in third_party.METHODS])
 def test_a_method_is_set_aside_and_its_samples_are_as_they_were(known, cls, why):
     x = np.sin(0.3 * np.arange(1200.0)) + 0.1 * np.random.default_rng(0).normal(size=1200)
     series = Series(x.copy(), 0.05, Embedding(8, 3, 10))
     watch, request, beat = Guests(known), analyse.Request(draws=19), Beat(None, "none")
-    if issubclass(cls, guests.Crest):
+    if issubclass(cls, third_party.Crest):
         found = analyse._Measured(series, watch, request, beat, print)(cls.name, "others")
         assert (found.status, found.says) == ("failed", watch.said[0])
-    elif issubclass(cls, guests.Pair):
+    elif issubclass(cls, third_party.Pair):
         assert analyse._embedded(series.x, watch, cls.name, 0.05, beat).embedding.methods != ("given", "given")
-    elif issubclass(cls, guests.Shuffle):
+    elif issubclass(cls, third_party.Shuffle):
         assert [t.method for t in analyse._tests(series, watch, replace(request, surrogates=(cls.name,)), print)] == [
             "iaaft"
         ]
@@ -135,7 +135,10 @@ MOVED = ("--drive", "harmonic:amplitude=1,omega=1", "--duration", 1, "--rate", 1
 
 @pytest.mark.parametrize("method", ["rhs", "observe"])
 def test_a_broken_model_is_one_sentence_and_status_2(known, tmp_path, method):
-    known.add(guests.spoiled(guests.Cart, f"guest_bad_{method}", **{method: staticmethod(guests.raises)}), "guests")
+    known.add(
+        third_party.spoiled(third_party.Cart, f"guest_bad_{method}", **{method: staticmethod(third_party.raises)}),
+        "guests",
+    )
     done = run("simulate", f"guest_bad_{method}", "--set", "m=1,c=1,k=1", *MOVED, tmp_path / "x.csv", status=2)
     assert f"model 'guest_bad_{method}' of guests cannot be used, for it breaks the rule {method}_" in done.stderr
     assert one_sentence(done.stderr)
@@ -155,14 +158,19 @@ def late(t, x, v, u, p, s):
 
 
 def test_the_term_that_raises_along_the_recording_is_found():
-    guest, at_fault = guests.Drag(), guests.spoiled(guests.Drag, "guest_late", force=staticmethod(late))()
+    guest, at_fault = (
+        third_party.Drag(),
+        third_party.spoiled(third_party.Drag, "guest_late", force=staticmethod(late))(),
+    )
     observation = Observation.of("run", np.sin(np.arange(200) * 0.1), np.zeros((200, 1)), 0.01, "position")
     assert raising([guest, at_fault], [observation]) == {"guest_late"}
     assert raising([guest, at_fault], [observation.part(0, 40)]) == set()
 
 
 def test_what_a_term_raises_while_it_runs_becomes_a_sentence():
-    system = System(guests.Cart(), (guests.spoiled(guests.Drag, "guest_late", force=staticmethod(late))(),))
+    system = System(
+        third_party.Cart(), (third_party.spoiled(third_party.Drag, "guest_late", force=staticmethod(late))(),)
+    )
     full, time = system.vector({"m": 1.0, "guest_late.size": 1.0}), np.ones(1)
     with pytest.raises(ContractError, match=r"a model or term raised ValueError \(too late\)"):
         derivatives(system, system.everything, system.pack(full[None], 0.01), np.ones((1, 2)), np.ones((1, 1)), time)
@@ -177,10 +185,10 @@ class Nothing:
 
 @pytest.mark.parametrize(("plugin", "left"), [("guest_drag", {"guest_drag"}), ("", {"guest_drag", "guest_more"})])
 def test_a_diagnosis_begins_anew_without_the_term_that_broke_down(known, monkeypatch, plugin, left):
-    more = guests.spoiled(guests.Drag, "guest_more")
+    more = third_party.spoiled(third_party.Drag, "guest_more")
     known.add(more, "guests")
     ours = known.make("term", "coulomb_friction")
-    prepared = Prepared(Nothing(), (), (), guests.Cart(), (ours, guests.Drag(), more()))
+    prepared = Prepared(Nothing(), (), (), third_party.Cart(), (ours, third_party.Drag(), more()))
     tried = []
 
     def fails_at_first(case, observations, system, *, rng):

@@ -15,7 +15,7 @@ from lostmotion.case import CaseFile, Prior, SensorSpec
 from lostmotion.inference.modes import Tried, distinct, one_hill
 from lostmotion.inference.setup import WITHIN, modes, polished, problem_of, search
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.problem import Free
+from lostmotion.likelihood.problem import FreeParameter
 from lostmotion.likelihood.system import System
 from lostmotion.registry import default
 
@@ -165,7 +165,7 @@ def test_the_walk_to_a_mode_stays_within_its_bounds() -> None:
     narrow = replace(problem, free=tuple(replace(f, high=7.7) if f.key == "k" else f for f in problem.free))
     only = modes(narrow, np.random.default_rng(0))
     assert [hertz(f) for f in only] == pytest.approx([TRUE], rel=0.01)
-    assert isinstance(only[0].problem.free[0], Free)
+    assert isinstance(only[0].problem.free[0], FreeParameter)
 
 
 def test_hills_are_compared_with_the_noise_of_each_recording() -> None:

@@ -130,7 +130,7 @@ def test_the_first_coordinate_of_an_equation_is_the_position():
 
 
 def test_a_model_of_ones_own_makes_a_case():
-    from guests import Cart
+    from third_party import Cart
 
     case = lm.Case(
         recording(), Cart(), known={"m": 1.0}, estimate={"c": lm.LogUniform(0.1, 9.0), "k": lm.Uniform(1, 99)}

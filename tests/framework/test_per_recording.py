@@ -18,7 +18,7 @@ from lostmotion.likelihood.levels import LEAST, own_levels
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.predict import free_runs, observed
 from lostmotion.likelihood.problem import NOISE, OFFSET, RANDOM, Problem, Scales
-from lostmotion.likelihood.space import Free, Route, keys_of, parted
+from lostmotion.likelihood.space import FreeParameter, RecordingCoordinates, keys_of, parted
 from lostmotion.likelihood.system import Slot, System
 from lostmotion.quantities import DAMPING
 from lostmotion.registry import default
@@ -192,7 +192,7 @@ def test_a_prior_with_each_gives_every_recording_its_own_value() -> None:
 
 
 def test_a_route_that_is_nowhere_is_refused() -> None:
-    route = Route.of(("c[a]", "k"), "b")
+    route = RecordingCoordinates.of(("c[a]", "k"), "b")
     assert route.at(np.array([3.0, 4.0]), "c") == 3.0
     assert list(route.used) == [True, True]
     with pytest.raises(KeyError):
@@ -246,4 +246,6 @@ def test_the_prior_of_a_coordinate_is_a_density_and_its_quantile_inverts_it(prio
 
 def test_the_coordinate_of_a_log_normal_prior_is_the_logarithm() -> None:
     free = free_of(Slot("c", Param("c", "damping", DAMPING, low=0.0), "1", None), Prior(median=2.0, sd_log=0.5))
-    assert free == Free("c", "1", math.log(2.0), math.log(2.0) - 6.0, math.log(2.0) + 6.0, True, math.log(2.0), 0.5)
+    assert free == FreeParameter(
+        "c", "1", math.log(2.0), math.log(2.0) - 6.0, math.log(2.0) + 6.0, True, math.log(2.0), 0.5
+    )

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from lostmotion.diagnosis.repetitions import looks_of, repetition_notes, share_repeated
-from lostmotion.likelihood.observation import Observation, tone_of
+from lostmotion.likelihood.observation import Observation, harmonic_of
 
 SAMPLES, TRAIN, DT, PERIOD = 2000, 1400, 0.01, 37.7
 
@@ -15,7 +15,7 @@ def observed(name="run 1", level=1.0, seed=0, noise=0.01, waveform=None):
     x = level * (np.sin(angle) + 0.3 * np.cos(3.0 * angle)) if waveform is None else np.cumsum(u) / 30.0
     noisy = x + noise * np.std(x) * rng.standard_normal(SAMPLES)
     bare = Observation.of(name, noisy, u[:, None], DT, "position")
-    return Observation.of(name, noisy, u[:, None], DT, "position", tone=tone_of(bare))
+    return Observation.of(name, noisy, u[:, None], DT, "position", harmonic=harmonic_of(bare))
 
 
 def slow_noise(rng):
@@ -55,7 +55,7 @@ def test_readings_that_were_not_taken_are_bridged():
     whole = observed()
     holes = whole.readings.copy()
     holes[::50] = np.nan
-    bridged = Observation(whole.name, holes, whole.inputs, DT, whole.sensors, tone=whole.tone)
+    bridged = Observation(whole.name, holes, whole.inputs, DT, whole.sensors, harmonic=whole.harmonic)
     assert looks_of(bridged).distinct == pytest.approx(1.0, abs=0.1)
     holes[::2] = np.nan
     assert looks_of(bridged) is None

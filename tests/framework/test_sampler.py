@@ -10,8 +10,8 @@ from toys import Toy, free_of, task_at
 from lostmotion.identification.normal_scores import Scores
 from lostmotion.identification.population import effective, tempered
 from lostmotion.identification.sampling import SamplingPlan, ShownCoordinate, Task, identify
-from lostmotion.identification.t_mixture import Cloud
-from lostmotion.likelihood.problem import Free
+from lostmotion.identification.t_mixture import TMixture
+from lostmotion.likelihood.problem import FreeParameter
 
 
 def two_modes(size, share):
@@ -70,7 +70,7 @@ def test_banana():
 
 def test_piled_up_on_a_bound_and_a_wide_prior():
     """As the random force does: an exponential of scale 0.5 at the lower bound, 40 wide, that widens another one."""
-    free = (*free_of(1), Free("force", "N", -14.0, -14.0, 26.0))
+    free = (*free_of(1), FreeParameter("force", "N", -14.0, -14.0, 26.0))
 
     def height(points):
         up = points[:, 1] + 14.0
@@ -89,7 +89,7 @@ def test_piled_up_on_a_bound_and_a_wide_prior():
 @pytest.mark.slow
 def test_ten_recordings_with_levels_of_their_own():
     """Twenty-one parameters, half of them piled up on a bound: slower, but it gets there from Laplace's guess."""
-    free = (*free_of(11), *(Free(f"f{i}", "N", 0.0, 0.0, 20.0) for i in range(10)))
+    free = (*free_of(11), *(FreeParameter(f"f{i}", "N", 0.0, 0.0, 20.0) for i in range(10)))
 
     def height(points):
         return np.sum(norm.logpdf(points[:, :11]), axis=1) - np.sum(2.0 * points[:, 11:], axis=1)
@@ -109,9 +109,9 @@ def rugged(points):
 
 
 @pytest.fixture(scope="module")
-def swarmed():
+def sampled():
     toy = Toy(rugged, free_of(2, 0.0, 1.0))
-    return toy, Cloud.swarm(toy, np.random.default_rng(4))
+    return toy, TMixture.by_importance_sampling(toy, np.random.default_rng(4))
 
 
 def exact(bins):
@@ -122,11 +122,11 @@ def exact(bins):
     return density / density.sum()
 
 
-def test_a_swarm_finds_a_rugged_posterior(swarmed):
+def test_importance_sampling_finds_a_rugged_posterior(sampled):
     """Fields of a ten by ten grid against the exact shares: at most 1.5 times as far off as independent draws."""
-    toy, cloud = swarmed
+    toy, mixture = sampled
     shown = tuple(ShownCoordinate(f.key, f.unit, 0.0) for f in toy.free)
-    task = Task(toy, cloud, shown, np.array([0.3, 0.6]))
+    task = Task(toy, mixture, shown, np.array([0.3, 0.6]))
     result = identify(task, rng=np.random.default_rng(6), plan=SamplingPlan(ess=2000))
     assert result.converged
     truth = exact(10)
@@ -136,26 +136,26 @@ def test_a_swarm_finds_a_rugged_posterior(swarmed):
     middle = (np.arange(10) + 0.5) / 10
     assert result.draws[:, 0].mean() == pytest.approx(float(middle @ truth.sum(axis=1)), abs=0.02)
     assert result.acceptance > 0.4
-    assert 10 < cloud.kernels <= 200
+    assert 10 < mixture.kernels <= 200
 
 
-def test_a_swarm_keeps_the_whole_prior_in_sight(swarmed):
-    toy, cloud = swarmed
+def test_importance_sampling_keeps_the_whole_prior_in_sight(sampled):
+    toy, mixture = sampled
     corners = np.array([[x, y] for x in (0.001, 0.5, 0.999) for y in (0.001, 0.5, 0.999)])
     prior = np.array([toy.log_prior(c) for c in corners])
-    assert np.all(cloud.log_density(corners) > prior + math.log(0.02))
+    assert np.all(mixture.log_density(corners) > prior + math.log(0.02))
 
 
 def test_density_of_a_cloud_is_that_of_its_draws():
     """Each coordinate near a bound at which scores are piled, or far from it; the integral over a grid is one."""
-    free = (Free("a", "1", 0.0, 0.0, 3.0), Free("b", "1", 0.0, -30.0, 30.0))
+    free = (FreeParameter("a", "1", 0.0, 0.0, 3.0), FreeParameter("b", "1", 0.0, -30.0, 30.0))
     points = np.array([[0.0, 1.0], [2.0, -1.0]])
-    cloud = Cloud.of_modes(points, [np.diag([0.2, 1.0])] * 2, np.array([0.7, 0.3]), free)
+    mixture = TMixture.of_modes(points, [np.diag([0.2, 1.0])] * 2, np.array([0.7, 0.3]), free)
     a, b = np.linspace(0.0, 3.0, 802)[1:-1], np.linspace(-30.0, 30.0, 1202)[1:-1]
     grid = np.stack(np.meshgrid(a, b, indexing="ij"), axis=-1).reshape(-1, 2)
-    density = np.exp(cloud.log_density(grid)).reshape(800, 1200) * (a[1] - a[0]) * (b[1] - b[0])
+    density = np.exp(mixture.log_density(grid)).reshape(800, 1200) * (a[1] - a[0]) * (b[1] - b[0])
     assert density.sum() == pytest.approx(1.0, abs=0.02)
-    draws = cloud.draw(40000, np.random.default_rng(3))
+    draws = mixture.draw(40000, np.random.default_rng(3))
     for share in (0.05, 0.5, 0.95):
         edge = np.quantile(draws[:, 0], share)
         assert density[a < edge].sum() == pytest.approx(share, abs=0.02)

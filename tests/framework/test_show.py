@@ -9,7 +9,7 @@ import report_fixture as made
 from lostmotion.codec import from_plain, to_plain
 from lostmotion.diagnosis.attractors import MOST, distances_between, section
 from lostmotion.diagnosis.report import show
-from lostmotion.diagnosis.show_words import said
+from lostmotion.diagnosis.show_words import behaviour_sentences
 from lostmotion.likelihood.observation import Observation
 from lostmotion.results.behaviour import Behaviour
 from lostmotion.signals.distances import distances, energy_distance, same_chance
@@ -108,7 +108,9 @@ def facts_with(augmented=True, d2=None):
 
 def sentences(measured, strobed=True, **options):
     """Return a sentence on each measure of the last model."""
-    return said(measured.after or measured.before, measured.noise_floor, measured.horizon, strobed, **options)
+    return behaviour_sentences(
+        measured.after or measured.before, measured.noise_floor, measured.horizon, strobed, **options
+    )
 
 
 def plain(text):

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from lostmotion.analysis.beat import Beat, MotionEvidence
-from lostmotion.analysis.motion import _locked, judged
+from lostmotion.analysis.motion import _locked, verdict_on
 from lostmotion.analysis.signs import FEWEST_SAMPLES, signs_of
 from lostmotion.analysis.surrogates import SurrogateTest
 from lostmotion.contracts import Series
@@ -69,7 +69,7 @@ def test_each_sign_has_its_state_and_a_sentence_why(wanted):
 def test_the_headline_says_no_more_than_the_weakest_sign_allows(states):
     """All 81 combinations of test, exponent, dimension and entropy, on a motion that never comes back."""
     test, exponent, dimension, entropy = states
-    found = judged(evidence(exponent=EXPONENTS[exponent], dimension=DIMENSIONS[dimension],
+    found = verdict_on(evidence(exponent=EXPONENTS[exponent], dimension=DIMENSIONS[dimension],
                             entropy=ENTROPIES[entropy], ranks=(RANKS[test],)))  # fmt: skip
     assert [s.state for s in found.signs] == ["for", *states]
     measured = states[1:].count("for")
@@ -86,7 +86,7 @@ def test_the_headline_says_no_more_than_the_weakest_sign_allows(states):
 
 def test_what_is_silent_is_not_called_noise():
     """It was "stochastic": no exponent and no dimension could be read, of chaos recorded for 26 periods."""
-    found = judged(evidence())
+    found = verdict_on(evidence())
     assert found.motion == "undecided"
     assert "1 silent" not in found.says
     assert "3 silent" in found.says
@@ -95,7 +95,7 @@ def test_what_is_silent_is_not_called_noise():
 def test_the_page_that_was_seen_is_undecided():
     """Growth by 0.6 e-foldings within less than a period, no entropy, and no plateau: "all signs agree" stood there."""
     brief = Estimate(7.0, 5.9, 8.1, "uncertain", "1/s", details={"e_folds": 0.6, "fit_begin": 0.2, "fit_end": 0.6})
-    found = judged(evidence(exponent=brief))
+    found = verdict_on(evidence(exponent=brief))
     assert found.motion == "undecided"
     assert state(evidence(exponent=brief), "exponent") == "silent"
     assert "All" not in found.says
@@ -135,20 +135,20 @@ def test_a_few_cycles_of_a_sine_are_not_called_noise():
     t = 0.02 * np.arange(3000)
     it = evidence(x=np.sin(2.0 * np.pi * 7.0 * t / t[-1]), ranks=(0.6,), period=None)
     assert state(it, "surrogates_iaaft") == "silent"
-    assert judged(it).motion == "undecided"
+    assert verdict_on(it).motion == "undecided"
 
 
 def test_cycles_that_can_be_shuffled_forbid_chaos():
     both = {"exponent": EXPONENTS["for"], "dimension": DIMENSIONS["for"], "entropy": ENTROPIES["for"]}
-    assert judged(evidence(**both, ranks=(0.01, 0.01))).strength == "firm"
-    found = judged(evidence(**both, ranks=(0.01, 0.4)))
+    assert verdict_on(evidence(**both, ranks=(0.01, 0.01))).strength == "firm"
+    found = verdict_on(evidence(**both, ranks=(0.01, 0.4)))
     assert found.motion == "undecided"
     assert "1 against it (order of the cycles)" in found.says
 
 
 def test_growth_in_a_motion_that_comes_back_is_said():
     x = np.sin(2.0 * np.pi * 0.02 * np.arange(1500) / PERIOD)
-    calm, odd = (judged(evidence(x=x, exponent=EXPONENTS[k])) for k in ("against", "for"))
+    calm, odd = (verdict_on(evidence(x=x, exponent=EXPONENTS[k])) for k in ("against", "for"))
     assert (calm.motion, calm.strength) == ("periodic", "firm")
     assert (odd.motion, odd.strength) == ("periodic", "likely")
     assert "contradicts" in odd.says
@@ -158,7 +158,7 @@ def test_growth_in_a_motion_that_comes_back_is_said():
 def test_a_motion_that_changes_is_told_nothing_of(what):
     t = np.linspace(0.0, 1.0, 8000)
     x = {"size": np.exp(-4.0 * t) * np.sin(900.0 * t), "pace": np.sin(1000.0 * t**4)}[what]
-    found = judged(evidence(x=x, period=None))
+    found = verdict_on(evidence(x=x, period=None))
     assert found.motion == "undecided"
     assert f"The {what} of the motion changes" in found.says
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from lostmotion.identification.task import within
-from lostmotion.likelihood.problem import Free
+from lostmotion.likelihood.problem import FreeParameter
 
-FREE = (Free("c", "1", 0.0, -1.0, 1.0), Free("log_noise", "1", 0.0, -10.0, 2.0))
+FREE = (FreeParameter("c", "1", 0.0, -1.0, 1.0), FreeParameter("log_noise", "1", 0.0, -10.0, 2.0))
 
 
 def test_a_parameter_of_which_the_data_say_nothing_stays_between_its_bounds():

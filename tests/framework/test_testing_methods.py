@@ -59,7 +59,7 @@ class Rate(Quantifier[Flow]):
     reads = "flow"
 
     def estimate(self, data, *, rng):
-        value = float(np.mean(data.march(data.start, periods=10, tangents=1).growth)) / data.period
+        value = float(np.mean(data.strobe(data.start, periods=10, tangents=1).growth)) / data.period
         return Estimate(value, value, value, "ok", "1/s")
 
 

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from lostmotion.identification.sampling import Cloud, ShownCoordinate, Task
-from lostmotion.likelihood.problem import Free
+from lostmotion.identification.sampling import ShownCoordinate, Task, TMixture
+from lostmotion.likelihood.problem import FreeParameter
 
 
 @dataclass(frozen=True)
@@ -14,7 +14,7 @@ class Toy:
     """A posterior whose log-likelihood is a function of points (count, parameters)."""
 
     height: Callable
-    free: tuple[Free, ...]
+    free: tuple[FreeParameter, ...]
 
     def log_prior(self, theta):
         return sum(f.log_prior(float(c)) for f, c in zip(self.free, theta, strict=True))
@@ -24,11 +24,11 @@ class Toy:
 
 
 def free_of(size, low=-20.0, high=20.0):
-    return tuple(Free(f"p{i}", "1", 0.0, low, high) for i in range(size))
+    return tuple(FreeParameter(f"p{i}", "1", 0.0, low, high) for i in range(size))
 
 
 def task_at(toy, modes, covariances, weights=None):
     modes = np.atleast_2d(modes)
     weights = np.ones(len(modes)) if weights is None else np.array(weights)
     shown = tuple(ShownCoordinate(f.key, f.unit, 0.0) for f in toy.free)
-    return Task(toy, Cloud.of_modes(modes, covariances, weights, toy.free), shown, modes[0])
+    return Task(toy, TMixture.of_modes(modes, covariances, weights, toy.free), shown, modes[0])

@@ -22,7 +22,7 @@ from lostmotion.likelihood.levels import LEAST
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.predict import WORST, FreeRuns, free_runs
 from lostmotion.likelihood.problem import USUAL, Innovations
-from lostmotion.likelihood.space import Free, ParameterSpace
+from lostmotion.likelihood.space import FreeParameter, ParameterSpace
 from lostmotion.likelihood.system import System
 from lostmotion.maps.cells import CODES
 from lostmotion_plugins.models.exact import ExactBacklash
@@ -33,8 +33,8 @@ DRIVE = (100.0, 40.0)
 START = np.array([0.001, 0.1])
 
 
-def marched(flow, periods=1, tangents=0):
-    orbit = flow.march(START, periods=periods, tangents=tangents)
+def strobed(flow, periods=1, tangents=0):
+    orbit = flow.strobe(START, periods=periods, tangents=tangents)
     assert orbit.status == "ok"
     return orbit.states
 
@@ -62,7 +62,7 @@ def test_a_stiff_contact_becomes_a_rigid_wall():
     """The time in contact, and with it the distance from the rigid limit, falls with the root of the stiffness."""
     wall, bounces = bouncing(1)
     assert bounces >= 2
-    stiff = {k0: np.abs(marched(flow_of(LinBacklash(), {**MACHINE, "k0": k0}, drive=DRIVE))[-1] - wall).max()
+    stiff = {k0: np.abs(strobed(flow_of(LinBacklash(), {**MACHINE, "k0": k0}, drive=DRIVE))[-1] - wall).max()
              for k0 in (1e10, 1e12, 1e14)}  # fmt: skip
     assert stiff[1e14] < 1e-3
     assert stiff[1e10] / stiff[1e12] == pytest.approx(10.0, rel=0.3)
@@ -73,7 +73,7 @@ def test_a_stiff_contact_becomes_a_rigid_wall():
 def test_no_gap_is_a_linear_oscillator(make):
     def state(x0, **more):
         machine = LinBacklash() if make is flow_of else System.of(LinBacklash())
-        return marched(make(machine, {**MACHINE, "x0": x0, **more}, drive=DRIVE, start=START), 3)[-1]
+        return strobed(make(machine, {**MACHINE, "x0": x0, **more}, drive=DRIVE, start=START), 3)[-1]
 
     linear = state(0.005, k1=4e4, k0=0.0)
     assert state(0.0) == pytest.approx(linear, rel=1e-9, abs=1e-12)
@@ -89,7 +89,7 @@ def test_without_gap_nothing_is_crossed():
 @pytest.mark.parametrize(("make", "most"), [(flow_of, 1e-9), (stepped, 1e-3)])
 def test_without_damping_no_energy_is_lost(make, most):
     machine = LinBacklash() if make is flow_of else System.of(LinBacklash())
-    states = marched(make(machine, {**MACHINE, "c": 0.0}, drive=(0.0, 40.0), start=START), 200)
+    states = strobed(make(machine, {**MACHINE, "c": 0.0}, drive=(0.0, 40.0), start=START), 200)
     deep = np.maximum(np.abs(states[:, 0]) - MACHINE["x0"], 0.0)
     energy = 0.5 * states[:, 1] ** 2 + 0.5 * MACHINE["k0"] * deep**2
     assert np.ptp(energy) < most * energy[0]
@@ -113,7 +113,7 @@ def test_a_motion_too_stiff_to_follow_has_a_status():
         (stepped(machine, {**MACHINE, "c": 1e9}, drive=DRIVE, start=START), {"too_stiff"}),
         (stepped(machine, stiff, drive=DRIVE, start=START), {"too_stiff", "diverged"}),
     ):
-        orbit = flow.march(START, periods=200, tangents=1)
+        orbit = flow.strobe(START, periods=200, tangents=1)
         assert orbit.status in statuses
         assert np.isnan(orbit.growth[-1]).all()
 
@@ -203,7 +203,7 @@ def test_covariances_stay_positive_over_ten_million_steps(c, share, pace, noise)
 class Cliff:
     """A likelihood in one coordinate, that of a mean; beyond 1 the filter does not get through."""
 
-    free: tuple[Free, ...] = (Free("mean", "1", 0.0, -5.0, 5.0),)
+    free: tuple[FreeParameter, ...] = (FreeParameter("mean", "1", 0.0, -5.0, 5.0),)
 
     @property
     def space(self):

@@ -63,7 +63,7 @@ def test_a_change_of_units_changes_no_bit_of_what_is_fitted(tmp_path, recorded, 
     (other,) = prepare(written(tmp_path / "other", recorded, force, length), registry).observations
     assert np.array_equal(plain.response, other.response)
     assert np.array_equal(plain.inputs, other.inputs)
-    assert (plain.dt, plain.tone) == (other.dt, other.tone)
+    assert (plain.dt, plain.harmonic) == (other.dt, other.harmonic)
 
 
 def test_ten_digits_are_kept_and_a_lattice_stays_one():

@@ -16,7 +16,7 @@ from truths import system_of
 from lostmotion.case import CaseFile, Prior
 from lostmotion.diagnosis.findings import draws_of, intervals
 from lostmotion.diagnosis.search import diagnose
-from lostmotion.likelihood.drive import Tone
+from lostmotion.likelihood.drive import DriveHarmonic
 from lostmotion.likelihood.observation import Observation
 
 
@@ -40,7 +40,9 @@ def observation_of(rates, push, *, start, omega, periods=25, per_period=100, ski
     bare = Observation.of(
         "recording", seen + noise * seen.std() * rng.standard_normal(len(seen)), force[:, None], dt, "position"
     )
-    return Observation.of(bare.name, bare.response, bare.inputs, dt, "position", tone=Tone(omega, bare.travel))
+    return Observation.of(
+        bare.name, bare.response, bare.inputs, dt, "position", harmonic=DriveHarmonic(omega, bare.travel)
+    )
 
 
 def case_of(model, values, unknown):

@@ -46,7 +46,7 @@ def exact(values=CASE_1, drive=DRIVE, start=START):
 
 def test_case_1_in_forty_digits():
     """Rounding times e^9.1 in eight periods."""
-    orbit = exact().march(START, periods=8, tangents=0)
+    orbit = exact().strobe(START, periods=8, tangents=0)
     assert orbit.status == "ok"
     errors = np.abs(orbit.states - FORTY_DIGITS) / [0.005, 1.0]
     assert errors.max() < 1e-9
@@ -59,7 +59,7 @@ def test_case_1_against_the_reference(shared):
     if not path.is_file():
         pytest.skip(f"no reference: {path} is absent")
     wanted = np.array(json.loads(path.read_text())["strobe_states_t_kT"])[:9]
-    errors = np.abs(exact().march(START, periods=8, tangents=0).states - wanted)[:, 0] / 0.005
+    errors = np.abs(exact().strobe(START, periods=8, tangents=0).states - wanted)[:, 0] / 0.005
     assert np.delete(errors, 7).max() < 1e-8
     assert errors[7] < 1.6e-8
 
@@ -98,7 +98,10 @@ def test_every_kind_of_piece_against_another_integrator(name):
     for start in RNG.normal(size=(3, 2)) * [0.008, 1.0]:
         flow = exact(values, Harmonic(*drive), start)
         np.testing.assert_allclose(
-            flow.march(start, periods=1, tangents=0).states[-1], by_scipy(values, drive, start, 1), atol=2e-7, rtol=1e-6
+            flow.strobe(start, periods=1, tangents=0).states[-1],
+            by_scipy(values, drive, start, 1),
+            atol=2e-7,
+            rtol=1e-6,
         )
 
 
@@ -108,20 +111,20 @@ def test_tangent_equals_the_difference_of_orbits(name):
     along, step = np.array([1.0, 1.0]) / math.sqrt(2.0), 1e-7
     for start in RNG.normal(size=(3, 2)) * [0.008, 1.0]:
         flow = exact(values, start=start)
-        ends = [flow.march(start + s * step * along, periods=1, tangents=0).states[1] for s in (1.0, -1.0)]
-        orbit = flow.march(start, periods=1, tangents=2)
+        ends = [flow.strobe(start + s * step * along, periods=1, tangents=0).states[1] for s in (1.0, -1.0)]
+        orbit = flow.strobe(start, periods=1, tangents=2)
         size = np.linalg.norm(ends[0] - ends[1]) / (2.0 * step)
         assert orbit.growth[0, 0] == pytest.approx(math.log(size), abs=1e-3)
         assert orbit.growth.sum() == pytest.approx(-values["c"] / values["m"] * flow.period, abs=1e-12)
 
 
-def test_march_equals_its_slow_twin(monkeypatch):
+def test_strobe_equals_its_slow_twin(monkeypatch):
     """The same functions as plain Python."""
-    fast = exact().march(START, periods=6, tangents=2)
-    for name in ("propagator", "piece", "leap", "seen", "crossed", "stay", "march"):
+    fast = exact().strobe(START, periods=6, tangents=2)
+    for name in ("propagator", "piece", "leap", "seen", "crossed", "stay", "strobe"):
         monkeypatch.setattr(_kernels, name, getattr(_kernels, name).py_func)
     states, growth = np.zeros((7, 2)), np.zeros((6, 2))
-    assert _kernels.march(START, exact().numbers, 1, states, growth) == (7, exact().crossings(START, periods=6), False)
+    assert _kernels.strobe(START, exact().numbers, 1, states, growth) == (7, exact().crossings(START, periods=6), False)
     np.testing.assert_allclose(fast.states, states, rtol=1e-9)
     np.testing.assert_allclose(fast.growth, growth, rtol=1e-6)
 
@@ -161,7 +164,7 @@ def test_any_machine_is_followed():
         start = rng.normal(size=2) * x0 * [1.0, pace] * 10.0 ** rng.uniform(-1.0, 1.0, 2)
         drive = (k0 * x0 * 10.0 ** rng.uniform(-2.0, 2.0), pace * 10.0 ** rng.uniform(-1.0, 2.0), rng.uniform(0.0, 6.0))
         flow = exact(values, Harmonic(*drive), start)
-        orbit = flow.march(start, periods=20, tangents=2)
+        orbit = flow.strobe(start, periods=20, tangents=2)
         assert orbit.status == "ok"
         assert np.isfinite(orbit.growth).all()
         looked = flow.sample(start, periods=1, looks=13)
@@ -170,7 +173,7 @@ def test_any_machine_is_followed():
 
 def test_looks_do_not_change_the_motion():
     flow = exact()
-    whole = flow.march(START, periods=5, tangents=0).states
+    whole = flow.strobe(START, periods=5, tangents=0).states
     np.testing.assert_allclose(flow.sample(START, periods=5, looks=50)[::50], whole, atol=1e-12)
     np.testing.assert_allclose(flow.sample(START, periods=5, looks=7)[::7], whole, atol=1e-12)
 
@@ -179,7 +182,7 @@ def test_looks_do_not_change_the_motion():
 @pytest.mark.parametrize("amplitude", [0.0, 1e-12, 100.0])
 def test_beginnings_on_a_boundary(start, amplitude):
     flow = exact(drive=Harmonic(amplitude, 40.0), start=np.array(start))
-    orbit = flow.march(np.array(start), periods=30, tangents=2)
+    orbit = flow.strobe(np.array(start), periods=30, tangents=2)
     assert orbit.status == "ok"
     assert np.isfinite(orbit.states).all()
     assert np.isfinite(orbit.growth).all()
@@ -188,11 +191,11 @@ def test_beginnings_on_a_boundary(start, amplitude):
 def test_a_long_period_does_not_underflow():
     """The tangent shrinks by e^-2000 in a period, in one stay without a contact, and in many."""
     for drive in ((1.0, 0.01), (100.0, 0.01)):
-        orbit = exact(drive=drive).march(START, periods=3, tangents=2)
+        orbit = exact(drive=drive).strobe(START, periods=3, tangents=2)
         assert orbit.status == "ok"
         assert np.isfinite(orbit.growth).all()
         assert orbit.growth.sum(axis=1) == pytest.approx(-8.0 * 2.0 * math.pi / 0.01)
-    still = exact({**CASE_1, "x0": 0.0, "c": 600.0}, drive=0.1).march(START, periods=2000, tangents=2)
+    still = exact({**CASE_1, "x0": 0.0, "c": 600.0}, drive=0.1).strobe(START, periods=2000, tangents=2)
     assert still.status == "ok"
     assert np.isfinite(still.growth).all()
 
@@ -201,7 +204,7 @@ def test_undriven_motion_comes_to_rest_in_the_gap():
     flow = exact(drive=0.1, start=np.array([0.02, 0.0]))
     assert not flow.driven
     assert flow.period == pytest.approx(0.1)
-    states = flow.march(flow.start, periods=100, tangents=0).states
+    states = flow.strobe(flow.start, periods=100, tangents=0).states
     assert abs(states[-1, 0]) <= 0.005 + 1e-9
     assert abs(states[-1, 1]) < 1e-12
 
@@ -240,12 +243,12 @@ def test_the_general_flow_agrees():
     """In two chaotic periods, and on the periodic motion at 1/alpha = 2.6 (one of those that coexist)."""
     general = stepped(System.of(LinBacklash()), CASE_1, drive=DRIVE, start=START)
     assert isinstance(general, Stepped)
-    one, other = (f.march(START, periods=2, tangents=2) for f in (general, exact()))
+    one, other = (f.strobe(START, periods=2, tangents=2) for f in (general, exact()))
     np.testing.assert_allclose(one.states, other.states, rtol=1e-3)
     np.testing.assert_allclose(one.growth.sum(), other.growth.sum(), rtol=2e-4)
     drive = (200.0 / 2.6, 40.0)
-    settled = stepped(System.of(LinBacklash()), CASE_1, drive=drive, start=START).march(START, periods=400, tangents=0)
-    followed = exact(drive=drive).march(settled.states[-9], periods=8, tangents=0)
+    settled = stepped(System.of(LinBacklash()), CASE_1, drive=drive, start=START).strobe(START, periods=400, tangents=0)
+    followed = exact(drive=drive).strobe(settled.states[-9], periods=8, tangents=0)
     np.testing.assert_allclose(followed.states, settled.states[-9:], rtol=1e-3)
 
 
@@ -259,7 +262,7 @@ def test_a_joint_on_a_moving_base_agrees_with_the_general_flow(phase):
     np.testing.assert_allclose(
         flow.sample(start, periods=2, looks=6), general.sample(start, periods=2, looks=6), atol=1e-4
     )
-    one, other = (f.march(start, periods=2, tangents=2).growth for f in (flow, general))
+    one, other = (f.strobe(start, periods=2, tangents=2).growth for f in (flow, general))
     np.testing.assert_allclose(one.sum(axis=1), other.sum(axis=1), rtol=1e-5)
     assert exact_joint({**values, "mgl": 3.0}, drive, start) is None
 
@@ -273,4 +276,4 @@ def test_what_is_not_exact_goes_to_the_general_flow():
     assert exact_of(resonance, (100.0, 40.0, 0.0), None) is None
     assert exact_of({**CASE_1, "m": -1.0}, (100.0, 40.0, 0.0), None) is None
     with pytest.raises(ContractError, match="shape"):
-        exact().march(np.zeros(3), periods=1, tangents=0)
+        exact().strobe(np.zeros(3), periods=1, tangents=0)

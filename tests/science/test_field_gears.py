@@ -15,7 +15,7 @@ from lostmotion.inference.fit import maximise
 from lostmotion.likelihood.drive import Drive
 from lostmotion.likelihood.motion import derivatives
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.problem import NOISE, RANDOM, Free, Problem, Scales
+from lostmotion.likelihood.problem import NOISE, RANDOM, FreeParameter, Problem, Scales
 from lostmotion.likelihood.sensors import Sensor
 from lostmotion.likelihood.system import Clock, System
 from lostmotion_plugins.models.gear_pair import GearPair
@@ -168,9 +168,9 @@ def test_two_encoders_tell_ratio_backlash_stiffness_and_inertia():
     observation = Observation("gears", readings, pulled(t)[:2].T, 0.005, sensors)
     off = {"ratio": 1.0003, "x0": 1.15, "k0": 0.85, "m2": 1.15}
     starts = {key: math.log(LOOSE[key] * factor) for key, factor in off.items()}
-    frees = [Free(key, "", start, start - 1.5, start + 1.5, log=True) for key, start in starts.items()]
-    frees += [Free(f"{NOISE}:{s.channel}", "1", math.log(1e-3), -14.0, 0.0) for s in sensors]
-    loud = Free(RANDOM, "1", math.log(0.2 * 0.005), -30.0, 2.0)
+    frees = [FreeParameter(key, "", start, start - 1.5, start + 1.5, log=True) for key, start in starts.items()]
+    frees += [FreeParameter(f"{NOISE}:{s.channel}", "1", math.log(1e-3), -14.0, 0.0) for s in sensors]
+    loud = FreeParameter(RANDOM, "1", math.log(0.2 * 0.005), -30.0, 2.0)
     system = System(GearPair("rotation"))
     scales = Scales(1.5, float(readings[:, 0].std()), 0.1)
     found = maximise(Problem(system, (observation,), scales, system.vector(LOOSE), (*frees, loud), nsub=6))

@@ -156,4 +156,4 @@ def test_exponents_are_measured_through_impacts():
     flow = flow_of(ImpactOscillator(), values, drive=Harmonic(1.0, 1.6), start=[0.1, 0.0])
     found = LyapunovMax(periods=300, transient=100).estimate(flow, rng=RNG)
     assert found.status == "ok", found.says
-    assert flow.march(flow.start, periods=20, tangents=1).status == "ok"
+    assert flow.strobe(flow.start, periods=20, tangents=1).status == "ok"

@@ -77,7 +77,7 @@ def tongue(kappa):
 def exponent_at_rest(values):
     """Return the largest exponent (1/s) of the state of rest."""
     flow = flow_of(GearMesh(), values, drive=2.0 * math.pi / values["omega_mesh"], start=[0.0, 0.0])
-    return float(flow.march(np.zeros(2), periods=2000, tangents=1).growth[200:].mean() / flow.period)
+    return float(flow.strobe(np.zeros(2), periods=2000, tangents=1).growth[200:].mean() / flow.period)
 
 
 @pytest.mark.parametrize("kappa", [pytest.param(0.1, marks=pytest.mark.slow), 0.5])
@@ -138,4 +138,4 @@ def test_exponents_are_measured_through_teeth():
     flow = flow_of(GearMesh(), values, drive=Harmonic(0.5, 0.7), start=[0.1, 0.0])
     found = LyapunovMax(periods=300, transient=100).estimate(flow, rng=RNG)
     assert found.status == "ok", found.says
-    assert flow.march(flow.start, periods=20, tangents=1).status == "ok"
+    assert flow.strobe(flow.start, periods=20, tangents=1).status == "ok"

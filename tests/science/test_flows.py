@@ -165,7 +165,7 @@ class Told:
     states: tuple[str, ...] = ("x",)
     start: np.ndarray = field(default_factory=lambda: np.zeros(1))
 
-    def march(self, start, *, periods, tangents):
+    def strobe(self, start, *, periods, tangents):
         return Orbit(np.zeros((periods + 1, 1)), 0.5 * self.rates[:periods, None])
 
 
@@ -208,11 +208,11 @@ TWINS = {
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", TWINS)
-def test_march_equals_its_slow_twin(name):
+def test_strobe_equals_its_slow_twin(name):
     machine, values, drive = TWINS[name]
     fast = stepped(System.of(machine), values, drive=drive, steps=300)
     slow = Stepped(fast.system, fast.full, fast.beat, fast.period, fast.start, 300, fast.scale, compiled=False)
-    one, other = (f.march(fast.start + 1e-3, periods=3, tangents=len(f.states)) for f in (fast, slow))
+    one, other = (f.strobe(fast.start + 1e-3, periods=3, tangents=len(f.states)) for f in (fast, slow))
     assert one.status == other.status == "ok"
     np.testing.assert_allclose(one.states, other.states, rtol=1e-10, atol=1e-14)
     np.testing.assert_allclose(one.growth, other.growth, rtol=1e-7, atol=1e-8)
@@ -230,7 +230,7 @@ def test_tangents_equal_those_of_an_analytic_jacobian():
         return np.concatenate([field, (jacobian @ z[3:].reshape(3, 3)).ravel()])
 
     solved = solve_ivp(rates, (0.0, 0.4), np.concatenate([y0, np.eye(3).ravel()]), "DOP853", rtol=1e-12, atol=1e-12)
-    orbit = flow.march(y0, periods=1, tangents=3)
+    orbit = flow.strobe(y0, periods=1, tangents=3)
     np.testing.assert_allclose(orbit.states[1], solved.y[:3, -1], rtol=1e-6)
     volume = np.log(abs(np.linalg.det(solved.y[3:, -1].reshape(3, 3))))
     assert orbit.growth.sum() == pytest.approx(volume, rel=1e-6)
@@ -297,6 +297,6 @@ def test_a_body_that_sticks_forgets_where_it_came_from(term):
     own = {f"{term.name}.{q.name}": v for q, v in zip(term.params, (3.0, 1.0, 0.1), strict=False)}
     system = System.of(LinearOscillator() + term)
     flow = stepped(system, {**SLIDING, **own}, drive=(4.2, 0.25))
-    orbit = flow.march(flow.start, periods=60, tangents=2)
+    orbit = flow.strobe(flow.start, periods=60, tangents=2)
     assert orbit.status == "ok"
     assert orbit.growth[20:, 1].max() < -25.0

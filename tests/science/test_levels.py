@@ -16,7 +16,7 @@ from lostmotion.flow import Harmonic, flow_of
 from lostmotion.identification.levels import Survey, inversion_of
 from lostmotion.identification.reading import read_level
 from lostmotion.identification.rehearsal import Bench, rehearsed, rehearsed_levels
-from lostmotion.identification.result import level_told
+from lostmotion.identification.result import drive_level
 from lostmotion.maps.inversion import predicted
 from lostmotion.registry import default
 
@@ -30,7 +30,7 @@ class Henon:
 
     period, driven, states, start = 1.0, True, ("x", "y"), np.array([0.1, 0.1])
 
-    def march(self, start, *, periods, tangents):
+    def strobe(self, start, *, periods, tangents):
         states = np.empty((periods + 1, 2))
         states[0] = start
         for n in range(periods):
@@ -78,7 +78,7 @@ def test_a_periodic_motion_is_a_closed_line():
 
 def test_a_runaway_is_refused():
     class Away(Henon):
-        def march(self, start, *, periods, tangents):
+        def strobe(self, start, *, periods, tangents):
             return Orbit(np.full((periods + 1, 2), np.nan), np.zeros((periods, tangents)), "diverged")
 
     found = dimension(Away(), 600)
@@ -139,7 +139,7 @@ def test_gap_of_a_machine_of_known_damping(tmp_path):
                          np.random.default_rng(2))  # fmt: skip
     for level, one in zip(levels, expected, strict=True):
         assert (one.chaotic_share > 0.5) == (level.motion == "chaotic")
-        json.dumps(to_plain(level_told(one)))
+        json.dumps(to_plain(drive_level(one)))
 
 
 @pytest.mark.slow

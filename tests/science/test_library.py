@@ -12,12 +12,12 @@ from sensed import case_of, model_of, moved, multisine, noisy
 from lostmotion.inference.candidates import screen, slopes_of
 from lostmotion.inference.late import TIMES, can_be_late, cut, onset, refined, since, since_of, times_of
 from lostmotion.inference.likeness import likeness
-from lostmotion.inference.scout import scouted
 from lostmotion.inference.selection import Selector
 from lostmotion.inference.setup import problem_of, search, split
+from lostmotion.inference.shape_scan import scouted
 from lostmotion.likelihood.bends import stretched, unbent
 from lostmotion.likelihood.engine import Innovations
-from lostmotion.likelihood.problem import Free
+from lostmotion.likelihood.problem import FreeParameter
 from lostmotion.likelihood.system import ALWAYS, System
 from lostmotion.preparation.prepare import prepare
 from lostmotion.registry import Registry
@@ -124,7 +124,7 @@ def test_cut_sensitivities_are_those_of_a_term_that_sets_in(tmp_path):
     fit = nominal_of(tmp_path, [LinearStiffness()], extra=lambda x, v, t: -5.0 * x * (t > LATE))
     assert can_be_late(fit.problem, "linear_stiffness")
     key, small = "linear_stiffness.coefficient", 1e-3
-    held = Free(key, "", 0.0, -math.inf, math.inf)
+    held = FreeParameter(key, "", 0.0, -math.inf, math.inf)
     wider = fit.problem.extended((held,), {"linear_stiffness"})
     zero, one = np.append(fit.theta, 0.0), np.append(fit.theta, small)
     slopes = slopes_of(fit)

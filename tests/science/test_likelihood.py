@@ -16,7 +16,7 @@ from lostmotion.inference.fit import maximise
 from lostmotion.inference.natural import frees_of, term_of
 from lostmotion.likelihood.latent import missing_force
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.problem import NOISE, RANDOM, Free, Problem, Scales
+from lostmotion.likelihood.problem import NOISE, RANDOM, FreeParameter, Problem, Scales
 
 LINEAR = {"m": 2.0, "c": 3.0, "k": 1100.0}
 SAMPLES, DT = 400, 0.01
@@ -31,7 +31,7 @@ def linear_problem(nsub):
     z[[50, 51, 200]] = np.nan
     observation = Observation.of("linear", z, push[:, None], DT, "position", held=True)
     system = replace(system_of("linear_oscillator"), terms=())
-    free = tuple(Free(key, "1", 0.0, -math.inf, math.inf) for key in (RANDOM, NOISE))
+    free = tuple(FreeParameter(key, "1", 0.0, -math.inf, math.inf) for key in (RANDOM, NOISE))
     return Problem(system, (observation,), Scales(1.0, 1e-2, 0.05), system.vector(LINEAR), free, nsub=nsub)
 
 

@@ -11,7 +11,7 @@ from lostmotion.inference.memory import believed, remembering
 from lostmotion.inference.setup import noise_frees
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import Problem, Scales
-from lostmotion.likelihood.space import FADE, NOISE, RANDOM, SLOW, Free
+from lostmotion.likelihood.space import AR1_LEVEL, AR1_MEMORY, NOISE, RANDOM, FreeParameter
 from lostmotion.likelihood.system import System
 from lostmotion_plugins.models.basic import LinearOscillator
 
@@ -27,11 +27,11 @@ def recorded(samples, memory, seed):
     force = 20.0 * np.cos(OMEGA * t)
     response = 20.0 / complex(K - M * OMEGA**2, C * OMEGA)
     z = (response * np.exp(1j * OMEGA * t)).real
-    fade, slow = (math.exp(-DT / memory) if memory else 0.0), np.zeros(samples)
-    slow[0] = rng.standard_normal()
+    ar1_share, ar1 = (math.exp(-DT / memory) if memory else 0.0), np.zeros(samples)
+    ar1[0] = rng.standard_normal()
     for k in range(1, samples):
-        slow[k] = fade * slow[k - 1] + math.sqrt(1.0 - fade * fade) * rng.standard_normal()
-    noise = SPREAD * (math.sqrt(0.5) * rng.standard_normal(samples) + math.sqrt(0.5) * slow)
+        ar1[k] = ar1_share * ar1[k - 1] + math.sqrt(1.0 - ar1_share * ar1_share) * rng.standard_normal()
+    noise = SPREAD * (math.sqrt(0.5) * rng.standard_normal(samples) + math.sqrt(0.5) * ar1)
     recorded_force = force + 0.02 * rng.standard_normal(samples)
     return Observation.of("run", z + noise, recorded_force[:, None], DT, "position")
 
@@ -40,7 +40,7 @@ def problem_of(observation):
     system = System(LinearOscillator())
     scales = Scales(20.0, 1.2, 1.0 / OMEGA, usual=math.log((1e-3 * 20.0) ** 2 * DT), span=observation.samples * DT)
     known = system.vector({"m": M, "c": C, "k": K})
-    free = Free("c", "N s/m", math.log(C), math.log(0.05), math.log(4.0), log=True)
+    free = FreeParameter("c", "N s/m", math.log(C), math.log(0.05), math.log(4.0), log=True)
     return Problem(system, (observation,), scales, known, (free, *noise_frees((observation,), scales)), nsub=2)
 
 
@@ -50,11 +50,11 @@ FINE = 40
 def slow_twin(problem, theta):
     """Return the innovations of a Kalman filter whose state holds the slow noise as well, in fine steps."""
     observation, p = problem.observations[0], dict(zip(problem.keys, theta, strict=True))
-    slow, fade = math.exp(2.0 * p[SLOW]), math.exp(-DT / math.exp(p[FADE]))
+    ar1, ar1_share = math.exp(2.0 * p[AR1_LEVEL]), math.exp(-DT / math.exp(p[AR1_MEMORY]))
     mean, cov = np.zeros(3), np.zeros((3, 3))
     begun = problem.points(theta[None])
     mean[:2], cov[:2, :2] = begun.mean[0], begun.covariance[0]
-    cov[2, 2] = slow
+    cov[2, 2] = ar1
     h, push = np.array([1.0, 0.0, 1.0]), pushes(observation.drive.cubics[:, :, 0], problem.nsub)
     errors, variances = np.zeros(observation.samples), np.zeros(observation.samples)
     for k in range(observation.samples):
@@ -62,9 +62,9 @@ def slow_twin(problem, theta):
         gain = cov @ h / variances[k]
         mean, cov = mean + gain * errors[k], cov - np.outer(gain, gain) * variances[k]
         mean, cov = across(mean, cov, push[k], p)
-        keep = np.diag([1.0, 1.0, fade])
+        keep = np.diag([1.0, 1.0, ar1_share])
         mean, cov = keep @ mean, keep @ cov @ keep
-        cov[2, 2] += (1.0 - fade**2) * slow
+        cov[2, 2] += (1.0 - ar1_share**2) * ar1
     return errors, variances
 
 
@@ -93,7 +93,10 @@ def test_filter_is_that_of_the_larger_state():
     """A slow noise as a third state of an exact filter gives the same innovations; no chance."""
     observation = recorded(300, 0.1, seed=0)
     plain = problem_of(observation)
-    frees = (Free(SLOW, "1", math.log(0.014), -9.0, 0.0), Free(FADE, "1", math.log(0.1), -9.0, 0.0))
+    frees = (
+        FreeParameter(AR1_LEVEL, "1", math.log(0.014), -9.0, 0.0),
+        FreeParameter(AR1_MEMORY, "1", math.log(0.1), -9.0, 0.0),
+    )
     problem = replace(plain, free=(*plain.free, *frees))
     theta = np.array([math.log(C), plain.scales.usual, math.log(0.014), math.log(0.014), math.log(0.1)])
     ours, (errors, variances) = problem.innovations(theta), slow_twin(problem, theta)
@@ -109,7 +112,7 @@ def test_noise_with_a_memory_is_told_from_white_noise(seed):
     """
     for memory, wanted in ((0.1, True), (0.0, False)):
         fit = maximise(problem_of(recorded(3000, memory, seed)))
-        hung = remembering(fit)
-        assert believed(fit, hung) == wanted
+        coloured = remembering(fit)
+        assert believed(fit, coloured) == wanted
         if wanted:
-            assert math.exp(hung.values[FADE]) == pytest.approx(memory, rel=0.5)
+            assert math.exp(coloured.values[AR1_MEMORY]) == pytest.approx(memory, rel=0.5)

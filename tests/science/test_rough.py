@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from lostmotion_trials.blind import imperfect
-from lostmotion_trials.blind import simulator as zoo
+from lostmotion_trials.blind import imperfect, simulator
 from lostmotion_trials.blind.hiding import hidden_in
 from lostmotion_trials.blind.imperfect import KINDS, draw_effect, draw_machine, draw_world, moved_roughly
 from lostmotion_trials.blind.mechanisms import Pilot
@@ -146,7 +145,7 @@ def test_friction_follows_its_curve_over_the_speed():
 @pytest.mark.parametrize("name", ["coulomb_friction", "cubic_stiffness"])
 def test_half_the_step_moves_it_less_than_the_noise(kind, name, monkeypatch):
     """Over the first cycles, from rest: later a chaotic machine is anywhere, whatever the step."""
-    monkeypatch.setattr(zoo, "SETTLE", 0)
+    monkeypatch.setattr(simulator, "SETTLE", 0)
     rng = np.random.default_rng([3, KINDS.index(kind)])
     rig = draw_machine(kind, rng, 500)
     pilot = Pilot(rig, moved(rig, Hidden(), Meddling(), rng))

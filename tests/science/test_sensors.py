@@ -10,7 +10,7 @@ import pytest
 from sensed import CHAIN, case_of, chain, model_of, moved, multisine, noisy, said_of
 
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.problem import Free, Problem, Scales
+from lostmotion.likelihood.problem import FreeParameter, Problem, Scales
 from lostmotion.likelihood.sensors import Sensor
 from lostmotion.likelihood.system import System
 from lostmotion_plugins.models.basic import LinearOscillator
@@ -47,9 +47,9 @@ def test_the_likelihood_of_a_late_sensor_is_smooth_and_highest_at_its_delay():
     seen = Observation("run", readings, force[:, None], dt, sensors, driven=("force",))
     system = System(LinearOscillator(), (SensorDelay(at="near"), SensorDelay(at="far")))
     known = system.vector({"m": 1.0, "c": 0.8, "k": 90.0})
-    levels = [Free(f"log_noise:{s.label}", "1", np.log(0.01 * x.std()), -20.0, 0.0) for s in sensors]
-    delay = Free("sensor_delay@far.delay", "s", 0.0, 0.0, 0.05)
-    frees = (delay, *levels, Free("log_random_force", "1", np.log(1e-8), -40.0, 0.0))
+    levels = [FreeParameter(f"log_noise:{s.label}", "1", np.log(0.01 * x.std()), -20.0, 0.0) for s in sensors]
+    delay = FreeParameter("sensor_delay@far.delay", "s", 0.0, 0.0, 0.05)
+    frees = (delay, *levels, FreeParameter("log_random_force", "1", np.log(1e-8), -40.0, 0.0))
     problem = Problem(system, (seen,), Scales(1.0, 0.02, 0.1), known, frees, frozenset({"sensor_delay@far"}))
     grid = np.linspace(0.0, 0.045, 181)
     theta = np.tile(problem.start, (len(grid), 1))

@@ -14,7 +14,7 @@ from lostmotion.inference.curves import band_of
 from lostmotion.inference.proposal import Axis, proposed
 from lostmotion.inference.setup import problem_of, search
 from lostmotion.inference.unexplained import CurveSearch
-from lostmotion.likelihood.drive import Tone
+from lostmotion.likelihood.drive import DriveHarmonic
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.system import System
 from lostmotion.quantities import FORCE, LENGTH
@@ -55,7 +55,7 @@ def fitted(kind, *, seed=0):
     dt = 2.0 * math.pi / OMEGA / PERIOD
     force = 100.0 * np.cos(OMEGA * dt * np.arange(SAMPLES)) + 0.1 * rng.standard_normal(SAMPLES)
     z = seen[:, 0] + 0.01 * np.std(seen[:, 0]) * rng.standard_normal(SAMPLES)
-    observation = Observation.of("seen", z, force[:, None], dt, "position", tone=Tone(OMEGA, 100.0))
+    observation = Observation.of("seen", z, force[:, None], dt, "position", harmonic=DriveHarmonic(OMEGA, 100.0))
     problem = problem_of(System(default().make("model", "lin_backlash")), case_of(("c", "x0")), (observation,))
     return search(problem, rng, points=24, finalists=2)
 

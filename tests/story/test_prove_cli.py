@@ -35,7 +35,7 @@ def test_trial_is_told(done):
     assert content["schema"] == "lostmotion.proof/1"
     assert (content["cases"], content["effects"], content["failed"]) == (2, 2, [])
     assert content["unmeasured"] == []
-    assert content["mechanisms"][0]["oracle"] == "ok"
+    assert content["mechanisms"][0]["bound_status"] == "ok"
     assert content["mechanisms"][0]["median_gain"] > 1.0
     assert content["heldout"]["cases"] == 2
     assert "hidden effects" in outcome.output

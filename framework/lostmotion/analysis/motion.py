@@ -66,7 +66,7 @@ class Weighed:
         return Verdict(motion, says, (*first, *spoken), strength, self.signs)
 
 
-def judged(evidence: MotionEvidence) -> Verdict:
+def verdict_on(evidence: MotionEvidence) -> Verdict:
     """Return the verdict on a motion: that of the first rule that holds, else undecided."""
     it = Weighed(evidence, signs_of(evidence))
     for rule in (_unsteady, _periodic, _quasiperiodic, _coarse, _regular, _jittering, _chaotic, _short, _stochastic):

@@ -13,7 +13,7 @@ import numpy as np
 from lostmotion.analysis.beat import Beat, MotionEvidence, beat_of, returns
 from lostmotion.analysis.denoise import Denoised, denoise
 from lostmotion.analysis.embed import embed
-from lostmotion.analysis.motion import Verdict, judged
+from lostmotion.analysis.motion import Verdict, verdict_on
 from lostmotion.analysis.quantify import quantify
 from lostmotion.analysis.report.page import write_analysis
 from lostmotion.analysis.result import arrays_of, statement
@@ -113,7 +113,7 @@ def run_analysis(
     source = source_of(path, WantedChannel(request.columns, request.rate, request.every), registry)
     _require_known(registry, request)
     folder = folder_for(out)
-    result, arrays = told_of(source, registry, request, say)
+    result, arrays = analyse_source(source, registry, request, say)
     say("report")
     save_datasets(folder / "analysis.nc", {None: arrays})
     save_json(folder / "analysis.json", to_plain(result))
@@ -121,7 +121,7 @@ def run_analysis(
     return result
 
 
-def told_of(
+def analyse_source(
     source: Source, registry: Registry, request: AnalysisRequest, say: Say = lambda _step: None
 ) -> tuple[Analysis, xr.Dataset]:
     """Return what was found and the arrays behind it; nothing is written."""
@@ -138,21 +138,21 @@ def analyse(
 ) -> AnalysedChannel:
     """Return what the chain finds: delay, dimension, noise, exponent, correlation dimension, surrogate tests."""
     beat = beat_of(checked(source.x), source, request.period)
-    guests = Guests(registry)
+    third_party = Guests(registry)
     say("delay and dimension")
-    raw = _embedded(source.x, guests, request.embedder, source.dt, beat)
+    raw = _embedded(source.x, third_party, request.embedder, source.dt, beat)
     say("noise")
-    denoised, denoiser = _cleaned(raw, guests, request)
+    denoised, denoiser = _cleaned(raw, third_party, request)
     if denoised.series is not raw:
-        again = _embedded(denoised.series.x, guests, request.embedder, source.dt, beat)
+        again = _embedded(denoised.series.x, third_party, request.embedder, source.dt, beat)
         denoised = replace(denoised, series=again)
     # What noise reduction leaves is no longer white and makes growth look slow: exponents are read from the raw series.
-    grown = _Measured(raw, guests, request, beat, say)
-    measured = _Measured(denoised.series, guests, request, beat, say)
+    grown = _Measured(raw, third_party, request, beat, say)
+    measured = _Measured(denoised.series, third_party, request, beat, say)
     exponent, dimension = grown(EXPONENT, "exponent"), measured(DIMENSION, "dimension")
     entropy = measured(ENTROPY, "entropy")
     others = {name: grown(name, "others") for name in dict.fromkeys((*EXPONENT_CHECKS, *request.quantifiers))}
-    tests = _tests(raw, guests, request, say)
+    tests = _tests(raw, third_party, request, say)
     weighed = MotionEvidence(beat, raw, denoised, exponent, dimension, entropy, tests, request.settings.motion)
     return AnalysedChannel(
         source=source,
@@ -165,20 +165,20 @@ def analyse(
         others=others,
         tests=tests,
         surrogate_dims=_surrogate_dims(raw, registry, request, say),
-        verdict=judged(weighed),
+        verdict=verdict_on(weighed),
         exponent_method=EXPONENT.removeprefix("lyapunov_"),
         denoiser=denoiser,
-        aside=tuple(dict.fromkeys(guests.said)),
+        aside=tuple(dict.fromkeys(third_party.said)),
     )
 
 
-def _embedded(x: Array, guests: Guests, name: str, dt: float, beat: Beat) -> Series:
+def _embedded(x: Array, third_party: Guests, name: str, dt: float, beat: Beat) -> Series:
     """Return the series with delay and dimension; the usual embedder takes the place of one that breaks down."""
 
     def work(name: str) -> Series:
-        return embed(x, guests.registry.make("embedder", name), dt=dt, period=beat.period)
+        return embed(x, third_party.registry.make("embedder", name), dt=dt, period=beat.period)
 
-    return guests("embedder", name, x, lambda: work(name)) or work(EMBEDDER)
+    return third_party("embedder", name, x, lambda: work(name)) or work(EMBEDDER)
 
 
 @dataclass(frozen=True, eq=False)
@@ -186,7 +186,7 @@ class _Measured:
     """Quantifiers by name on one series, exponents in the unit that was asked for."""
 
     series: Series
-    guests: Guests
+    third_party: Guests
     request: AnalysisRequest
     beat: Beat
     say: Say
@@ -194,10 +194,10 @@ class _Measured:
     def __call__(self, name: str, stream: str) -> Estimate:
         """Return the estimate of the quantifier `name`, which is a refusal where that breaks its contract."""
         self.say(name.replace("_", " "))
-        reader, rng = _reader(self.guests.registry, name), self.request.rng(stream)
-        found = self.guests("quantifier", name, self.series.x, lambda: quantify(self.series, reader, rng=rng))
+        reader, rng = _reader(self.third_party.registry, name), self.request.rng(stream)
+        found = self.third_party("quantifier", name, self.series.x, lambda: quantify(self.series, reader, rng=rng))
         if found is None:
-            return Estimate.refused("failed", self.guests.said[-1], unit=reader.unit)
+            return Estimate.refused("failed", self.third_party.said[-1], unit=reader.unit)
         return _converted(found, self.request, self.beat)
 
 
@@ -220,16 +220,16 @@ def _reader(registry: Registry, name: str) -> Quantifier[Series]:
     return quantifier
 
 
-def _cleaned(raw: Series, guests: Guests, request: AnalysisRequest) -> tuple[Denoised, str]:
+def _cleaned(raw: Series, third_party: Guests, request: AnalysisRequest) -> tuple[Denoised, str]:
     """Return the series with less noise, and how that was done; a denoiser that breaks down leaves it as it is."""
-    registry = guests.registry
+    registry = third_party.registry
     meter, rng = _reader(registry, METER), request.rng("denoise")
     level = meter.estimate(raw, rng=rng)
     if request.denoiser == "none" or (request.denoiser is None and not QUIET < level.value < LOUD):
         return Denoised(raw, level, level), "none"
     name = request.denoiser or DENOISER
     denoiser = registry.make("denoiser", name)
-    cleaned = guests("denoiser", name, raw.x, lambda: denoise(raw, denoiser, meter, rng=rng))
+    cleaned = third_party("denoiser", name, raw.x, lambda: denoise(raw, denoiser, meter, rng=rng))
     return (cleaned, name) if cleaned else (Denoised(raw, level, level), "none")
 
 
@@ -242,17 +242,17 @@ def _converted(estimate: Estimate, request: AnalysisRequest, beat: Beat) -> Esti
     return exponent_in(estimate, request.unit, period=beat.period)
 
 
-def _tests(raw: Series, guests: Guests, request: AnalysisRequest, say: Say) -> tuple[SurrogateTest, ...]:
+def _tests(raw: Series, third_party: Guests, request: AnalysisRequest, say: Say) -> tuple[SurrogateTest, ...]:
     """Return the surrogate tests: on the recording as it is, since noise reduction makes any series look ruled."""
     names = request.surrogates or ((SURROGATE, SURROGATE_OF_CYCLES) if raw.period else (SURROGATE,))
-    statistic, tests = _reader(guests.registry, STATISTIC), []
+    statistic, tests = _reader(third_party.registry, STATISTIC), []
     for stream, name in zip(request.rng("surrogates").spawn(len(names)), names, strict=True):
         say(f"{name} surrogates")
-        surrogate = guests.registry.make("surrogate", name, **_options(name, raw))
+        surrogate = third_party.registry.make("surrogate", name, **_options(name, raw))
         test = partial(surrogate_test, raw, surrogate, statistic, draws=request.draws, sided="low", jobs=request.jobs)
-        tests.append(guests("surrogate", name, raw.x, partial(test, rng=stream)))
+        tests.append(third_party("surrogate", name, raw.x, partial(test, rng=stream)))
     found = tuple(test for test in tests if test)
-    return found or _tests(raw, guests, replace(request, surrogates=(SURROGATE,)), say)
+    return found or _tests(raw, third_party, replace(request, surrogates=(SURROGATE,)), say)
 
 
 def _options(name: str, raw: Series) -> dict[str, int]:

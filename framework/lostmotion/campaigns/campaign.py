@@ -23,7 +23,7 @@ from typing import Generic, TypeVar
 
 from lostmotion.codec import from_plain, to_plain
 from lostmotion.errors import DataError
-from lostmotion.recording.apart import ALONE
+from lostmotion.recording.subprocess_reader import ALONE
 from lostmotion.storage import folder_for, held, load_json, save_json, writing
 
 SCHEMA = "lostmotion.campaign/1"

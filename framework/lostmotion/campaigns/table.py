@@ -9,7 +9,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from lostmotion.codec import to_plain, told
+from lostmotion.codec import described, to_plain
 from lostmotion.results.diagnosis import Diagnosis, Mechanism, ParameterSets
 from lostmotion.storage import whole
 
@@ -25,28 +25,28 @@ COLUMNS = (
 class BatchRow:
     """What became of a case; of one that was set aside there are name, status and sentence only."""
 
-    case: str = told("name of the case, and of its folder")
-    status: str = told(f"{DIAGNOSED} or {ASIDE}")
-    verdict: str | None = told("adequate or mismatch", default=None)
-    mechanisms: str | None = told("what was found, with places; empty where nothing was", default=None)
-    probability: float | None = told("least probability of what was found", default=None)
-    share_of_drive: float | None = told("largest force of what was found over that of the drive", default=None)
-    unexplained_share: float | None = told("rms of the force that is left over that of the drive", default=None)
-    heldout_before: float | None = told("held-out error of the nominal model over the response", default=None)
-    heldout_after: float | None = told("the same of the model with what was found", default=None)
-    noise_floor: float | None = told("the noise over the response", default=None)
-    move: Move | None = told("the parameter that moved most, if one did", flat=True, default=None)
-    says: str = told("the answer in sentences, or why there is none")
+    case: str = described("name of the case, and of its folder")
+    status: str = described(f"{DIAGNOSED} or {ASIDE}")
+    verdict: str | None = described("adequate or mismatch", default=None)
+    mechanisms: str | None = described("what was found, with places; empty where nothing was", default=None)
+    probability: float | None = described("least probability of what was found", default=None)
+    share_of_drive: float | None = described("largest force of what was found over that of the drive", default=None)
+    unexplained_share: float | None = described("rms of the force that is left over that of the drive", default=None)
+    heldout_before: float | None = described("held-out error of the nominal model over the response", default=None)
+    heldout_after: float | None = described("the same of the model with what was found", default=None)
+    noise_floor: float | None = described("the noise over the response", default=None)
+    move: Move | None = described("the parameter that moved most, if one did", flat=True, default=None)
+    says: str = described("the answer in sentences, or why there is none")
 
 
 @dataclass(frozen=True)
 class Move:
     """The parameter that moved most from the nominal model to the one with what was found."""
 
-    moved: str = told("its name")
-    moved_before: float = told("its median in the nominal model, in SI units")
-    moved_after: float = told("its median with what was found, in SI units")
-    moved_by: float = told("the change over the first of both")
+    moved: str = described("its name")
+    moved_before: float = described("its median in the nominal model, in SI units")
+    moved_after: float = described("its median with what was found, in SI units")
+    moved_by: float = described("the change over the first of both")
 
 
 def row_of(name: str, diagnosis: Diagnosis) -> BatchRow:

@@ -44,7 +44,7 @@ def plain(text: str) -> str:
 
 
 @contextlib.contextmanager
-def _warnings_told() -> Iterator[None]:
+def _warnings_shown() -> Iterator[None]:
     """Show each warning about a plugin once, as a sentence on standard error; all others as they are."""
     with warnings.catch_warnings():
         shown, told = warnings.showwarning, set[str]()
@@ -117,7 +117,7 @@ class LazyGroup(click.Group):
     def invoke(self, ctx: click.Context) -> object:
         """Run the command; an error of ours becomes a sentence, Ctrl-C the exit status 130."""
         try:
-            with _warnings_told() if ctx.parent is None else contextlib.nullcontext():
+            with _warnings_shown() if ctx.parent is None else contextlib.nullcontext():
                 return super().invoke(ctx)
         except LostMotionError as err:
             raise SentenceError(str(err)) from err

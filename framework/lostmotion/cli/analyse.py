@@ -75,10 +75,10 @@ def _numbers(found: Analysis) -> list[str]:
         ("correlation dimension", found.d2),
         ("correlation entropy", found.k2),
     )
-    return [f"{what:<22} {_said(one)}" for what, one in named]
+    return [f"{what:<22} {_measure_line(one)}" for what, one in named]
 
 
-def _said(found: Measure) -> str:
+def _measure_line(found: Measure) -> str:
     if found.value != found.value:
         return f"no number: {found.says}"
     unit = "" if found.unit == "1" else f" {found.unit}"

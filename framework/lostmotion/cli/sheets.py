@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import MISSING, dataclass, fields, is_dataclass
 from typing import Any
 
-from lostmotion.codec import told
+from lostmotion.codec import described
 from lostmotion.contracts import Param
 from lostmotion.registry import Entry
 
@@ -19,54 +19,54 @@ SETS = ("preserves",)
 class PlaceSheet:
     """What a model says of a place at which a force can act."""
 
-    name: str = told("its name")
-    row: int = told("the row of the equations of motion on which the force acts")
-    inertia: str = told("the parameter that is the inertia there")
-    holds: tuple[str, ...] = told("parameters that live at the place")
+    name: str = described("its name")
+    row: int = described("the row of the equations of motion on which the force acts")
+    inertia: str = described("the parameter that is the inertia there")
+    holds: tuple[str, ...] = described("parameters that live at the place")
 
 
 @dataclass(frozen=True)
 class ParameterSheet:
     """What a plugin says of a parameter."""
 
-    name: str = told("its name")
-    meaning: str = told("what it is, in words")
-    units: Mapping[str, str] = told("its unit in each kind of motion")
-    low: float = told("lower bound; null where there is none")
-    high: float = told("upper bound; null where there is none")
-    scale: str = told("log where it is known by order of magnitude, else linear")
-    null: float | None = told("where the plugin does nothing; null where there is no such value")
-    typical: float = told("width of the usual prior, in natural sizes of the recording")
-    aliases: tuple[str, ...] = told("further names")
-    prior: str | None = told("how a diagnosis believes in it beforehand, in words", default=None)
+    name: str = described("its name")
+    meaning: str = described("what it is, in words")
+    units: Mapping[str, str] = described("its unit in each kind of motion")
+    low: float = described("lower bound; null where there is none")
+    high: float = described("upper bound; null where there is none")
+    scale: str = described("log where it is known by order of magnitude, else linear")
+    null: float | None = described("where the plugin does nothing; null where there is no such value")
+    typical: float = described("width of the usual prior, in natural sizes of the recording")
+    aliases: tuple[str, ...] = described("further names")
+    prior: str | None = described("how a diagnosis believes in it beforehand, in words", default=None)
 
 
 @dataclass(frozen=True)
 class PluginSheet:
     """Everything that a plugin says of itself; what it does not say is absent."""
 
-    kind: str = told("model, term, quantifier, ...")
-    name: str = told("its name")
-    owner: str = told("the package it came with, and its version")
-    about: str = told("what it is, in a paragraph")
-    physics: str | None = told("the sentence by which a finding is told", default=None)
-    formula: str | None = told("its formula", default=None)
-    null: str | None = told("the null hypothesis of a surrogate", default=None)
-    paper: str | None = told("the paper it follows", default=None)
-    motion: str | None = told("translation or rotation", default=None)
-    reads: str | None = told("what a method reads", default=None)
-    unit: str | None = told("unit of what a method returns", default=None)
-    preserves: tuple[str, ...] | None = told("what a surrogate preserves", default=None)
-    states: tuple[str, ...] | None = told("states of a model or term", default=None)
-    inputs: tuple[str, ...] | None = told("inputs of a model", default=None)
-    channels: tuple[str, ...] | None = told("what sensors of a model can see", default=None)
-    needs: tuple[str, ...] | None = told("what must be there for it", default=None)
-    motions: tuple[str, ...] | None = told("kinds of motion it can be used in", default=None)
-    resembles: tuple[str, ...] | None = told("terms that few recordings tell from it", default=None)
-    interfaces: tuple[PlaceSheet, ...] | None = told("places at which a force can act on a model", default=None)
-    parameters: tuple[ParameterSheet, ...] | None = told("its parameters", default=None)
-    options: Mapping[str, object] | None = told("its options with their defaults", default=None)
-    known_failures: Mapping[str, str] | None = told("rules that it breaks, with the reason", default=None)
+    kind: str = described("model, term, quantifier, ...")
+    name: str = described("its name")
+    owner: str = described("the package it came with, and its version")
+    about: str = described("what it is, in a paragraph")
+    physics: str | None = described("the sentence by which a finding is told", default=None)
+    formula: str | None = described("its formula", default=None)
+    null: str | None = described("the null hypothesis of a surrogate", default=None)
+    paper: str | None = described("the paper it follows", default=None)
+    motion: str | None = described("translation or rotation", default=None)
+    reads: str | None = described("what a method reads", default=None)
+    unit: str | None = described("unit of what a method returns", default=None)
+    preserves: tuple[str, ...] | None = described("what a surrogate preserves", default=None)
+    states: tuple[str, ...] | None = described("states of a model or term", default=None)
+    inputs: tuple[str, ...] | None = described("inputs of a model", default=None)
+    channels: tuple[str, ...] | None = described("what sensors of a model can see", default=None)
+    needs: tuple[str, ...] | None = described("what must be there for it", default=None)
+    motions: tuple[str, ...] | None = described("kinds of motion it can be used in", default=None)
+    resembles: tuple[str, ...] | None = described("terms that few recordings tell from it", default=None)
+    interfaces: tuple[PlaceSheet, ...] | None = described("places at which a force can act on a model", default=None)
+    parameters: tuple[ParameterSheet, ...] | None = described("its parameters", default=None)
+    options: Mapping[str, object] | None = described("its options with their defaults", default=None)
+    known_failures: Mapping[str, str] | None = described("rules that it breaks, with the reason", default=None)
 
 
 def sheet_of(entry: Entry, cls: type[Any]) -> PluginSheet:

@@ -16,7 +16,7 @@ from lostmotion.inference.natural import term_of
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.predict import free_run, observed
 from lostmotion.quantities import quantity_of, unit_of
-from lostmotion.recording.doubts import is_impulsive
+from lostmotion.recording.warnings import is_impulsive
 from lostmotion.report.words import readable, spoken
 from lostmotion.results import percent
 from lostmotion.results.behaviour import DecayCycles, Decays
@@ -69,7 +69,7 @@ def decay_in(d: Diagnosed) -> Decays | None:
         name: tuple(_listed(stretch, made, d.shown) for stretch, made in pairs if made)
         for name, pairs in models.items()
     }
-    told = _told(d, measured, {name: [decay for _, decay in pairs] for name, pairs in models.items()}, unit)
+    told = _decay_sentence(d, measured, {name: [decay for _, decay in pairs] for name, pairs in models.items()}, unit)
     recorded = tuple(_listed(stretch, decay, d.shown) for stretch, decay in measured)
     return Decays(told, unit, recorded, rows["before"], rows.get("after"))
 
@@ -151,7 +151,7 @@ def _figures(values: Array) -> tuple[float, ...]:
     return tuple(float(f"{value:.{DIGITS}g}") for value in values)
 
 
-def _told(d: Diagnosed, measured: Measured, models: dict[str, list[Decay | None]], unit: str) -> str:
+def _decay_sentence(d: Diagnosed, measured: Measured, models: dict[str, list[Decay | None]], unit: str) -> str:
     """Return in words how the widest of the measured decays goes, and how far the models are from it."""
     widest = max(range(len(measured)), key=lambda i: float(np.ptp(np.log(measured[i][1].amplitude))))
     stretch, decay = measured[widest]

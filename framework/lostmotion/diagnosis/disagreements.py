@@ -74,7 +74,7 @@ def over_time(
     hits = hits_of(observation.excitation, observation.dt) if is_struck(observation) else ()
     windows = _windows(observation, squares, hits)
     edges = [round(float(e), 9) for e in (observation.begin + windows.edges) * observation.dt]
-    told = {name: _judged(one, windows, edges, rng, level) for name, one in squares.items()}
+    told = {name: _worst_window(one, windows, edges, rng, level) for name, one in squares.items()}
     last = told.get("after", told["before"])
     return DisagreementOverTime(
         edges=tuple(edges),
@@ -101,7 +101,7 @@ def _windows(observation: Observation, squares: Mapping[str, Array], hits: Seque
     return even_windows(observation.samples, observation.period, shortest=max(shortest, SHORTEST))
 
 
-def _judged(
+def _worst_window(
     squares: Array, windows: Windows, edges: Sequence[float], rng: np.random.Generator, level: float
 ) -> tuple[tuple[float, ...], WorstWindow]:
     """Return the disagreement in each window, and the window that stands out most with its p-value."""

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from lostmotion.contracts import Array
-from lostmotion.likelihood.drive import Tone
+from lostmotion.likelihood.drive import DriveHarmonic
 from lostmotion.likelihood.observation import Observation
 
 FACTORS = (0.5, 0.7, 1.4, 2.0)
@@ -41,14 +41,14 @@ class Excitation:
     level: float
     band: tuple[float, float]
     inputs: Array
-    tone: Tone
+    harmonic: DriveHarmonic
 
 
 def repeat_of(observation: Observation, samples: int, natural: float) -> Excitation:
     """Return the beginning of what moved a recording; `natural` (Hz) stands for its frequency where it has none."""
     frequency = frequency_of(observation, natural)
     return Excitation(
-        REPEAT, observation.travel, (frequency, frequency), observation.inputs[:samples], observation.tone
+        REPEAT, observation.travel, (frequency, frequency), observation.inputs[:samples], observation.harmonic
     )
 
 
@@ -124,7 +124,7 @@ def _made(
     if observation.slope is not None:
         inputs[:, observation.slope] = slope
     omega = 2.0 * math.pi * band[0] if waveform == HARMONIC else 0.0
-    return Excitation(waveform, level, band, inputs, Tone(omega, level))
+    return Excitation(waveform, level, band, inputs, DriveHarmonic(omega, level))
 
 
 def _waves(t: Array, wave: Wave) -> Iterator[tuple[Array, Array]]:

@@ -116,10 +116,10 @@ class _Weighed:
         """Return the gains of each excitation with each model true, or None where one does not get through."""
         drawn = [(e, [simulated(truth, e, self.rng) for truth in self.models]) for e in excitations]
         jobs = self.models[0].fit.problem.jobs
-        found = each(lambda one: self._told(*one, Asked(self.share, rounds)), drawn, jobs)
+        found = each(lambda one: self._ways_of(*one, Asked(self.share, rounds)), drawn, jobs)
         return list(zip(excitations, found, strict=True))
 
-    def _told(self, excitation: Excitation, seen: Sequence[Array | None], asked: Asked) -> Ways | None:
+    def _ways_of(self, excitation: Excitation, seen: Sequence[Array | None], asked: Asked) -> Ways | None:
         gains = []
         for z, truth, other in zip(seen, self.models, self.models[::-1], strict=True):
             gain = math.nan

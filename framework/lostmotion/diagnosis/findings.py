@@ -64,7 +64,7 @@ def found_in(outcome: Outcome) -> tuple[Mechanism, ...]:
     """Return the entries of `found`: terms, marks in the stored values, and what no term explains."""
     d = outcome.diagnosis
     after = intervals(d.after, outcome.draws_after)
-    entries = [_entry(outcome, key, after) for key in d.named] + [_mark(d, key) for key in d.marks]
+    entries = [_entry(outcome, key, after) for key in d.named] + [_quantised_entry(d, key) for key in d.quantised]
     if d.learned:
         entries.append(learned_entry(d))
     elif d.unexplained and (not d.found or _shapeless(d)):
@@ -144,10 +144,10 @@ def elsewhere(model: Model) -> set[str]:
     return {place.name for place in model.interfaces if place.row != first.row or place.against != first.against}
 
 
-def _mark(d: Diagnosed, key: str) -> Mechanism:
+def _quantised_entry(d: Diagnosed, key: str) -> Mechanism:
     """Return the entry of a term that the stored values themselves betray."""
     term, slots = term_of(d.selection.nominal.problem, key)
-    rows = zip(slots, *d.marks[key], strict=True)
+    rows = zip(slots, *d.quantised[key], strict=True)
     channel = next((s.channel for s in d.shown.sensors if s.place == term.at), d.shown.channel)
     unit = unit_of(channel, d.after.problem.system.model.motion)
     own = {s.param.name: Interval(v, v - 1.96 * sd, v + 1.96 * sd, unit) for s, v, sd in rows}

@@ -56,10 +56,10 @@ def _slow(d: Diagnosed) -> list[str]:
     """Return a note for each sensor whose noise has a memory, which white noise and a random force would imitate."""
     problem, theta, notes = d.after.problem, d.after.theta, []
     for i, sensor in enumerate(d.shown.sensors):
-        slow, fade = problem.slow(theta, 0, i)
-        if slow:
-            lasts = -problem.observations[0].dt / np.log(fade)
-            share = slow / problem.measurement(theta, 0, i)
+        ar1, ar1_share = problem.ar1(theta, 0, i)
+        if ar1:
+            lasts = -problem.observations[0].dt / np.log(ar1_share)
+            share = ar1 / problem.measurement(theta, 0, i)
             whose = f" of {sensor.label}" if len(d.shown.sensors) > 1 else ""
             notes.append(
                 f"{share:.0%} of the variance of the measurement noise{whose} has a memory of {lasts:.2g} s; the fit"
@@ -73,11 +73,11 @@ def drowned(outcome: Outcome) -> list[str]:
     d, told = outcome.diagnosis, []
     problem, theta = d.after.problem, d.after.theta
     for i, (sensor, size) in enumerate(zip(d.shown.sensors, outcome.after.scales, strict=True)):
-        slow, share = (v**0.5 / size for v in (problem.slow(theta, 0, i)[0], problem.measurement(theta, 0, i)))
-        if slow > LOUD or share > DEAFENING:
+        ar1, share = (v**0.5 / size for v in (problem.ar1(theta, 0, i)[0], problem.measurement(theta, 0, i)))
+        if ar1 > LOUD or share > DEAFENING:
             whose = f" of {sensor.label}" if len(d.shown.sensors) > 1 else ""
             told.append(
-                f"What passes for noise{whose}{' has a memory and' if slow > LOUD else ''} is {share:.0%} of the"
+                f"What passes for noise{whose}{' has a memory and' if ar1 > LOUD else ''} is {share:.0%} of the"
                 " held-out readings: it may be motion that the model cannot make, such as another mode, or a sensor"
                 " that does not show what the case says (check its sign and place); then neither what was found nor"
                 " that nothing was found holds."

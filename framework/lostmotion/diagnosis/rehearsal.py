@@ -45,7 +45,7 @@ class RehearsedModel:
         """Return the problem of a new recording; the noise of the excitation grows with its level."""
         problem, old = self.fit.problem, self.fit.problem.observations[0]
         seen = np.zeros((len(excitation.inputs), len(old.sensors))) if z is None else z
-        bare = replace(old, name="experiment", begin=0, tone=excitation.tone)
+        bare = replace(old, name="experiment", begin=0, harmonic=excitation.harmonic)
         observation = replace(bare, readings=seen, inputs=excitation.inputs)
         shift = self._louder(excitation)
         frees = [
@@ -88,10 +88,10 @@ def simulated(model: RehearsedModel, excitation: Excitation, rng: np.random.Gene
 
 def _slow(problem: Problem, theta: Array, sensor: int, rng: np.random.Generator) -> Array:
     """Return measurement noise with a memory (samples,) of a sensor that has any."""
-    variance, fade = problem.slow(theta, 0, sensor)
-    fresh = math.sqrt(variance * (1.0 - fade**2)) * rng.standard_normal(problem.observations[0].samples)
+    variance, ar1_share = problem.ar1(theta, 0, sensor)
+    fresh = math.sqrt(variance * (1.0 - ar1_share**2)) * rng.standard_normal(problem.observations[0].samples)
     fresh[0] = math.sqrt(variance) * rng.standard_normal()
-    return np.asarray(lfilter([1.0], [1.0, -fade], fresh), dtype=float)
+    return np.asarray(lfilter([1.0], [1.0, -ar1_share], fresh), dtype=float)
 
 
 @dataclass(frozen=True)
@@ -143,7 +143,7 @@ class _Task:
     precision: Array
     share: float
 
-    def heights(self, thetas: Array) -> Array:
+    def log_densities(self, thetas: Array) -> Array:
         """Return the log posterior (points,) at coordinates (points, n)."""
         away = thetas - self.middle
         told = self.problem.log_likelihoods(thetas)
@@ -153,14 +153,14 @@ class _Task:
         """Return where to begin: with as much random force as the recording asks for."""
         random = np.array([f.parameter == RANDOM for f in self.problem.free])
         starts = self.problem.clip(self.middle + np.outer(RAISED, random))
-        heights = self.heights(starts)
-        best = int(np.argmax(heights))
-        return starts[best], float(heights[best])
+        log_densities = self.log_densities(starts)
+        best = int(np.argmax(log_densities))
+        return starts[best], float(log_densities[best])
 
     def climbed(self, point: Array, height: float, step: Array) -> tuple[Array, float] | None:
         """Return a higher point along a step, or None."""
         trials = self.problem.clip(point + np.outer(0.5 ** np.arange(HALVINGS), step))
-        reached = self.heights(trials)
+        reached = self.log_densities(trials)
         higher = np.flatnonzero(reached > height)
         return (trials[higher[0]], float(reached[higher[0]])) if len(higher) else None
 

@@ -29,7 +29,7 @@ def repetition_notes(
 def looks_of(observation: Observation) -> Repetition | None:
     """Return how many distinct cycles a recording has by its first sensor, None where it has no cycles."""
     x = _filled(observation)[-LONGEST:]
-    omega = observation.tone.omega
+    omega = observation.harmonic.omega
     period = 2.0 * math.pi / (omega * observation.dt) if omega else observation.period
     return repetition_of(x, observation.noise, period)
 

@@ -57,7 +57,7 @@ from lostmotion.errors import ContractError
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.system import System, key_of
 from lostmotion.preparation.prepare import Prepared, prepare
-from lostmotion.preparation.vetting import blamed, raising, theirs, told_aside, within_numbers
+from lostmotion.preparation.vetting import blamed, note_set_aside, raising, theirs, within_numbers
 from lostmotion.provenance import origin_of
 from lostmotion.quantities import quantity_of
 from lostmotion.recording import Recording
@@ -109,14 +109,14 @@ def run_diagnosis(
     say("reading the case")
     prepared = prepare(path, registry)
     folder = folder_for(out)
-    told = told_of(prepared, registry, seed=seed, jobs=jobs, propose=propose, say=say, settings=settings)
+    told = diagnose_prepared(prepared, registry, seed=seed, jobs=jobs, propose=propose, say=say, settings=settings)
     say("report")
     told.save(folder)
     return told.result
 
 
 @within_numbers()
-def told_of(
+def diagnose_prepared(
     prepared: Prepared,
     registry: Registry,
     *,
@@ -155,20 +155,20 @@ def _diagnosed(
     try:
         return work(prepared.case, prepared.observations, system, rng=rng), prepared, rng
     except ContractError as err:
-        guests = theirs(registry, prepared.terms)
-        culprits = {err.plugin} & set(guests)
+        third_party = theirs(registry, prepared.terms)
+        culprits = {err.plugin} & set(third_party)
         if not err.plugin:
-            suspects = [term for term in prepared.terms if key_of(term) in guests]
-            culprits = raising(suspects, prepared.observations) or set(guests)
+            suspects = [term for term in prepared.terms if key_of(term) in third_party]
+            culprits = raising(suspects, prepared.observations) or set(third_party)
         if not culprits:
             raise
         kept = tuple(term for term in prepared.terms if key_of(term) not in culprits)
-        told = told_aside(blamed(registry, culprits, err))
+        told = note_set_aside(blamed(registry, culprits, err))
         fewer = replace(prepared, terms=kept, aside=(*prepared.aside, told))
         return _diagnosed(fewer, registry, seed, work)
 
 
-def judged(diagnosis: Diagnosed, prepared: Prepared, rng: np.random.Generator) -> Outcome:
+def compare_heldout(diagnosis: Diagnosed, prepared: Prepared, rng: np.random.Generator) -> Outcome:
     """Return the diagnosis with what both models predict of the held-out data."""
     pieces = pieces_of(prepared.observations, diagnosis.held)
     same = diagnosis.after is diagnosis.before
@@ -189,15 +189,17 @@ def upheld(diagnosis: Diagnosed, prepared: Prepared, rng: np.random.Generator, s
     curves are taken back first, then one term after the other, the least probable one first. So it goes where the force
     that is missing rises with what was found. And held-out data choose among sets that explain the fitted data.
     """
-    outcome, limits = judged(diagnosis, prepared, rng), diagnosis.settings.heldout
+    outcome, limits = compare_heldout(diagnosis, prepared, rng), diagnosis.settings.heldout
     if (better := predicted_better(outcome, prepared.observations)) is not None:
         say(f"held-out predictions with {' and '.join(sorted(better.problem.active))} instead")
-        outcome = judged(instead(diagnosis, better, rng.spawn(1)[0]), prepared, rng)
+        outcome = compare_heldout(instead(diagnosis, better, rng.spawn(1)[0]), prepared, rng)
     elif (close := decided(outcome, prepared.observations)) is not None:
         fit, scored = close
         say(f"held-out data decide for {' and '.join(sorted(fit.problem.active))}")
         weighed = replace(outcome.diagnosis.selection, scored=dict(scored))
-        trial = judged(instead(replace(outcome.diagnosis, selection=weighed), fit, rng.spawn(1)[0]), prepared, rng)
+        trial = compare_heldout(
+            instead(replace(outcome.diagnosis, selection=weighed), fit, rng.spawn(1)[0]), prepared, rng
+        )
         good = trial.diagnosis.explains and not worsened(outcome.before, trial.after, limits)
         outcome = trial if good else outcome
     while (found := outcome.diagnosis).found:
@@ -207,7 +209,7 @@ def upheld(diagnosis: Diagnosed, prepared: Prepared, rng: np.random.Generator, s
         if less is None:
             break
         say(f"held-out predictions without {less.withdrawn[-1]}")
-        outcome = judged(less, prepared, rng)
+        outcome = compare_heldout(less, prepared, rng)
     return outcome
 
 

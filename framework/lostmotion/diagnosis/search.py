@@ -18,9 +18,9 @@ from lostmotion.inference.locate import Curve, covariates, curve, edges_of, furt
 from lostmotion.inference.natural import term_of
 from lostmotion.inference.odds import Ratio, likely, log_odds
 from lostmotion.inference.prices import price_of
-from lostmotion.inference.scout import scouted
 from lostmotion.inference.selection import Selector
 from lostmotion.inference.setup import polish, problem_of, search, split, stepped
+from lostmotion.inference.shape_scan import scouted
 from lostmotion.inference.shares import Covariate, Share, shares_of, significant
 from lostmotion.inference.stretches import sought
 from lostmotion.inference.unexplained import CurveSearch, UnknownForce, fewer
@@ -80,7 +80,7 @@ class Located:
 class Diagnosed:
     """What was found: the fits before and after, the selection, the missing force before and what is left after.
 
-    `marks` holds the terms that the stored values themselves betray, with their parameters and the errors of these.
+    `quantised` holds the terms that the stored values themselves betray, with their parameters and the errors of these.
     `shown` is the recording (or the first held-out one) that curves and figures are about; `law` (samples,) is the
     force of the found terms along it. `random_gain` is the log-likelihood that a random force beyond the usual adds.
     `learned` are the curves that were learned where the library did not suffice; `after` is the fit with them.
@@ -99,7 +99,7 @@ class Diagnosed:
     random_gain: float
     train: tuple[Observation, ...]
     held: tuple[Observation, ...]
-    marks: Mapping[str, tuple[Values, Values]] = field(default_factory=dict)
+    quantised: Mapping[str, tuple[Values, Values]] = field(default_factory=dict)
     learned: UnknownForce | None = None
     withdrawn: tuple[str, ...] = ()
 
@@ -176,8 +176,8 @@ def diagnose(
     if len(observations) == 1:
         shown = replace(observations[0], begun=after.problem.observations[0].begun)
     chance = rng.spawn(1)[0]
-    marks = marks_of(after)
-    bare = Diagnosed(before, after, selection, shown, _NOWHERE, None, _NO, {}, {}, gain, train, held, marks)
+    quantised = quantised_in(after)
+    bare = Diagnosed(before, after, selection, shown, _NOWHERE, None, _NO, {}, {}, gain, train, held, quantised)
     known = _located(bare, chance)
     structured = bool((known.left or known.located).structure)
     suspicious = known.unexplained or structured or len(known.found) >= MANY or selection.beaten() > settings.rival.much
@@ -252,17 +252,17 @@ def _check_moving(held: Sequence[Observation]) -> None:
             )
 
 
-def marks_of(fit: Fit) -> dict[str, tuple[Values, Values]]:
+def quantised_in(fit: Fit) -> dict[str, tuple[Values, Values]]:
     """Return the sensor terms that the stored values betray and that make up a share of the noise, by key."""
     observations, found = fit.problem.observations, {}
-    for key, term in fit.problem.system.beside.items():
+    for key, term in fit.problem.system.channel_terms.items():
         if not isinstance(term, SensorTerm) or not term.marked:
             continue
         for i, sensor in enumerate(observations[0].sensors):
             if sensor.place == term.at and sensor.noise.kind != "quantised":
                 noise = max(fit.problem.measurement(fit.theta, k, i) for k in range(len(observations)))
-                seen = [term.marks(observation.readings[:, i]) for observation in observations]
-                least = fit.problem.settings.locate.marks * noise
+                seen = [term.quantisation(observation.readings[:, i]) for observation in observations]
+                least = fit.problem.settings.locate.quantisation * noise
                 if all(p for p, _ in seen) and term.scatter(seen[0][0]) ** 2 > least:
                     found[key] = seen[0]
     return found
@@ -338,8 +338,8 @@ def law_of(fit: Fit, observation: Observation, states: Array, key: str) -> Array
     """Return the force (samples,) of one term of a fit along the smoothed `states` of a recording."""
     problem = fit.problem.on((observation,))
     system, drive, full = problem.system, problem.drive(0, fit.theta), problem.full(fit.theta)
-    packed = system.pack(full[None], drive.dt / problem.nsub, drive.tone)
-    place, beside = _felt(system, key), key in system.beside
+    packed = system.pack(full[None], drive.dt / problem.nsub, drive.harmonic)
+    place, beside = _felt(system, key), key in system.channel_terms
     other = replace(problem, active=problem.active - {key}).drive(0, fit.theta) if beside else drive
     times = drive.begin + np.arange(len(states)) * drive.dt
     seen = states[:, : problem.dynamics.states]

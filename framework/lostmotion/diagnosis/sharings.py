@@ -40,7 +40,7 @@ def shared_in(d: Diagnosed, found: Sequence[Mechanism]) -> tuple[tuple[Mechanism
         return tuple(found), _nothing(len(d.train) + len(d.held))
     problem = d.after.problem
     terms = dict(enumerate(d.named))
-    told = [_told(entry, terms[i], problem, sharing) if i in terms else entry for i, entry in enumerate(found)]
+    told = [_with_sharing(entry, terms[i], problem, sharing) if i in terms else entry for i, entry in enumerate(found)]
     if sharing.released:
         doubt = _released(sharing, problem)
         told = [replace(e, doubts=(*e.doubts, doubt)) if e.mechanism in UNNAMED else e for e in told]
@@ -93,7 +93,7 @@ def _shared(one: ComparedParameter, said: str, sharing: SharedValues) -> FullCom
     return FullComparison(one.holds, one.p, said, one.power, odd)
 
 
-def _told(entry: Mechanism, key: str, problem: Problem, sharing: SharedValues) -> Mechanism:
+def _with_sharing(entry: Mechanism, key: str, problem: Problem, sharing: SharedValues) -> Mechanism:
     """Return the entry of a term with what recordings share of it; as it is where none of its values was compared."""
     slots = {s.key: s.param.name for s in term_of(problem, key)[1] if s.key in sharing.parameters}
     if not slots:

@@ -17,7 +17,7 @@ from lostmotion.diagnosis.attractors import SectionDistance, distances_between
 from lostmotion.diagnosis.compare import Prediction, exponent_blocks
 from lostmotion.diagnosis.decays import stretches_of
 from lostmotion.diagnosis.findings import Outcome
-from lostmotion.diagnosis.show_words import TRANSIENT, said
+from lostmotion.diagnosis.show_words import TRANSIENT, behaviour_sentences
 from lostmotion.errors import LostMotionError
 from lostmotion.inference.fit import Fit
 from lostmotion.likelihood.observation import Observation
@@ -97,7 +97,7 @@ def shown(seen: Seen, rng: np.random.Generator) -> Behaviour:
         noise_floor=floor,
         units=replace(UNITS, valid_prediction_time=horizon.unit),
         horizon=horizon,
-        says=said(last, floor, horizon, strobed, driven=not d.shown.free, white=d.settings.name.white),
+        says=behaviour_sentences(last, floor, horizon, strobed, driven=not d.shown.free, white=d.settings.name.white),
     )
 
 

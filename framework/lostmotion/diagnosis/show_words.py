@@ -21,7 +21,7 @@ TRANSIENT = "transient"
 """The status of a measure of attractors where the motion dies away: nothing is said of it."""
 
 
-def said(
+def behaviour_sentences(
     last: ModelBehaviour,
     floor: NoiseFloor,
     horizon: HorizonLength,

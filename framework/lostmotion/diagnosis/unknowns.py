@@ -182,7 +182,9 @@ def _visited(d: Diagnosed, band: Band, term: Surface) -> Array:
     place = place_of(problem.system.model, term)
     seen = np.zeros((len(band.at), len(beside)), dtype=bool)
     for motion, observation in zip(motions_of(d.after, [place])[place.name], problem.observations, strict=True):
-        second = motion[1] if term.beside == "velocity" else observation.time * observation.tone.omega / math.tau % 1.0
+        second = (
+            motion[1] if term.beside == "velocity" else observation.time * observation.harmonic.omega / math.tau % 1.0
+        )
         cells = [
             np.clip(np.searchsorted(axis, values), 0, len(axis) - 1)
             for axis, values in ((band.at, motion[0]), (beside, second))

@@ -127,9 +127,9 @@ def sensors_of(d: Diagnosed) -> tuple[SensorFacts, ...]:
     rows = []
     for i, (sensor, name, noise) in enumerate(zip(d.shown.sensors, names_of(d), noises_of(d), strict=True)):
         kind: str = sensor.noise.kind
-        if d.after.problem.slow(d.after.theta, 0, i)[0]:
+        if d.after.problem.ar1(d.after.theta, 0, i)[0]:
             kind = "ar1"
-        elif any(term_of(d.before.problem, key)[0].at == sensor.place for key in d.marks):
+        elif any(term_of(d.before.problem, key)[0].at == sensor.place for key in d.quantised):
             kind = "quantised"
         rows.append(SensorFacts(name, sensor.channel, unit_of(sensor.channel, motion), noise, kind))
     return tuple(rows)
@@ -257,7 +257,7 @@ def unexplained_of(d: Diagnosed, *, after: bool) -> UnexplainedForce:
     return UnexplainedForce(significant, rms, units_of(d).force, rms / d.after.problem.scales.force)
 
 
-def _said(found: Sequence[Mechanism]) -> Iterator[str]:
+def _finding_sentences(found: Sequence[Mechanism]) -> Iterator[str]:
     """Yield the sentences on what was found; what is no more than likely is told so, each doubt once."""
     told: set[str] = set()
     for entry in found:
@@ -284,7 +284,7 @@ def says(outcome: Outcome, found: Sequence[Mechanism], rest: Sequence[OpenTerm] 
     left = [f"Open: {row.says}" for row in rest[:MOST_OPEN]]
     if not d.found:
         return (*(entry.says for entry in found), *left)
-    opening = list(_said(found))
+    opening = list(_finding_sentences(found))
     if len(found) == 1 and found[0].state != LIKELY:
         opening[0] = f"{opening[0][:-1]}, and the model leaves it out."
     elif len(found) > 1:

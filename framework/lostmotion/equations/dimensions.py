@@ -162,7 +162,7 @@ def solve(
             return same
     if forces and _open(names, rows):
         return solve(names, [*demands, *forces], units, motion)
-    _check_told(names, rows, motion)
+    _check_determined(names, rows, motion)
     powers = np.column_stack([_solved(rows, wanted, masks, k)[0] for k in range(4)]) if names else np.zeros((0, 4))
     whole = np.where(np.abs(2.0 * powers - np.round(2.0 * powers)) < EXACT, np.round(2.0 * powers) / 2.0, powers)
     return {name: Dimension(*(float(p) for p in row)) for name, row in zip(names, whole, strict=True)}
@@ -215,7 +215,7 @@ def _open(names: Sequence[str], rows: Sequence[NDArray[np.float64]]) -> list[str
     return [name for i, name in enumerate(names) if len(free) and np.abs(free[:, i]).max() > EXACT]
 
 
-def _check_told(names: Sequence[str], rows: Sequence[NDArray[np.float64]], motion: Kind) -> None:
+def _check_determined(names: Sequence[str], rows: Sequence[NDArray[np.float64]], motion: Kind) -> None:
     """Refuse parameters whose dimensions follow from nothing."""
     if lacking := _open(names, rows):
         example = "kg" if motion == "translation" else "kg m^2"

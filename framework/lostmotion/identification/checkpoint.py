@@ -13,8 +13,8 @@ import numpy as np
 
 from lostmotion.errors import DataError
 from lostmotion.identification.normal_scores import Scores
-from lostmotion.identification.t_mixture import Cloud
-from lostmotion.recording.apart import walk_apart
+from lostmotion.identification.t_mixture import TMixture
+from lostmotion.recording.subprocess_reader import walk_in_subprocess
 from lostmotion.recording.unpacked import RESULT, check_hdf5
 from lostmotion.storage import save_bytes
 
@@ -22,20 +22,20 @@ EMCEE = "mcmc"
 """The group that emcee reads."""
 OURS = "lostmotion"
 """The group with what else is needed to go on."""
-_CLOUD = ("weights", "centres", "roots")
+_MIXTURE = ("weights", "centres", "roots")
 _SCALE = ("low", "high", "middle", "breadth")
 
 
 @dataclass(frozen=True)
 class Kept:
-    """A chain as emcee's `backend` holds it, and what else its next step depends on: the cloud, and where it began.
+    """A chain as emcee's `backend` holds it, and what else its next step depends on: the mixture, and where it began.
 
-    `evaluations` counts the runs of the likelihood up to when it was read or begun, `fits` how often the cloud was
+    `evaluations` counts the runs of the likelihood up to when it was read or begun, `fits` how often the mixture was
     fitted to an earlier chain.
     """
 
     backend: Any
-    cloud: Cloud
+    mixture: TMixture
     start: Any
     evaluations: int
     fits: int
@@ -64,10 +64,10 @@ def save(path: Path, digest: str, keys: tuple[str, ...], kept: Kept, evaluations
         _write_chain(file.create_group(EMCEE), kept.backend, kept.state.random_state)
         ours = file.create_group(OURS)
         ours.attrs.update(digest=digest, keys=list(keys), evaluations=evaluations, fits=kept.fits)
-        for name in _CLOUD:
-            ours[f"cloud/{name}"] = getattr(kept.cloud, name)
+        for name in _MIXTURE:
+            ours[f"mixture/{name}"] = getattr(kept.mixture, name)
         for name in _SCALE:
-            ours[f"scale/{name}"] = getattr(kept.cloud.scale, name)
+            ours[f"scale/{name}"] = getattr(kept.mixture.scale, name)
         ours["start/coords"], ours["start/log_prob"] = kept.start.coords, kept.start.log_prob
         _write_random(ours["start"], kept.start.random_state)
     save_bytes(path, memory.getvalue())
@@ -98,17 +98,17 @@ def load(path: Path, digest: str) -> Kept | None:
     import h5py
 
     try:
-        walk_apart(path)
+        walk_in_subprocess(path)
         check_hdf5(path, RESULT)
         with h5py.File(path, "r") as file:
             ours = file[OURS]
             if ours.attrs["digest"] != digest:
                 return None
             scale = Scores(*(ours[f"scale/{name}"][...] for name in _SCALE))
-            cloud = Cloud(**{name: ours[f"cloud/{name}"][...] for name in _CLOUD}, scale=scale)
+            mixture = TMixture(**{name: ours[f"mixture/{name}"][...] for name in _MIXTURE}, scale=scale)
             backend = _read_chain(file[EMCEE])
             counts = (int(ours.attrs[name]) for name in ("evaluations", "fits"))
-            return Kept(backend, cloud, _read_start(ours["start"]), *counts)
+            return Kept(backend, mixture, _read_start(ours["start"]), *counts)
     except Exception as err:  # HDF5 fails in every way there is
         raise DataError(f"{path} is no chain of an identification that can be read: give another place") from err
 

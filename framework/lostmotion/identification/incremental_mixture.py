@@ -1,4 +1,4 @@
-"""A cloud for a posterior of many narrow modes, found from the prior: it must cost little to ask.
+"""A mixture for a posterior of many narrow modes, found from the prior: it must cost little to ask.
 
 Incremental mixture importance sampling: Raftery, Bao, Biometrics 66 (2010) 1162-1173. It draws from the prior, puts
 kernels where the weights say that too few draws were made, draws from them, and so on; population Monte Carlo then
@@ -16,8 +16,8 @@ from scipy.stats import qmc
 from lostmotion.contracts import Array
 from lostmotion.identification.moves import Density, Posterior
 from lostmotion.identification.population import Population, new_kernels
-from lostmotion.identification.t_mixture import Cloud
-from lostmotion.likelihood.problem import Free
+from lostmotion.identification.t_mixture import TMixture
+from lostmotion.likelihood.problem import FreeParameter
 
 FIRST = 4096
 """Draws from the prior."""
@@ -41,7 +41,7 @@ class Before:
     """The prior as something to draw from, evenly spread."""
 
     posterior: Posterior
-    free: tuple[Free, ...]
+    free: tuple[FreeParameter, ...]
 
     def draw(self, count: int, random: Any) -> Array:
         """Return points (count, parameters): a Sobol sequence, scrambled."""
@@ -53,24 +53,24 @@ class Before:
         return np.array([self.posterior.log_prior(p) for p in points])
 
 
-def swarm(posterior: Posterior, rng: np.random.Generator) -> Cloud:
-    """Return a cloud of up to `TURNS * NEW` kernels and the prior, fitted to the posterior."""
+def incremental_mixture(posterior: Posterior, rng: np.random.Generator) -> TMixture:
+    """Return a mixture of up to `TURNS * NEW` kernels and the prior, fitted to the posterior."""
     free = tuple(posterior.free)
-    whole = Cloud.of_prior(free)
+    whole = TMixture.of_prior(free)
     population = Population.empty(Density(posterior), whole.size)
     population.grow(Before(posterior, free), FIRST, rng)
-    cloud = _spread(whole, population, rng)
+    mixture = _spread(whole, population, rng)
     for _ in range(POLISH):
-        share = population.grow(cloud.beside(whole, PRIOR), FILL, rng)
-        cloud = _fitted(cloud, population)
+        share = population.grow(mixture.beside(whole, PRIOR), FILL, rng)
+        mixture = _fitted(mixture, population)
         if share > DONE:
             break
-    return cloud.beside(whole, PRIOR)
+    return mixture.beside(whole, PRIOR)
 
 
-def _spread(whole: Cloud, population: Population, rng: np.random.Generator) -> Cloud:
+def _spread(whole: TMixture, population: Population, rng: np.random.Generator) -> TMixture:
     """Return the kernels that were put, turn by turn, where draws were too few."""
-    found: list[Cloud] = []
+    found: list[TMixture] = []
     unit = np.diag(whole.roots[0])
     for _ in range(TURNS):
         fresh = list(new_kernels(whole.scale, unit, population.points, population.shares(SURE), (NEW, NEAR)))
@@ -82,15 +82,15 @@ def _spread(whole: Cloud, population: Population, rng: np.random.Generator) -> C
     return _joined(found or [whole])
 
 
-def _joined(clouds: list[Cloud]) -> Cloud:
-    """Return all kernels as one cloud, with equal weights."""
-    count = len(clouds)
-    centres, roots = (np.concatenate([getattr(c, name) for c in clouds]) for name in ("centres", "roots"))
-    return Cloud(np.full(count, 1.0 / count), centres, roots, clouds[0].scale)
+def _joined(mixtures: list[TMixture]) -> TMixture:
+    """Return all kernels as one mixture, with equal weights."""
+    count = len(mixtures)
+    centres, roots = (np.concatenate([getattr(c, name) for c in mixtures]) for name in ("centres", "roots"))
+    return TMixture(np.full(count, 1.0 / count), centres, roots, mixtures[0].scale)
 
 
-def _fitted(cloud: Cloud, population: Population) -> Cloud:
-    """Return the cloud fitted to the draws that matter."""
+def _fitted(mixture: TMixture, population: Population) -> TMixture:
+    """Return the mixture fitted to the draws that matter."""
     shares = population.shares(SURE)
     kept = shares > 1e-9
-    return cloud.fitted(population.points[kept], shares[kept] / shares[kept].sum(), steps=3)
+    return mixture.fitted(population.points[kept], shares[kept] / shares[kept].sum(), steps=3)

@@ -16,8 +16,8 @@ from lostmotion.contracts import Array, Model
 from lostmotion.defaults import SECTION_DIMENSION
 from lostmotion.errors import CaseError, ContractError, DataError, nearest
 from lostmotion.identification.reading import read_levels
-from lostmotion.identification.sampling import Cloud, ShownCoordinate, Task
-from lostmotion.likelihood.space import Free
+from lostmotion.identification.sampling import ShownCoordinate, Task, TMixture
+from lostmotion.likelihood.space import FreeParameter
 from lostmotion.likelihood.system import System
 from lostmotion.maps.atlas import RATIO, Atlas
 from lostmotion.maps.inversion import Inversion, grouped
@@ -75,7 +75,7 @@ class LevelNumbers:
 
     model: Model
     levels: tuple[Level, ...]
-    free: tuple[Free, ...]
+    free: tuple[FreeParameter, ...]
     laws: tuple[Mapping[str, NumberLaw], ...]
     fixed: Mapping[str, float]
     groups: list[list[int]] = field(default_factory=list)
@@ -99,12 +99,12 @@ def quantifier_task(
     levels = levels_of(case, registry, rng)
     posterior = inversion_of(case, levels, registry, out, survey or Survey(), say=say)
     shown = tuple(ShownCoordinate(f.key, f.unit, 1.0 if f.log else 0.0) for f in posterior.free)
-    cloud = Cloud.swarm(posterior, rng)
-    points = cloud.draw(FIRST, rng)
-    heights = posterior.log_likelihoods(points) + np.array([posterior.log_prior(p) for p in points])
-    if not np.isfinite(heights).any():
+    mixture = TMixture.by_importance_sampling(posterior, rng)
+    points = mixture.draw(FIRST, rng)
+    log_densities = posterior.log_likelihoods(points) + np.array([posterior.log_prior(p) for p in points])
+    if not np.isfinite(log_densities).any():
         raise DataError("no machine within the priors shows such levels: check amplitudes, units and priors")
-    return Task(posterior, cloud, shown, points[int(np.argmax(heights))], digest_of(posterior))
+    return Task(posterior, mixture, shown, points[int(np.argmax(log_densities))], digest_of(posterior))
 
 
 def levels_of(case: CaseFile, registry: Registry, rng: np.random.Generator) -> tuple[Level, ...]:
@@ -182,7 +182,9 @@ def _moves(model: Model, name: str) -> set[str]:
     return {key for key in (*power.powers, power.target) if not key.startswith("drive.")}
 
 
-def _fixed(powers: Mapping[str, NumberPower], known: Mapping[str, float], free: tuple[Free, ...]) -> dict[str, float]:
+def _fixed(
+    powers: Mapping[str, NumberPower], known: Mapping[str, float], free: tuple[FreeParameter, ...]
+) -> dict[str, float]:
     """Return the further dimensionless numbers that are not zero, at the middle of what is free."""
     middle = {**known, **{f.key: f.value(f.start) for f in free}}
     fixed = {}
@@ -203,7 +205,7 @@ def _require_units(model: Model, levels: Sequence[Level]) -> None:
             )
 
 
-def _free(key: str, prior: Prior, model: Model) -> Free:
+def _free(key: str, prior: Prior, model: Model) -> FreeParameter:
     """Return a free parameter with its prior cut where a map must end, all of it positive."""
     units = {slot.key: slot.unit for slot in System.of(model).slots}
     log = prior.kind in ("log-uniform", "log-normal")
@@ -214,10 +216,10 @@ def _free(key: str, prior: Prior, model: Model) -> Free:
     ends = [math.log(value) if log else value for value in (low, high)]
     start = prior.start()
     begin = min(max(math.log(start) if log else start, ends[0]), ends[1])
-    return Free(key, units.get(key, "1"), begin, ends[0], ends[1], log, *(prior.bell or (0.0, math.inf)))
+    return FreeParameter(key, units.get(key, "1"), begin, ends[0], ends[1], log, *(prior.bell or (0.0, math.inf)))
 
 
-def _log(free: Free, end: str) -> float:
+def _log(free: FreeParameter, end: str) -> float:
     value = float(getattr(free, end))
     return value if free.log else math.log(value)
 

@@ -1,4 +1,4 @@
-"""How an ensemble moves: mostly jumps drawn from a cloud fitted to the posterior, some walks."""
+"""How an ensemble moves: mostly jumps drawn from a mixture fitted to the posterior, some walks."""
 
 from __future__ import annotations
 
@@ -9,18 +9,18 @@ from typing import Any, Protocol
 import numpy as np
 
 from lostmotion.contracts import Array
-from lostmotion.identification.t_mixture import Cloud
-from lostmotion.likelihood.problem import Free
+from lostmotion.identification.t_mixture import TMixture
+from lostmotion.likelihood.problem import FreeParameter
 
 JUMPS, FEWER = 0.95, 0.5
-"""The share of jumps, and that in a chain that mixed badly with so many. The rest are walks, which need no cloud."""
+"""The share of jumps, and that in a chain that mixed badly with so many. The rest are walks, which need no mixture."""
 
 
 class Posterior(Protocol):
     """What is asked of a problem that is to be sampled."""
 
     @property
-    def free(self) -> tuple[Free, ...]:
+    def free(self) -> tuple[FreeParameter, ...]:
         """The free parameters."""
 
     def log_prior(self, theta: Array) -> float:
@@ -39,15 +39,15 @@ class Density:
 
     def __call__(self, points: Array) -> Array:
         """Return log densities (points,); minus infinity outside the prior or where the likelihood diverges."""
-        heights = np.array([self.posterior.log_prior(p) for p in points])
-        inside = np.flatnonzero(np.isfinite(heights))
+        log_densities = np.array([self.posterior.log_prior(p) for p in points])
+        inside = np.flatnonzero(np.isfinite(log_densities))
         if len(inside):
-            heights[inside] += self.posterior.log_likelihoods(points[inside])
+            log_densities[inside] += self.posterior.log_likelihoods(points[inside])
         self.evaluations += len(inside)
-        return np.where(np.isfinite(heights), heights, -np.inf)
+        return np.where(np.isfinite(log_densities), log_densities, -np.inf)
 
 
-def moves(cloud: Cloud, jumps: float = JUMPS) -> list[tuple[Any, float]]:
+def moves(mixture: TMixture, jumps: float = JUMPS) -> list[tuple[Any, float]]:
     """Return emcee's moves with their weights: independent jumps, differential evolution, and snooker steps."""
     from emcee.moves import DEMove, DESnookerMove, RedBlueMove
 
@@ -55,8 +55,8 @@ def moves(cloud: Cloud, jumps: float = JUMPS) -> list[tuple[Any, float]]:
         """Propose from one fixed density, whatever the walker: Tierney, Annals of Statistics 22 (1994) 1701-1728."""
 
         def get_proposal(self, sample: Array, _complement: Any, random: Any) -> tuple[Array, Array]:
-            points = cloud.draw(len(sample), random)
-            return points, cloud.log_density(sample) - cloud.log_density(points)
+            points = mixture.draw(len(sample), random)
+            return points, mixture.log_density(sample) - mixture.log_density(points)
 
     return [(Jump(), jumps), (DEMove(), 0.75 * (1.0 - jumps)), (DESnookerMove(), 0.25 * (1.0 - jumps))]
 
@@ -68,7 +68,7 @@ def sampler_of(moves: list[tuple[Any, float]], density: Callable[[Array], Array]
     return emcee.EnsembleSampler(*backend.shape, density, moves=moves, vectorize=True, backend=backend)
 
 
-def state_of(points: Array, heights: Array, rng: np.random.Generator) -> Any:
+def state_of(points: Array, log_densities: Array, rng: np.random.Generator) -> Any:
     """Return emcee's state for walkers at `points` of log density `heights`.
 
     emcee would silently pass over a seed in any other form.
@@ -76,4 +76,4 @@ def state_of(points: Array, heights: Array, rng: np.random.Generator) -> Any:
     import emcee
 
     seed = np.random.RandomState(np.random.MT19937(int(rng.integers(2**63))))
-    return emcee.State(points, log_prob=heights, random_state=seed.get_state(legacy=True))
+    return emcee.State(points, log_prob=log_densities, random_state=seed.get_state(legacy=True))

@@ -1,4 +1,4 @@
-"""Population Monte Carlo: weighted draws from a cloud, and a cloud fitted to them, in turns.
+"""Population Monte Carlo: weighted draws from a mixture, and a mixture fitted to them, in turns.
 
 Cappe et al., J. Computational and Graphical Statistics 13 (2004) 907-929; all draws so far share one weight function as
 in Cornuet et al., Scandinavian J. Statistics 39 (2012) 798-812.
@@ -15,7 +15,7 @@ import numpy as np
 
 from lostmotion.contracts import Array
 from lostmotion.identification.normal_scores import Scores
-from lostmotion.identification.t_mixture import Cloud, root_of
+from lostmotion.identification.t_mixture import TMixture, root_of
 
 ROUNDS = 12
 GOOD = 0.82
@@ -25,13 +25,13 @@ FAIR = 0.15
 LATE, ENOUGH = 5, 0.6
 """After so many rounds this share is good enough."""
 MANY = 20
-"""With more kernels than that a cloud has been fitted before, and that share is good enough at once."""
+"""With more kernels than that a mixture has been fitted before, and that share is good enough at once."""
 WAIT = 2
 """After so many rounds a shape that is still not matched gets further kernels."""
 NEW = 2
 """Kernels that are added in a round."""
 TIMES = 4
-"""Times that kernels are added to a cloud that is fitted to a chain."""
+"""Times that kernels are added to a mixture that is fitted to a chain."""
 GUARD, WIDER = 0.05, 4.0
 """The share of a kernel with so many times the covariance of all others together: what a fit overlooked can still be
 proposed."""
@@ -56,7 +56,7 @@ class Population:
 
     density: Callable[[Array], Array]
     points: Array
-    heights: Array
+    log_densities: Array
     drawn: Array
     sources: list[tuple[int, ProposalSource]] = field(default_factory=list)
 
@@ -68,18 +68,21 @@ class Population:
     def grow(self, source: ProposalSource, count: int, rng: np.random.Generator) -> float:
         """Take draws from a source; return the share of them that is effective."""
         points = source.draw(count, rng)
-        heights, here = self.density(points), source.log_density(points)
+        log_densities, here = self.density(points), source.log_density(points)
         earlier = [math.log(n) + one.log_density(points) for n, one in self.sources]
         older = np.logaddexp(self.drawn, math.log(count) + source.log_density(self.points))
         newer = np.logaddexp.reduce([*earlier, math.log(count) + here], axis=0)
-        self.points, self.heights = np.concatenate([self.points, points]), np.concatenate([self.heights, heights])
+        self.points, self.log_densities = (
+            np.concatenate([self.points, points]),
+            np.concatenate([self.log_densities, log_densities]),
+        )
         self.drawn = np.concatenate([older, newer])
         self.sources.append((count, source))
-        return effective(_scaled(heights - here, 1.0)) / count
+        return effective(_scaled(log_densities - here, 1.0)) / count
 
     def log_weights(self) -> Array:
         """Return the log weights (draws,) against the mixture of all that was drawn from."""
-        return np.asarray(self.heights - self.drawn)
+        return np.asarray(self.log_densities - self.drawn)
 
     def shares(self, least: float) -> Array:
         """Return weights (draws,) that add up to one, flattened until `least` draws or more are effective."""
@@ -90,7 +93,7 @@ class Population:
         shares = self.shares(2.0 * count)
         again = bool(np.count_nonzero(shares) < count)
         which = rng.choice(len(shares), count, replace=again, p=shares)
-        return self.points[which], self.heights[which]
+        return self.points[which], self.log_densities[which]
 
 
 def effective(shares: Array) -> float:
@@ -120,56 +123,60 @@ def _scaled(log_weights: Array, power: float) -> Array:
     return np.asarray(weights / weights.sum())
 
 
-def adapted(cloud: Cloud, population: Population, rng: np.random.Generator, watch: Callable[[int, str], None]) -> Cloud:
-    """Return the cloud fitted to the posterior by rounds of draws, of which `watch` is told."""
-    count, least = max(24 * (cloud.size + 1), 8 * cloud.kernels), 4.0 * (cloud.size + 1)
+def adapted(
+    mixture: TMixture, population: Population, rng: np.random.Generator, watch: Callable[[int, str], None]
+) -> TMixture:
+    """Return the mixture fitted to the posterior by rounds of draws, of which `watch` is told."""
+    count, least = max(24 * (mixture.size + 1), 8 * mixture.kernels), 4.0 * (mixture.size + 1)
     for turn in range(ROUNDS):
-        share = population.grow(guarded(cloud), count, rng)
+        share = population.grow(guarded(mixture), count, rng)
         watch(0, f"pilot draws, {share:.0%} effective")
-        if share > ENOUGH and cloud.kernels > MANY:
+        if share > ENOUGH and mixture.kernels > MANY:
             break
         shares = population.shares(least)
-        cloud = cloud.fitted(population.points, shares)
+        mixture = mixture.fitted(population.points, shares)
         if share > (GOOD if turn < LATE else ENOUGH):
             break
-        room = effective(shares) / (5.0 * (cloud.size + 1)) - cloud.kernels
+        room = effective(shares) / (5.0 * (mixture.size + 1)) - mixture.kernels
         if turn >= WAIT and FAIR < share < ENOUGH and room >= NEW:
-            cloud = with_new(cloud, population).fitted(population.points, shares)
-    return guarded(cloud)
+            mixture = with_new(mixture, population).fitted(population.points, shares)
+    return guarded(mixture)
 
 
-def with_new(cloud: Cloud, population: Population) -> Cloud:
-    """Return the cloud with further kernels at draws whose weights say that the cloud is too thin there."""
-    missing = tempered(population.heights - cloud.log_density(population.points), 1.0)
-    return thickened(cloud, population.points, missing)
+def with_new(mixture: TMixture, population: Population) -> TMixture:
+    """Return the mixture with further kernels at draws whose weights say that the mixture is too thin there."""
+    missing = tempered(population.log_densities - mixture.log_density(population.points), 1.0)
+    return thickened(mixture, population.points, missing)
 
 
-def thickened(cloud: Cloud, points: Array, missing: Array) -> Cloud:
-    """Return the cloud with further kernels at the points where most is `missing`, which adds up to one."""
-    wide = cloud.widened(1.0).roots[0]
-    near = max(4 * (cloud.size + 1), len(points) // 20)
-    for one in list(new_kernels(cloud.scale, np.sqrt(np.sum(wide**2, axis=1)), points, missing, (NEW, near))):
-        cloud = cloud.beside(one, 1.0 / (cloud.kernels + 1.0))
-    return cloud
+def thickened(mixture: TMixture, points: Array, missing: Array) -> TMixture:
+    """Return the mixture with further kernels at the points where most is `missing`, which adds up to one."""
+    wide = mixture.widened(1.0).roots[0]
+    near = max(4 * (mixture.size + 1), len(points) // 20)
+    for one in list(new_kernels(mixture.scale, np.sqrt(np.sum(wide**2, axis=1)), points, missing, (NEW, near))):
+        mixture = mixture.beside(one, 1.0 / (mixture.kernels + 1.0))
+    return mixture
 
 
-def refitted(cloud: Cloud, points: Array, heights: Array) -> Cloud:
-    """Return a cloud fitted to draws of the posterior itself, such as those of a chain that mixes badly."""
+def refitted(mixture: TMixture, points: Array, log_densities: Array) -> TMixture:
+    """Return a mixture fitted to draws of the posterior itself, such as those of a chain that mixes badly."""
     points, which, counts = np.unique(points, axis=0, return_index=True, return_counts=True)
-    heights, shares = heights[which], counts / counts.sum()
-    cloud = cloud.fitted(points, shares)
+    log_densities, shares = log_densities[which], counts / counts.sum()
+    mixture = mixture.fitted(points, shares)
     for _ in range(TIMES):
-        missing = tempered(heights - cloud.log_density(points), 1.0)
-        cloud = thickened(cloud, points, missing).fitted(points, shares)
-    return guarded(cloud)
+        missing = tempered(log_densities - mixture.log_density(points), 1.0)
+        mixture = thickened(mixture, points, missing).fitted(points, shares)
+    return guarded(mixture)
 
 
-def guarded(cloud: Cloud) -> Cloud:
-    """Return the cloud with a little of a kernel that is wider than all of it."""
-    return cloud.beside(cloud.widened(WIDER), GUARD)
+def guarded(mixture: TMixture) -> TMixture:
+    """Return the mixture with a little of a kernel that is wider than all of it."""
+    return mixture.beside(mixture.widened(WIDER), GUARD)
 
 
-def new_kernels(scale: Scores, unit: Array, points: Array, shares: Array, limits: tuple[int, int]) -> Iterator[Cloud]:
+def new_kernels(
+    scale: Scores, unit: Array, points: Array, shares: Array, limits: tuple[int, int]
+) -> Iterator[TMixture]:
     """Yield kernels at the points of largest weight, at most `limits[0]`, each as wide as `limits[1]` points about it.
 
     Distances between scores are measured in `unit`. Raftery, Bao, Biometrics 66 (2010) 1162-1173.
@@ -185,4 +192,4 @@ def new_kernels(scale: Scores, unit: Array, points: Array, shares: Array, limits
         weights = shares[near] + evenly
         covariance = (weights[:, None] * off[near]).T @ off[near] / weights.sum()
         left[near] = 0.0
-        yield Cloud(np.ones(1), scores[top][None], root_of(covariance)[None], scale)
+        yield TMixture(np.ones(1), scores[top][None], root_of(covariance)[None], scale)

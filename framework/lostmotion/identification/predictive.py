@@ -40,7 +40,7 @@ def groups_of(task: Task, result: SampledPosterior, case: CaseFile, rng: np.rand
     taken = np.flatnonzero(np.isfinite(readings))
     picked = taken[np.unique(np.linspace(0, len(taken) - 1, SHOWN).astype(int))]
     edges = np.unique(np.linspace(0, len(readings), BLOCKS + 1).astype(int))[:-1]
-    terms, replicates = _told(problem, task.coordinates(result.draws), readings, (edges, picked), rng)
+    terms, replicates = _predict_blocks(problem, task.coordinates(result.draws), readings, (edges, picked), rng)
     shape = result.chain.shape[:2]
     told = {
         "log_likelihood": xr.Dataset({"readings": (("chain", "draw", "block"), terms.reshape(*shape, -1))}),
@@ -58,7 +58,7 @@ def groups_of(task: Task, result: SampledPosterior, case: CaseFile, rng: np.rand
     }
 
 
-def _told(
+def _predict_blocks(
     problem: Problem, thetas: Array, readings: Array, where: tuple[Places, Places], rng: np.random.Generator
 ) -> tuple[Array, Array]:
     """Return the log-likelihood of each block (draws, blocks), and replicates of some readings (draws, shown)."""

@@ -40,7 +40,7 @@ def rehearsed(
     """Return the recording of a machine under a harmonic drive from a random start, and its first state."""
     flow = flow_of(model, values, drive=beat)
     box = WIDE * reach(flow, 40)
-    begin = flow.march(rng.uniform(-box, box), periods=SETTLING, tangents=0).states[-1]
+    begin = flow.strobe(rng.uniform(-box, box), periods=SETTLING, tangents=0).states[-1]
     seen = flow.sample(begin, periods=bench.periods, looks=bench.looks)[:-1, 0]  # type: ignore[attr-defined]
     dt = flow.period / bench.looks
     u = beat.amplitude * np.cos(beat.omega * dt * np.arange(len(seen)) + beat.phase)

@@ -99,7 +99,7 @@ def says(found: SampledPosterior) -> tuple[str, ...]:
     )
 
 
-def modes_said(modes: int) -> list[str]:
+def mode_notes(modes: int) -> list[str]:
     """Return a sentence where the posterior has more than one mode."""
     if modes < 2:
         return []
@@ -109,7 +109,7 @@ def modes_said(modes: int) -> list[str]:
     ]
 
 
-def level_told(one: Predicted) -> DriveLevel:
+def drive_level(one: Predicted) -> DriveLevel:
     """Return a level with what was measured there and what the posterior expects."""
     level = one.level
     return DriveLevel(
@@ -131,7 +131,7 @@ def _measured(seen: Measured | None, unit: str) -> MeasuredRange | None:
     return MeasuredRange(value=seen.value, low=seen.value - half, high=seen.value + half, unit=unit)
 
 
-def derived_told(posterior: Inversion, points: Array, found: SampledPosterior) -> Mapping[str, Interval]:
+def derived_intervals(posterior: Inversion, points: Array, found: SampledPosterior) -> Mapping[str, Interval]:
     """Return the intervals of what follows from the parameters; none from a chain that has not converged."""
     if not found.converged:
         return {}

@@ -21,11 +21,11 @@ from lostmotion.errors import CaseError
 from lostmotion.identification.levels import Survey, quantifier_task
 from lostmotion.identification.predictive import groups_of
 from lostmotion.identification.report.page import write_identification
-from lostmotion.identification.result import derived_told, level_told, modes_said, statement
+from lostmotion.identification.result import derived_intervals, drive_level, mode_notes, statement
 from lostmotion.identification.sampling import SampledPosterior, SamplingPlan, Task, Watch, identify
-from lostmotion.identification.trajectory import best_fits, chosen_terms, doubts, task_for
+from lostmotion.identification.trajectory import best_fits, chosen_terms, task_for, warnings_of
 from lostmotion.inference.contacts import short_contacts
-from lostmotion.likelihood.space import Free
+from lostmotion.likelihood.space import FreeParameter
 from lostmotion.maps.inversion import Inversion, predicted
 from lostmotion.preparation.prepare import Prepared, case_of, prepared_of
 from lostmotion.preparation.vetting import within_numbers
@@ -142,7 +142,7 @@ def _by_trajectory(prepared: Prepared, out: Path, registry: Registry, asked: Ask
     problem = fits[0].problem
     settings = {"terms": sorted(problem.active), "steps_between_samples": problem.nsub, "sensor": asdict(case.sensor)}
     origin = _origin(case, order, settings, prepared.inputs)
-    notes = (*prepared.notes, *modes_said(len(fits)), *short_contacts(fits[0]), *doubts(fits[0]))
+    notes = (*prepared.notes, *mode_notes(len(fits)), *short_contacts(fits[0]), *warnings_of(fits[0]))
     model = " + ".join([case.model, *sorted(problem.active)])
 
     def tell(found: SampledPosterior) -> Identification:
@@ -172,12 +172,14 @@ def _by_quantifiers(case: CaseFile, out: Path, registry: Registry, asked: Asked)
         some = points[:: max(1, len(points) // EXPECTED)]
         expected = predicted(posterior, some, np.random.default_rng(order.seed))
         told = statement(found, "quantifiers", case, origin)
-        return replace(told, levels=tuple(map(level_told, expected)), derived=derived_told(posterior, points, found))
+        return replace(
+            told, levels=tuple(map(drive_level, expected)), derived=derived_intervals(posterior, points, found)
+        )
 
     return Way(task, tell)
 
 
-def coordinates(free: tuple[Free, ...], values: Array) -> Array:
+def coordinates(free: tuple[FreeParameter, ...], values: Array) -> Array:
     """Return the coordinates (count, parameters) of parameter values (count, parameters)."""
     return np.stack([np.log(values[:, i]) if f.log else values[:, i] for i, f in enumerate(free)], axis=1)
 

@@ -17,7 +17,7 @@ from lostmotion.identification.chains import Quality, autocorrelation, inference
 from lostmotion.identification.checkpoint import Kept, cleared, fingerprint, load, save
 from lostmotion.identification.moves import FEWER, JUMPS, Density, moves, sampler_of, state_of
 from lostmotion.identification.population import Population, adapted, refitted
-from lostmotion.identification.t_mixture import Cloud
+from lostmotion.identification.t_mixture import TMixture
 from lostmotion.identification.task import NOISES, ShownCoordinate, Task, task_of
 from lostmotion.provenance import origin_of
 from lostmotion.results import Interval
@@ -25,10 +25,10 @@ from lostmotion.settings import DEFAULT, ChainSettings
 
 __all__ = [
     "NOISES",
-    "Cloud",
     "SampledPosterior",
     "SamplingPlan",
     "ShownCoordinate",
+    "TMixture",
     "Task",
     "Watch",
     "identify",
@@ -37,9 +37,9 @@ __all__ = [
 
 WALKERS = 16
 TRIAL = 60
-"""Steps after which it is seen whether the cloud is good; also after twice as many, four times and so on."""
+"""Steps after which it is seen whether the mixture is good; also after twice as many, four times and so on."""
 STICKY = 8.0
-"""With a longer autocorrelation time the cloud is fitted to the chain, which begins anew, up to `FITS` times."""
+"""With a longer autocorrelation time the mixture is fitted to the chain, which begins anew, up to `FITS` times."""
 FITS = 4
 BLOCK = 10
 GROWTH = 0.05
@@ -128,9 +128,9 @@ def identify(
 ) -> SampledPosterior:
     """Return the posterior of a task, sampled with emcee as `plan` says.
 
-    Weighted pilot draws fit the cloud from which most proposals come; it stays as it is while the draws that count are
-    made. With `keep` the chain is kept in that HDF5 file, which emcee reads, and a run that was cut short goes on from
-    there to the same end. Nothing depends on the number of cores, nor on how often the run was cut short.
+    Weighted pilot draws fit the mixture from which most proposals come; it stays as it is while the draws that count
+    are made. With `keep` the chain is kept in that HDF5 file, which emcee reads, and a run that was cut short goes on
+    from there to the same end. Nothing depends on the number of cores, nor on how often the run was cut short.
     """
     return _Course(task, plan or SamplingPlan(), int(rng.integers(2**63)), watch).run(keep)
 
@@ -154,7 +154,7 @@ class _Course:
         self.watch(shelf.kept.backend.iteration, "a kept chain is continued" if found else "the chain begins")
         while True:
             kept = shelf.kept
-            sampler = sampler_of(moves(kept.cloud, FEWER if kept.fits else JUMPS), self.density, kept.backend)
+            sampler = sampler_of(moves(kept.mixture, FEWER if kept.fits else JUMPS), self.density, kept.backend)
             lacks = self._chain(sampler, shelf)
             if lacks is not None:
                 return self._result(sampler, lacks, resumed=found is not None, replaced=there and found is None)
@@ -163,42 +163,52 @@ class _Course:
     @property
     def digest(self) -> str:
         """The digest of all that the chain depends on, its length left out."""
-        task, cloud = self.task, self.task.cloud
-        arrays = (task.maximum, cloud.weights, cloud.centres, cloud.roots, cloud.scale.middle, cloud.scale.breadth)
+        task, mixture = self.task, self.task.mixture
+        arrays = (
+            task.maximum,
+            mixture.weights,
+            mixture.centres,
+            mixture.roots,
+            mixture.scale.middle,
+            mixture.scale.breadth,
+        )
         versions = origin_of("identify", {}, self.seed, {}).versions
         texts = (versions, task.digest, task.posterior.free, task.shown, self.seed, self.walkers)
         return fingerprint([*texts, self.height, *arrays])
 
     def _begun(self) -> Kept:
-        """Return a chain without a step: the cloud that the pilots fit, and walkers where it is probable."""
+        """Return a chain without a step: the mixture that the pilots fit, and walkers where it is probable."""
         rng = np.random.default_rng(self.seed)
-        population = Population.empty(self.density, self.task.cloud.size)
-        cloud = adapted(self.task.cloud, population, rng, self.watch)
+        population = Population.empty(self.density, self.task.mixture.size)
+        mixture = adapted(self.task.mixture, population, rng, self.watch)
         start = state_of(*population.chosen(self.walkers, rng), rng)
-        return Kept(self._blank(), cloud, start, self.density.evaluations, 0)
+        return Kept(self._blank(), mixture, start, self.density.evaluations, 0)
 
     def _blank(self) -> Any:
         """Return emcee's backend without a step."""
         from emcee.backends import Backend
 
         backend = Backend()
-        backend.reset(self.walkers, self.task.cloud.size)
+        backend.reset(self.walkers, self.task.mixture.size)
         return backend
 
     def _fitted(self, sampler: Any, kept: Kept) -> Kept:
-        """Return a chain without a step, whose cloud is fitted to a chain that mixed badly."""
+        """Return a chain without a step, whose mixture is fitted to a chain that mixed badly."""
         half = sampler.iteration // 2
-        points, heights = sampler.get_chain(flat=True, discard=half), sampler.get_log_prob(flat=True, discard=half)
-        cloud = refitted(kept.cloud, points, heights)
+        points, log_densities = (
+            sampler.get_chain(flat=True, discard=half),
+            sampler.get_log_prob(flat=True, discard=half),
+        )
+        mixture = refitted(kept.mixture, points, log_densities)
         last = sampler.get_last_sample()
         start = state_of(last.coords, last.log_prob, np.random.default_rng([self.seed, kept.fits + 1]))
         self.watch(0, "the chain mixes badly: it begins anew, with proposals fitted to it")
-        return Kept(self._blank(), cloud, start, self.density.evaluations, kept.fits + 1)
+        return Kept(self._blank(), mixture, start, self.density.evaluations, kept.fits + 1)
 
     def _chain(self, sampler: Any, shelf: _Shelf) -> tuple[str, ...] | None:
         """Let the walkers walk until the chain may be believed or its time is up; return what it lacks.
 
-        Returns None when the chain mixes so badly that its cloud had better be fitted again.
+        Returns None when the chain mixes so badly that its mixture had better be fitted again.
         """
         state, says = shelf.kept.state, "no check yet"
         while True:
@@ -206,7 +216,7 @@ class _Course:
             if self._sticks(sampler, shelf.kept.fits):
                 return None
             if done and (done == check or done >= self.plan.max_steps):
-                lacks, says = self._judged(sampler)
+                lacks, says = self._convergence(sampler)
                 self.watch(0, says)
                 if not lacks or done >= self.plan.max_steps:
                     shelf.put()
@@ -217,13 +227,13 @@ class _Course:
             shelf.put(EVERY)
 
     def _sticks(self, sampler: Any, fits: int) -> bool:
-        """Return whether the chain has just come to a step where its cloud is tried, and shows that it is not good."""
+        """Return whether the chain has come to a step where its mixture is tried, and shows that it is not good."""
         trials = [_next_check(TRIAL * 2**i - 1) for i in range(6)]
         if fits >= FITS or sampler.iteration not in trials:
             return False
         return not float(np.max(autocorrelation(_kept(sampler, sampler.iteration)[0]))) < STICKY
 
-    def _judged(self, sampler: Any) -> tuple[tuple[str, ...], str]:
+    def _convergence(self, sampler: Any) -> tuple[tuple[str, ...], str]:
         """Return what the chain lacks, and how it stands; this depends on the chain and on nothing else."""
         quality = quality_of(_kept(sampler, sampler.iteration)[0])
         earlier = _last_check(sampler.iteration)

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from lostmotion.contracts import Array
 from lostmotion.identification.normal_scores import FAR, Scores
-from lostmotion.likelihood.problem import Free
+from lostmotion.likelihood.problem import FreeParameter
 
 TAIL = 10.0
 """Degrees of freedom of each kernel: its tails are heavier than those of any posterior met here."""
@@ -24,7 +24,7 @@ FITTING = 12
 
 
 @dataclass(frozen=True)
-class Cloud:
+class TMixture:
     """A mixture of multivariate t kernels in the scores of the coordinates.
 
     `weights` (kernels,) add up to one, `centres` (kernels, parameters) and `roots` (kernels, parameters, parameters)
@@ -38,9 +38,9 @@ class Cloud:
 
     @classmethod
     def of_modes(
-        cls, points: Array, covariances: Sequence[Array] | Array, weights: Array, free: tuple[Free, ...]
-    ) -> Cloud:
-        """Return the cloud of normal approximations at `points` (modes, parameters).
+        cls, points: Array, covariances: Sequence[Array] | Array, weights: Array, free: tuple[FreeParameter, ...]
+    ) -> TMixture:
+        """Return the mixture of normal approximations at `points` (modes, parameters).
 
         A centre that is closer to a bound than one deviation moves away from it.
         """
@@ -56,8 +56,8 @@ class Cloud:
         return cls(shares, scale.of(centres), np.stack(roots), scale)
 
     @classmethod
-    def of_prior(cls, free: tuple[Free, ...]) -> Cloud:
-        """Return the cloud of one kernel that covers the prior."""
+    def of_prior(cls, free: tuple[FreeParameter, ...]) -> TMixture:
+        """Return the mixture of one kernel that covers the prior."""
         scale = Scores.flat(*bounds_of(free))
         shares = (np.arange(QUANTILES) + 0.5) / QUANTILES
         points = np.array([[f.quantile(float(s)) for f in free] for s in shares])
@@ -65,11 +65,11 @@ class Cloud:
         return cls(np.ones(1), scores.mean(axis=0)[None], np.diag(scores.std(axis=0))[None], scale)
 
     @classmethod
-    def swarm(cls, posterior: Any, rng: np.random.Generator) -> Cloud:
-        """Return a cloud found from the prior by population Monte Carlo, for a rugged posterior that costs little."""
-        from lostmotion.identification.incremental_mixture import swarm  # which is built on clouds
+    def by_importance_sampling(cls, posterior: Any, rng: np.random.Generator) -> TMixture:
+        """Return a mixture found from the prior by population Monte Carlo, for a rugged posterior that costs little."""
+        from lostmotion.identification.incremental_mixture import incremental_mixture  # which is built on this class
 
-        return swarm(posterior, rng)
+        return incremental_mixture(posterior, rng)
 
     @property
     def kernels(self) -> int:
@@ -98,8 +98,8 @@ class Cloud:
         parts, _ = self._parts(self.scale.of(points))
         return np.asarray(np.logaddexp.reduce(parts, axis=1) + np.sum(self.scale.log_slopes(points), axis=1))
 
-    def fitted(self, points: Array, shares: Array, *, steps: int = FITTING) -> Cloud:
-        """Return the cloud moved towards the density of which `points` with weights `shares` (sum 1) are draws.
+    def fitted(self, points: Array, shares: Array, *, steps: int = FITTING) -> TMixture:
+        """Return the mixture moved towards the density of which `points` with weights `shares` (sum 1) are draws.
 
         The steps of expectation and maximisation of Cappe et al., Statistics and Computing 18 (2008) 447-459. A kernel
         that few draws fall into keeps its scale, and one that none falls into goes.
@@ -107,14 +107,14 @@ class Cloud:
         scores = self.scale.of(points)
         draws = 1.0 / float(np.sum(shares**2))
         before = np.einsum("kij,klj->kil", self.roots, self.roots)
-        cloud = self
+        mixture = self
         for _ in range(steps):
-            cloud = cloud._step(scores, shares, before, draws)
-        kept = cloud.weights * draws > 1e-3
-        return cloud.only(kept) if kept.any() else self
+            mixture = mixture._step(scores, shares, before, draws)
+        kept = mixture.weights * draws > 1e-3
+        return mixture.only(kept) if kept.any() else self
 
-    def _step(self, scores: Array, shares: Array, before: Array, draws: float) -> Cloud:
-        """Return the cloud after one step; scales are those `before` as if seen in a few draws more."""
+    def _step(self, scores: Array, shares: Array, before: Array, draws: float) -> TMixture:
+        """Return the mixture after one step; scales are those `before` as if seen in a few draws more."""
         parts, lengths = self._parts(scores)
         belongs = shares[:, None] * np.exp(parts - np.logaddexp.reduce(parts, axis=1)[:, None])
         pulls = belongs * (TAIL + self.size) / (TAIL + lengths)
@@ -143,18 +143,18 @@ class Cloud:
             white = (some[None] - self.centres[:, None]) @ inverse
             lengths[begin : begin + CHUNK] = np.sum(white**2, axis=2).T
         with np.errstate(divide="ignore"):
-            heights = np.log(self.weights) - volumes
-        heights += math.lgamma(0.5 * (TAIL + self.size)) - math.lgamma(0.5 * TAIL)
-        heights -= 0.5 * self.size * math.log(TAIL * math.pi)
-        return heights - 0.5 * (TAIL + self.size) * np.log1p(lengths / TAIL), lengths
+            log_densities = np.log(self.weights) - volumes
+        log_densities += math.lgamma(0.5 * (TAIL + self.size)) - math.lgamma(0.5 * TAIL)
+        log_densities -= 0.5 * self.size * math.log(TAIL * math.pi)
+        return log_densities - 0.5 * (TAIL + self.size) * np.log1p(lengths / TAIL), lengths
 
-    def only(self, kept: NDArray[np.bool_]) -> Cloud:
-        """Return the cloud of some of the kernels."""
+    def only(self, kept: NDArray[np.bool_]) -> TMixture:
+        """Return the mixture of some of the kernels."""
         weights = self.weights[kept]
         return replace(self, weights=weights / weights.sum(), centres=self.centres[kept], roots=self.roots[kept])
 
-    def split(self, parts: int, rng: np.random.Generator) -> Cloud:
-        """Return the cloud with `parts` smaller kernels in place of each, scattered about its centre."""
+    def split(self, parts: int, rng: np.random.Generator) -> TMixture:
+        """Return the mixture with `parts` smaller kernels in place of each, scattered about its centre."""
         roots = np.repeat(self.roots, parts, axis=0)
         moved = np.einsum("kij,kj->ki", roots, rng.standard_normal((parts * self.kernels, self.size)))
         return replace(
@@ -164,8 +164,8 @@ class Cloud:
             roots=0.7 * roots,
         )
 
-    def beside(self, other: Cloud, share: float) -> Cloud:
-        """Return the mixture of this cloud and the `share` of another."""
+    def beside(self, other: TMixture, share: float) -> TMixture:
+        """Return the mixture of this one and the `share` of another."""
         return replace(
             self,
             weights=np.concatenate([(1.0 - share) * self.weights, share * other.weights]),
@@ -173,7 +173,7 @@ class Cloud:
             roots=np.concatenate([self.roots, other.roots]),
         )
 
-    def widened(self, factor: float) -> Cloud:
+    def widened(self, factor: float) -> TMixture:
         """Return one kernel with the mean and `factor` times the covariance of the mixture."""
         centre = self.weights @ self.centres
         off = self.centres - centre
@@ -184,7 +184,7 @@ class Cloud:
         )
 
 
-def bounds_of(free: tuple[Free, ...]) -> tuple[Array, Array]:
+def bounds_of(free: tuple[FreeParameter, ...]) -> tuple[Array, Array]:
     """Return the lower and the upper bounds of the coordinates."""
     return np.array([f.low for f in free]), np.array([f.high for f in free])
 

@@ -11,10 +11,10 @@ import numpy as np
 from lostmotion.contracts import Array
 from lostmotion.errors import DataError
 from lostmotion.identification.moves import Posterior
-from lostmotion.identification.t_mixture import Cloud
+from lostmotion.identification.t_mixture import TMixture
 from lostmotion.inference.fit import Fit
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.problem import NOISE, PACE, RANDOM, Free, Problem
+from lostmotion.likelihood.problem import NOISE, PACE, RANDOM, FreeParameter, Problem
 from lostmotion.quantities import unit_of
 
 OFFSET = "offset"
@@ -50,7 +50,7 @@ class Task:
     """
 
     posterior: Posterior
-    cloud: Cloud
+    mixture: TMixture
     shown: tuple[ShownCoordinate, ...]
     maximum: Array
     digest: str = ""
@@ -74,16 +74,16 @@ def task_of(fits: Sequence[Fit], digest: str = "") -> Task:
         raise DataError("the model cannot follow this recording from any start: check units, known values and priors")
     problem = fits[0].problem
     highest = max(found, key=lambda f: f.local.log_posterior)
-    cloud = Cloud.of_modes(
+    mixture = TMixture.of_modes(
         np.array([f.theta for f in found]),
         [within(f.local.covariance, problem.free) for f in found],
         mode_weights(np.array([f.log_evidence for f in found])),
         problem.free,
     )
-    return Task(problem, cloud, tuple(_shown(f, problem) for f in problem.free), highest.theta, digest)
+    return Task(problem, mixture, tuple(_shown(f, problem) for f in problem.free), highest.theta, digest)
 
 
-def within(covariance: Array, free: tuple[Free, ...]) -> Array:
+def within(covariance: Array, free: tuple[FreeParameter, ...]) -> Array:
     """Return the covariance with no deviation wider than that of a uniform density between the bounds.
 
     The data may be silent about a parameter, as about a measurement noise far below the random force: its variance
@@ -107,7 +107,7 @@ def mode_weights(log_evidence: Array) -> Array:
     return np.asarray(weights / weights.sum())
 
 
-def _shown(free: Free, problem: Problem) -> ShownCoordinate:
+def _shown(free: FreeParameter, problem: Problem) -> ShownCoordinate:
     """Return how a parameter is told; a random force as the rms (N, N m) of one that is held from sample to sample."""
     observation = _track(problem, free.recording or "")
     motion = problem.system.model.motion

@@ -102,7 +102,7 @@ def _as_the_case_says(fit: Fit, case: CaseFile) -> Fit:
     return maximise(replace(problem, free=tuple(frees)))
 
 
-def doubts(fit: Fit) -> list[str]:
+def warnings_of(fit: Fit) -> list[str]:
     """Return what makes the intervals too narrow although the chain has converged."""
     if significant_random_force(fit) <= fit.problem.settings.locate.significant:
         return []

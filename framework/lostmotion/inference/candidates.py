@@ -15,7 +15,7 @@ from lostmotion.inference.late import PRICE, can_be_late, cut, refined
 from lostmotion.inference.natural import frees_of, size_of, sorted_slots, star, term_of, tried_of
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.plan import handed
-from lostmotion.likelihood.problem import LATEST, NOISE, RANDOM, Free, Problem
+from lostmotion.likelihood.problem import LATEST, NOISE, RANDOM, FreeParameter, Problem
 from lostmotion.likelihood.system import ALWAYS, Slot, since_of
 from lostmotion.quantities import FORCE, TIME
 
@@ -96,7 +96,7 @@ def _late(fit: Fit, key: str, amplitudes: Sequence[Slot], always: Hint, joint: S
     best = always
     shape = {name: value for name, value in always.start.items() if name not in {a.key for a in amplitudes}}
     for time, gradient, information in cut(fit.problem, joint, len(amplitudes)):
-        hint = _told(fit, key, amplitudes, shape, gradient, information)
+        hint = _hint_from(fit, key, amplitudes, shape, gradient, information)
         if hint.gain > best.gain + (ONSET if best is always else 0.0):
             best = replace(hint, start={**hint.start, since_of(key): time})
     return best
@@ -113,8 +113,8 @@ def _afar(fit: Fit, slot: Slot, key: str, distinct: float) -> Hint:
     best, gain, bottom = 0.0, 0.0, maximise(restarted(replace(fit, problem=short)), fit.theta, rounds=2)
     wider = short.extended((_held(slot),), {key})
     theta = warmed(short, bottom.theta, RAISED)
-    heights = wider.log_likelihoods(np.array([np.append(theta, factor * size) for factor in slot.param.far]))
-    for i in np.argsort(-heights)[:FARTHEST]:
+    log_densities = wider.log_likelihoods(np.array([np.append(theta, factor * size) for factor in slot.param.far]))
+    for i in np.argsort(-log_densities)[:FARTHEST]:
         value = slot.param.far[i] * size
         trial = short.knowing({slot.key: value})
         found = maximise(replace(trial, active=trial.active | {key}), bottom.theta, rounds=3, tolerance=1.0)
@@ -171,7 +171,7 @@ def joined(problem: Problem, key: str, start: Mapping[str, float]) -> Problem:
     return problem.knowing(choices).extended(frees_in(problem, key, slots, start), {key})
 
 
-def frees_in(problem: Problem, key: str, slots: list[Slot], start: Mapping[str, float]) -> tuple[Free, ...]:
+def frees_in(problem: Problem, key: str, slots: list[Slot], start: Mapping[str, float]) -> tuple[FreeParameter, ...]:
     """Return the free parameters of a term of a problem; one of several sensors is late by no more than is allowed."""
     frees, (term, _) = frees_of(slots, problem.scales, start), term_of(problem, key)
     if term.acts != "sensor" or len(problem.observations[0].sensors) == 1:
@@ -218,9 +218,9 @@ def _scored(fit: Fit, slopes: Sensitivity, key: str, shapes: Sequence[Mapping[st
     return hints
 
 
-def _held(slot: Slot) -> Free:
+def _held(slot: Slot) -> FreeParameter:
     """Return a shape parameter as a coordinate that stays where it is put."""
-    return Free(slot.key, slot.unit, 0.0, -math.inf, math.inf)
+    return FreeParameter(slot.key, slot.unit, 0.0, -math.inf, math.inf)
 
 
 def _joint(slopes: Sensitivity, wider: Problem, zeros: Sequence[Array], widths: Sequence[Array]) -> list[Sensitivity]:
@@ -245,10 +245,10 @@ def _joint(slopes: Sensitivity, wider: Problem, zeros: Sequence[Array], widths: 
 
 def _hint(fit: Fit, key: str, amplitudes: Sequence[Slot], shape: Mapping[str, float], joint: Sensitivity) -> Hint:
     """Return what a score test says of a term at one shape."""
-    return _told(fit, key, amplitudes, shape, joint.gradient(), joint.information())
+    return _hint_from(fit, key, amplitudes, shape, joint.gradient(), joint.information())
 
 
-def _told(
+def _hint_from(
     fit: Fit, key: str, amplitudes: Sequence[Slot], shape: Mapping[str, float], gradient: Array, information: Array
 ) -> Hint:
     """Return what gradient and information of base parameters and amplitudes together say of a term."""
@@ -313,8 +313,8 @@ def fit_with(fit: Fit, hint: Hint, *, hopeless: float = -math.inf) -> Fit:
     """
     _, slots = term_of(fit.problem, hint.key)
     problems = [with_term(restarted(fit), hint, _scaled(hint, slots, factor)) for factor in SHARES]
-    heights = [p.log_posterior(p.clip(p.start)) for p in problems[:2]]
-    order = (*np.argsort(heights)[::-1], *range(2, len(SHARES)))
+    log_densities = [p.log_posterior(p.clip(p.start)) for p in problems[:2]]
+    order = (*np.argsort(log_densities)[::-1], *range(2, len(SHARES)))
     fits: list[Fit] = []
     for i in order:
         fits.append(maximise(problems[i], hopeless=hopeless, tolerance=ROUGHLY))
@@ -353,8 +353,8 @@ def fit_in_place(fit: Fit, key: str, hint: Hint, *, hopeless: float = -math.inf)
     own = [s for s in slots if shared[s.key] is None]
     begins = np.array([problem.start, *_reshaped(problem, own), *_lessened(problem, own)])
     begins = problem.clip(np.vstack([begins, [warmed(problem, theta, RAISED) for theta in begins]]))
-    heights = problem.log_posteriors(begins)
-    return maximise(problem, begins[int(np.argmax(heights))], hopeless=hopeless, tolerance=ROUGHLY)
+    log_densities = problem.log_posteriors(begins)
+    return maximise(problem, begins[int(np.argmax(log_densities))], hopeless=hopeless, tolerance=ROUGHLY)
 
 
 def _reshaped(problem: Problem, slots: Sequence[Slot]) -> Iterator[Array]:

@@ -291,17 +291,17 @@ class Selection:
         doubted = (self.declined | self.withdrawn) - self.chosen.problem.active
         believed = {k: v for k, v in self.visits.items() if not k & doubted}
         chosen = self.visits[self.chosen.problem.active]
-        heights = {k: v.weight - chosen.weight for k, v in believed.items()}
+        log_odds = {k: v.weight - chosen.weight for k, v in believed.items()}
         known = [terms for terms in believed if terms in self.rivals and terms != chosen.terms]
-        heights |= {terms: -self.lead(chosen, self.visits[terms]) for terms in known}
+        log_odds |= {terms: -self.lead(chosen, self.visits[terms]) for terms in known}
         for (more, fewer), lead in sorted(self.leads.items(), key=lambda known: len(known[0][0])):
-            if fewer < more and more in heights and fewer in heights and more != chosen.terms:
-                heights[more] = min(heights[more], heights[fewer] + lead.value)
-        least = min([0.0, *(heights[terms] for terms in known)])
-        heights |= {k: min(h, least) for k, h in heights.items() if k not in self.rivals}
-        heights |= {k: heights[k] + score for k, score in self.scored.items() if k in heights}
-        top = max(heights.values())
-        raw = {k: math.exp(height - top) for k, height in heights.items()}
+            if fewer < more and more in log_odds and fewer in log_odds and more != chosen.terms:
+                log_odds[more] = min(log_odds[more], log_odds[fewer] + lead.value)
+        least = min([0.0, *(log_odds[terms] for terms in known)])
+        log_odds |= {k: min(h, least) for k, h in log_odds.items() if k not in self.rivals}
+        log_odds |= {k: log_odds[k] + score for k, score in self.scored.items() if k in log_odds}
+        top = max(log_odds.values())
+        raw = {k: math.exp(height - top) for k, height in log_odds.items()}
         total = sum(raw.values())
         return {k: w / total for k, w in raw.items()}
 

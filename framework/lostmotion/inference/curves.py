@@ -18,7 +18,7 @@ from lostmotion.inference.fit import Fit, Sensitivity, maximise, restarted, robu
 from lostmotion.inference.learned import Learned, spread
 from lostmotion.inference.natural import term_of
 from lostmotion.inference.surfaces import RICHER, OverHistory, Surface, curves_for
-from lostmotion.likelihood.problem import Free, Problem
+from lostmotion.likelihood.problem import FreeParameter, Problem
 from lostmotion.likelihood.system import System, key_of
 
 SIZES = (0.002, 0.006, 0.02, 0.06, 0.2)
@@ -67,7 +67,7 @@ def transplanted(fit: Fit) -> Fit:
     problem, old = fit.problem, fit.problem.system
     if any(isinstance(term, Learned) for term in old.terms):
         return fit
-    driven = all(observation.tone.omega > 0.0 for observation in problem.observations)
+    driven = all(observation.harmonic.omega > 0.0 for observation in problem.observations)
     curves = curves_for(old.model, driven=driven)
     system = System(old.model, (*old.terms, *curves))
     known = system.vector({key: problem.known[old.index[key]] for key in system.index if key in old.index})
@@ -214,11 +214,11 @@ def projection(fit: Fit, joint: Sensitivity, k: int) -> tuple[Array, Array, Arra
     gradient[:k] -= pull * (joint.theta[:k] - np.array([f.mean for f in problem.free]))
     pulled = solved(information[:k, :k] + np.diag(pull), information[:k, k:])
     own = information[k:, k:]
-    told = _told_apart(gradient[k:] - pulled.T @ gradient[:k], own - information[k:, :k] @ pulled, own)
+    told = _independent_part(gradient[k:] - pulled.T @ gradient[:k], own - information[k:, :k] @ pulled, own)
     return *told, pulled
 
 
-def _told_apart(gradient: Array, left: Array, own: Array) -> tuple[Array, Array]:
+def _independent_part(gradient: Array, left: Array, own: Array) -> tuple[Array, Array]:
     """Return gradient and information without the directions that the free parameters of the fit cover already.
 
     Of the information `own` nothing is `left` there but errors of the differences, by which the rest of a gradient that
@@ -239,7 +239,7 @@ def with_curve(problem: Problem, key: str, widths: Array, start: Array) -> Probl
     reach = np.where(np.isfinite(widths), 30.0 * widths, 1e3 * size_of(term, problem))
     unit = term.params[0].dimension.unit(problem.system.model.motion)
     rows = [(int(i), *(float(row[i]) for row in (start, reach, widths))) for i in np.flatnonzero(widths > 0.0)]
-    frees = [Free(f"{key}.v{i}", unit, at, -far, far, sd=wide, straight=True) for i, at, far, wide in rows]
+    frees = [FreeParameter(f"{key}.v{i}", unit, at, -far, far, sd=wide, straight=True) for i, at, far, wide in rows]
     return problem.extended(frees, {key})
 
 
@@ -247,8 +247,8 @@ def fit_curve(fit: Fit, shape: Shape) -> Fit:
     """Return the fit with one more curve, begun where its score test points, or with less of it, and fitted again."""
     base = restarted(fit).knowing(shape.known)
     problems = [with_curve(base, shape.key, shape.widths, f * shape.start) for f in (1.0, 0.5, 0.2)]
-    heights = [p.log_posterior(p.clip(p.start)) for p in problems]
-    return maximise(problems[int(np.argmax(heights))], rounds=ROUNDS, tolerance=0.3)
+    log_densities = [p.log_posterior(p.clip(p.start)) for p in problems]
+    return maximise(problems[int(np.argmax(log_densities))], rounds=ROUNDS, tolerance=0.3)
 
 
 @dataclass(frozen=True)

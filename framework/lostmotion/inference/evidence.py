@@ -29,8 +29,8 @@ def checked(fit: Fit, rng: np.random.Generator, draws: int = 150) -> SampledEvid
     sd = np.sqrt(np.maximum(np.diag(covariance), 1e-300))
     shape = covariance / np.outer(sd, sd) * WIDER**2 + 1e-10 * np.eye(len(sd))
     raw, told = _drawn(shape, draws, rng)
-    points, heights = theta + raw * sd, told - float(np.sum(np.log(sd)))
-    weights = fit.problem.log_posteriors(points) - heights
+    points, log_densities = theta + raw * sd, told - float(np.sum(np.log(sd)))
+    weights = fit.problem.log_posteriors(points) - log_densities
     if not np.isfinite(weights).any():
         return SampledEvidence(fit.log_evidence, -math.inf, math.inf, 0.0)
     total = float(logsumexp(weights))

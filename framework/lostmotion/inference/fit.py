@@ -259,12 +259,12 @@ def _climbed(problem: Problem, local: Local, damping: float) -> Local | None:
     ends = stencil(problem, trials[0], steps)
     points = around(trials[0], *ends)
     seen = problem.many(np.vstack([points, *(t[None] for t in trials[1:])]))
-    heights = [
+    log_densities = [
         seen[k].log_likelihood + problem.log_prior(t)
         for k, t in zip((0, *range(len(points), len(seen))), trials, strict=True)
     ]
-    best = int(np.argmax(np.where(np.isnan(heights), -np.inf, heights)))
-    if not heights[best] > local.log_posterior:
+    best = int(np.argmax(np.where(np.isnan(log_densities), -np.inf, log_densities)))
+    if not log_densities[best] > local.log_posterior:
         return None
     if best == 0:
         return _local(problem, differenced(trials[0], ends, seen[: len(points)], steps))

@@ -10,7 +10,7 @@ import numpy as np
 from lostmotion.contracts import Array
 from lostmotion.inference.fit import Fit, Sensitivity, maximise, restarted
 from lostmotion.inference.standing import standing
-from lostmotion.likelihood.problem import Free, Problem
+from lostmotion.likelihood.problem import FreeParameter, Problem
 from lostmotion.likelihood.system import ALWAYS, since_of
 from lostmotion.results import Interval
 
@@ -62,11 +62,11 @@ def cut(problem: Problem, joint: Sensitivity, k: int) -> Iterator[tuple[float, A
         yield time, g, h
 
 
-def at_any_time(problem: Problem, key: str, start: float) -> Free:
+def at_any_time(problem: Problem, key: str, start: float) -> FreeParameter:
     """Return the onset of a term as a free parameter, uniform over the recording."""
     observation = problem.observations[0]
     begin = float(observation.time[0])
-    return Free(since_of(key), "s", start, begin, begin + observation.samples * observation.dt)
+    return FreeParameter(since_of(key), "s", start, begin, begin + observation.samples * observation.dt)
 
 
 def refined(fit: Fit, key: str) -> Fit:

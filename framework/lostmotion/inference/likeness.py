@@ -14,7 +14,7 @@ import numpy as np
 from lostmotion.contracts import Array
 from lostmotion.inference.learned import Learned
 from lostmotion.inference.natural import sorted_slots, term_of, tried_of
-from lostmotion.inference.scout import MOST_SAMPLES, Track, shapes_of
+from lostmotion.inference.shape_scan import MOST_SAMPLES, SmoothedMotion, shapes_of
 from lostmotion.likelihood.problem import Problem
 
 MOST_SHAPES = 40
@@ -39,7 +39,7 @@ def likeness(problem: Problem, theta: Array, states: Array, force: Array) -> Lik
     whole = problem.observations[0]
     short = problem.on((whole.part(0, min(whole.samples, MOST_SAMPLES)),))
     moved = np.ascontiguousarray(states[kept, : len(problem.system.model.states)])
-    track, aim = Track(short, theta, moved, np.zeros(0)), force[kept] - np.mean(force[kept])
+    track, aim = SmoothedMotion(short, theta, moved, np.zeros(0)), force[kept] - np.mean(force[kept])
     if not float(aim @ aim) > 0.0:
         return None
     alone = {key: _closest(track, key, aim) for key in _static(short)}
@@ -68,7 +68,7 @@ def _static(problem: Problem) -> list[str]:
     return found
 
 
-def _closest(track: Track, key: str, aim: Array) -> tuple[float, Array]:
+def _closest(track: SmoothedMotion, key: str, aim: Array) -> tuple[float, Array]:
     """Return the largest share of a force that a law has at any shape, and its columns (samples, amplitudes) there."""
     best, columns = 0.0, np.zeros((len(aim), 0))
     problem = track.problem

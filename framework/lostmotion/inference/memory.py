@@ -20,7 +20,7 @@ from lostmotion.inference.selection import Progress, Promise, Selector
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.levels import memory_frees
 from lostmotion.likelihood.problem import Problem
-from lostmotion.likelihood.space import FADE, NOISE, RANDOM, SLOW
+from lostmotion.likelihood.space import AR1_LEVEL, AR1_MEMORY, NOISE, RANDOM
 
 STARTS = (1.5, 5.0)
 NOTICED = 4.0
@@ -40,23 +40,23 @@ def selected(
     if not chosen.problem.active and significant_random_force(chosen) < NOTICED:
         return course
     say("measurement noise with a memory")
-    hung = remembering(chosen)
-    if hung is None or not believed(chosen, hung):
+    coloured = remembering(chosen)
+    if coloured is None or not believed(chosen, coloured):
         return course
-    while (more := remembering(hung)) is not None and believed(hung, more):
-        hung = more
-    bare = hung if chosen is nominal else _alike(nominal, hung)
+    while (more := remembering(coloured)) is not None and believed(coloured, more):
+        coloured = more
+    bare = coloured if chosen is nominal else _alike(nominal, coloured)
     if bare is None or bare.status == "diverged":
         return course
     again = Selector(bare, keys, say, shapes, promise)
-    return again.resumed(hung) if chosen.problem.active else again.run()
+    return again.resumed(coloured) if chosen.problem.active else again.run()
 
 
-def _alike(nominal: Fit, hung: Fit) -> Fit | None:
+def _alike(nominal: Fit, coloured: Fit) -> Fit | None:
     """Return the nominal fit with a memory of the noise of those sensors that have one in another fit."""
     first, found = nominal.problem.observations[0], nominal
     for i in range(len(first.sensors)):
-        if first.level(SLOW, i) in hung.problem.keys and first.level(SLOW, i) not in nominal.problem.keys:
+        if first.level(AR1_LEVEL, i) in coloured.problem.keys and first.level(AR1_LEVEL, i) not in nominal.problem.keys:
             more = remembering(found, (i,))
             if more is None or more.status == "diverged":
                 return None
@@ -72,7 +72,7 @@ def remembering(fit: Fit, sensors: Sequence[int] | None = None) -> Fit | None:
     """
     problem, first = fit.problem, fit.problem.observations[0]
     numbers = range(len(first.sensors)) if sensors is None else sensors
-    white = [i for i in numbers if first.level(SLOW, i) not in problem.keys]
+    white = [i for i in numbers if first.level(AR1_LEVEL, i) not in problem.keys]
     asked = []
     for sensor in white:
         key = first.level(NOISE, sensor)
@@ -85,13 +85,13 @@ def remembering(fit: Fit, sensors: Sequence[int] | None = None) -> Fit | None:
     return together(max(fits, key=lambda f: f.log_evidence), problem.jobs)
 
 
-def believed(plain: Fit, hung: Fit | None) -> bool:
+def believed(plain: Fit, coloured: Fit | None) -> bool:
     """Return whether a memory of the noise is worth its two parameters."""
-    if hung is None or hung.status == "diverged":
+    if coloured is None or coloured.status == "diverged":
         return False
-    limits = hung.problem.settings.select
-    higher = hung.log_likelihood - plain.log_likelihood > limits.noise_memory
-    return higher and hung.log_evidence > plain.log_evidence + limits.decisive + 2.0 * limits.further
+    limits = coloured.problem.settings.select
+    higher = coloured.log_likelihood - plain.log_likelihood > limits.noise_memory
+    return higher and coloured.log_evidence > plain.log_evidence + limits.decisive + 2.0 * limits.further
 
 
 def _start(wider: Problem, fit: Fit, samples: float) -> np.ndarray:
@@ -101,6 +101,6 @@ def _start(wider: Problem, fit: Fit, samples: float) -> np.ndarray:
             theta[i] = min(theta[i], f.mean)
         if f.level == NOISE:
             theta[i] -= 0.35
-        if f.level == FADE and i >= len(fit.theta):
+        if f.level == AR1_MEMORY and i >= len(fit.theta):
             theta[i] = math.log(samples * wider.observations[0].dt)
     return wider.clip(theta)

@@ -30,8 +30,8 @@ def one_hill(a: Fit, b: Fit) -> bool:
         return True
     problem = max(a.problem, b.problem, key=lambda p: p.nsub)
     along = np.linspace(0.0, 1.0, LOOKS)[:, None]
-    heights = problem.log_posteriors(problem.clip(a.theta + along * (b.theta - a.theta)))
-    return bool(np.min(heights[1:-1]) > min(heights[0], heights[-1]) - DIP)
+    log_densities = problem.log_posteriors(problem.clip(a.theta + along * (b.theta - a.theta)))
+    return bool(np.min(log_densities[1:-1]) > min(log_densities[0], log_densities[-1]) - DIP)
 
 
 def _sd(fit: Fit) -> Array:

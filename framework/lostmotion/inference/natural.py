@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from lostmotion.contracts import Param, Term
-from lostmotion.likelihood.problem import Free, Problem, Scales
+from lostmotion.likelihood.problem import FreeParameter, Problem, Scales
 from lostmotion.likelihood.system import Slot
 from lostmotion.quantities import FORCE, LENGTH, SPEED, Dimension, quantity_of
 
@@ -27,20 +27,20 @@ def size_of(param: Param, scales: Scales) -> float:
     return param.typical * param.dimension.scale(scales.force, scales.length, time)
 
 
-def frees_of(slots: list[Slot], scales: Scales, start: Mapping[str, float]) -> tuple[Free, ...]:
+def frees_of(slots: list[Slot], scales: Scales, start: Mapping[str, float]) -> tuple[FreeParameter, ...]:
     """Return the free parameters of a term: amplitudes normal about zero (half-normal if signed), shapes log-normal."""
     open_ = [slot for slot in slots if not slot.param.choices]
     return tuple(_free(slot, size_of(slot.param, scales), start.get(slot.key)) for slot in open_)
 
 
-def _free(slot: Slot, size: float, start: float | None) -> Free:
+def _free(slot: Slot, size: float, start: float | None) -> FreeParameter:
     if slot.param.scale == "log":
         middle = math.log(size)
         low, high = (math.log(end) for end in slot.param.scan or (math.exp(-REACH), math.exp(REACH)))
         begin = middle if start is None else min(max(math.log(start), middle + low), middle + high)
-        return Free(slot.key, slot.unit, begin, middle + low, middle + high, log=True, mean=middle, sd=1.5)
+        return FreeParameter(slot.key, slot.unit, begin, middle + low, middle + high, log=True, mean=middle, sd=1.5)
     low = max(slot.param.low, -30.0 * size)
-    return Free(slot.key, slot.unit, start or 0.0, low, min(slot.param.high, 30.0 * size), mean=0.0, sd=size)
+    return FreeParameter(slot.key, slot.unit, start or 0.0, low, min(slot.param.high, 30.0 * size), mean=0.0, sd=size)
 
 
 def term_of(problem: Problem, key: str) -> tuple[Term, list[Slot]]:

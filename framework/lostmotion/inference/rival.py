@@ -27,7 +27,7 @@ from lostmotion.inference.gauges import Change, Gauge, gauges_of
 from lostmotion.inference.learned import Learned, OverPhase, OverPosition, OverTime, OverVelocity, spread
 from lostmotion.inference.natural import term_of
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.problem import Free, Problem
+from lostmotion.likelihood.problem import FreeParameter, Problem
 from lostmotion.likelihood.system import key_of
 
 SMOOTH = (OverPosition, OverVelocity, OverTime, OverPhase)
@@ -130,7 +130,7 @@ class Expansion:
         h, g, _ = self._about((), worse)
         return evidence_of(h, g, self.widths)
 
-    def told_by_gauges(self) -> Array:
+    def gauge_information(self) -> Array:
         """Return the information (gauges, gauges) on the flaws of channels, own coordinates moving along."""
         first = len(self.widths) - len(self.gauges)
         return np.asarray(self._about((), 1.0)[0][first:, first:])
@@ -219,7 +219,7 @@ def expanded(fit: Fit) -> Expansion:
         size, count = size_of(term, problem), min(term.count, MOST_WAVES)
         options = tuple(s * size * spread(term, length)[:count] for s in SIZES for length in LENGTHS)
         groups.append(CoefficientGroup(key, slice(len(frees), len(frees) + count), options))
-        frees += [Free(f"{key}.v{i}", "", 0.0, -1e3 * size, 1e3 * size, straight=True) for i in range(count)]
+        frees += [FreeParameter(f"{key}.v{i}", "", 0.0, -1e3 * size, 1e3 * size, straight=True) for i in range(count)]
         steps += [NUDGE * size] * count
     errors, variances = _rows(problem.extended(frees, {key for key, _ in curves}), slopes, np.array(steps))
     _centre(replace(fit, problem=problem), dict(curves), groups, (errors, variances))
@@ -320,8 +320,8 @@ def _with_forces(expansion: Expansion, problem: Problem, best: Discrepancy) -> t
             rows[:, : group.columns.stop - group.columns.start] = best.widths[group.columns], best.mean[group.columns]
             trial = with_curve(trial, group.name, rows[0], share * rows[1])
         trials.append(trial)
-    heights = [trial.log_posterior(trial.clip(trial.start)) for trial in trials]
-    best_start = int(np.argmax(np.where(np.isnan(heights), -np.inf, heights)))
+    log_densities = [trial.log_posterior(trial.clip(trial.start)) for trial in trials]
+    best_start = int(np.argmax(np.where(np.isnan(log_densities), -np.inf, log_densities)))
     return maximise(trials[best_start], rounds=SETTLED if chosen else ALONE, tolerance=0.3), PRICE * len(chosen)
 
 
@@ -364,7 +364,7 @@ def righted(expansion: Expansion, before: Righted | None = None) -> Righted | No
     problem = restarted(fit).on(observations)
     begin = problem.clip(expansion.moved_by(sizes - already))
     better = maximise(problem, begin, rounds=RIGHTING, tolerance=0.3)
-    inner = np.eye(count) + expansion.told_by_gauges() * np.outer(widths, widths)
+    inner = np.eye(count) + expansion.gauge_information() * np.outer(widths, widths)
     price = 0.5 * float(np.sum((sizes / widths) ** 2)) + 0.5 * float(np.linalg.slogdet(inner)[1])
     return Righted(better, sizes, wider, price, changes)
 
@@ -379,14 +379,14 @@ def _rows(wider: Problem, slopes: Sensitivity, steps: Array) -> tuple[Array, Arr
     return errors, (seen.variances[above] - seen.variances[0]) / steps[:, None]
 
 
-def _known(problem: Problem) -> list[Free]:
+def _known(problem: Problem) -> list[FreeParameter]:
     """Return the known values of the model that are above zero, free in their logarithm."""
     estimated, found = {f.parameter for f in problem.free}, []
     for param in problem.system.model.params:
         value = float(problem.known[problem.system.index[param.name]])
         if param.name not in estimated and 0.0 < value < math.inf:
             at, sd = math.log(value), problem.settings.rival.known
-            found.append(Free(param.name, "", at, at - 1.0, at + 1.0, log=True, mean=at, sd=sd))
+            found.append(FreeParameter(param.name, "", at, at - 1.0, at + 1.0, log=True, mean=at, sd=sd))
     return found
 
 

@@ -14,13 +14,13 @@ from lostmotion.errors import CaseError, ContractError
 from lostmotion.inference.candidates import CREEP, steps_for_sticking
 from lostmotion.inference.fit import Fit, maximise, restarted, warmed
 from lostmotion.inference.modes import Tried, distinct
-from lostmotion.inference.unseen import settled
+from lostmotion.inference.unseen import with_less_random_force
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.drive import substeps
 from lostmotion.likelihood.levels import LEVELS_TRIED, noise_frees, own_levels, random_level, usual_of
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import Problem, Scales
-from lostmotion.likelihood.space import LEVELS, NOISE, OFFSET, RANDOM, Free, keys_of
+from lostmotion.likelihood.space import LEVELS, NOISE, OFFSET, RANDOM, FreeParameter, keys_of
 from lostmotion.likelihood.system import Slot, System
 from lostmotion.quantities import quantity_of, unit_of
 from lostmotion.recording.checks import filled
@@ -139,31 +139,31 @@ def _motion(observation: Observation, sensor: int) -> tuple[float, float]:
     return rate, amplitude * share
 
 
-def free_of(slot: Slot, prior: Prior) -> Free:
+def free_of(slot: Slot, prior: Prior) -> FreeParameter:
     """Return the free parameter of a case's prior, where all recordings share it."""
     return _free(slot.key, slot.unit, prior, (slot.param.low, slot.param.high))
 
 
-def frees_for(slot: Slot, prior: Prior, recordings: Sequence[str]) -> tuple[Free, ...]:
+def frees_for(slot: Slot, prior: Prior, recordings: Sequence[str]) -> tuple[FreeParameter, ...]:
     """Return the free parameters of a case's prior: one, or with `each` one for each of the named recordings."""
     shared = free_of(slot, prior)
     keys = keys_of(slot.key, recordings) if prior.each else (slot.key,)
     return tuple(replace(shared, key=key) for key in keys)
 
 
-def _free(key: str, unit: str, prior: Prior, bounds: tuple[float, float]) -> Free:
+def _free(key: str, unit: str, prior: Prior, bounds: tuple[float, float]) -> FreeParameter:
     """Return the free parameter with a prior, cut at the bounds (value) and 12 standard deviations from its middle."""
     log = prior.kind in ("log-uniform", "log-normal")
     if prior.bell is None:
         low, high = (math.log(prior.low), math.log(prior.high)) if log else (prior.low, prior.high)
-        return Free(key, unit, 0.5 * (low + high), low, high, log=log)
+        return FreeParameter(key, unit, 0.5 * (low + high), low, high, log=log)
     mean, sd = prior.bell
     ends = [math.log(max(end, 1e-300)) for end in bounds] if log else [*bounds]
     low, high = max(ends[0], mean - 12.0 * sd), min(ends[1], mean + 12.0 * sd)
     if prior.kind == "half-normal":
         low = max(low, 0.0)
     start = math.log(prior.start()) if log else prior.start()
-    return Free(key, unit, min(max(start, low), high), low, high, log=log, mean=mean, sd=sd)
+    return FreeParameter(key, unit, min(max(start, low), high), low, high, log=log, mean=mean, sd=sd)
 
 
 def known_of(system: System, case: CaseFile) -> Array:
@@ -245,7 +245,9 @@ def search(problem: Problem, rng: np.random.Generator, *, points: int = 48, fina
     beginning = beginnings(problem)
     tried = _tried(problem, beginning, rng, points)
     single = replace(beginning, jobs=1)
-    fits = each(lambda i: settled(maximise(single, tried.starts[i])), tried.best(finalists), problem.jobs)
+    fits = each(
+        lambda i: with_less_random_force(maximise(single, tried.starts[i])), tried.best(finalists), problem.jobs
+    )
     ranked = sorted(fits, key=lambda f: -f.local.log_posterior)
     chosen = _distinct(ranked)
     return max((_lengthened(problem, f) for f in chosen), key=lambda f: f.local.log_posterior)
@@ -255,7 +257,7 @@ def _lengthened(problem: Problem, short: Fit, hopeless: float = -math.inf) -> Fi
     """Return the fit of whole recordings that begins at one of their beginnings."""
     begun = zip(problem.observations, short.problem.observations, strict=True)
     whole = stepped(problem.on(tuple(replace(t, begun=b.begun) for t, b in begun)), short.theta)
-    return settled(maximise(whole, warmed(whole, short.theta, 3.0), hopeless=hopeless))
+    return with_less_random_force(maximise(whole, warmed(whole, short.theta, 3.0), hopeless=hopeless))
 
 
 def beginnings(problem: Problem) -> Problem:
@@ -311,7 +313,9 @@ def modes(
     beginning = beginnings(problem)
     tried = _tried(problem, beginning, rng, points)
     single = replace(beginning, jobs=1)
-    peaks = each(lambda i: settled(maximise(single, tried.starts[i])), tried.peaks(finalists), problem.jobs)
+    peaks = each(
+        lambda i: with_less_random_force(maximise(single, tried.starts[i])), tried.peaks(finalists), problem.jobs
+    )
     short = distinct(peaks, SLACK)
     whole: list[Fit] = []
     for fit in short:
@@ -347,7 +351,7 @@ def separated(fit: Fit, sensor: SensorSpec) -> Fit:
     return maximise(apart, apart.start)
 
 
-def _offsets(problem: Problem, prior: Prior | None) -> tuple[Free, ...]:
+def _offsets(problem: Problem, prior: Prior | None) -> tuple[FreeParameter, ...]:
     """Return the zero of each sensor in each recording; none where it is known."""
     if prior is None:
         return ()

@@ -26,7 +26,7 @@ from lostmotion.inference.setup import separated
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import Problem
-from lostmotion.likelihood.space import LEVELS, Free, keys_of
+from lostmotion.likelihood.space import LEVELS, FreeParameter, keys_of
 from lostmotion.results import Interval
 from lostmotion.results.sharing import PowerOfLevel
 from lostmotion.settings import DEFAULT
@@ -122,7 +122,7 @@ class SeparateFit:
 
     key: str
     fit: Fit
-    free: Free
+    free: FreeParameter
     at: Array
     covariance: Array
     given: bool
@@ -364,7 +364,7 @@ def _common(one: SeparateFit) -> Interval:
     return _interval(one.free, float(weights @ one.at) / total, 1.0 / math.sqrt(total))
 
 
-def _interval(free: Free, at: float, sd: float) -> Interval:
+def _interval(free: FreeParameter, at: float, sd: float) -> Interval:
     """Return the interval of a parameter about a coordinate, within its bounds."""
     median, low, high = (free.value(min(max(at + z * sd, free.low), free.high)) for z in (0.0, -1.96, 1.96))
     return Interval(float(median), float(low), float(high), free.unit)

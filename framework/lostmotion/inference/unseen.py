@@ -74,7 +74,7 @@ def blind(problem: Problem) -> bool:
     return not all(placed(observation) for observation in problem.observations)
 
 
-def settled(fit: Fit) -> Fit:
+def with_less_random_force(fit: Fit) -> Fit:
     """Return the fit where no sensor shows the position: begun where the recording says, and with less random force.
 
     Other fits are returned as they are.

@@ -158,29 +158,29 @@ def linearised(functions, space, wires, work, channel, step, inputs, lanes):  # 
 
 
 @jit
-def corrected_slow(work, slow, gauge, many, own, precision, miss, o):  # type: ignore[no-untyped-def]
+def corrected_ar1(work, ar1, gauge, many, own, precision, miss, o):  # type: ignore[no-untyped-def]
     """Correct the slow noise of all sensors by the reading of one; `UP` holds what it has to do with the states."""
     wide = 1 + N + many
     for j in range(many):
         s = 0.0 * gauge
         for a in range(N):
-            s = s + gauge * load(work, H + a, o) * load(slow, j * wide + 1 + a, o)
+            s = s + gauge * load(work, H + a, o) * load(ar1, j * wide + 1 + a, o)
         if own >= 0:
-            s = s + load(slow, j * wide + 1 + N + own, o)
-        store(slow, many * wide + j, o, s)
+            s = s + load(ar1, j * wide + 1 + N + own, o)
+        store(ar1, many * wide + j, o, s)
     for j in range(many):
-        share = load(slow, many * wide + j, o) * precision
-        store(slow, j * wide, o, load(slow, j * wide, o) + share * miss)
+        share = load(ar1, many * wide + j, o) * precision
+        store(ar1, j * wide, o, load(ar1, j * wide, o) + share * miss)
         for a in range(N):
             row = j * wide + 1 + a
-            store(slow, row, o, load(slow, row, o) - share * load(work, UP + a, o))
+            store(ar1, row, o, load(ar1, row, o) - share * load(work, UP + a, o))
         for i in range(many):
             row = j * wide + 1 + N + i
-            store(slow, row, o, load(slow, row, o) - share * load(slow, many * wide + i, o))
+            store(ar1, row, o, load(ar1, row, o) - share * load(ar1, many * wide + i, o))
 
 
 @jit
-def corrected(work, slow, levels, sensor, z, many, own, errors, variances, k, lanes):  # type: ignore[no-untyped-def]
+def corrected(work, ar1, levels, sensor, z, many, own, errors, variances, k, lanes):  # type: ignore[no-untyped-def]
     """Correct the states by one reading of a sensor, of which `EXPECTED` and `H` tell what the model thinks.
 
     `levels` has for each sensor the variances of white and of slow noise, by how much the slow one fades in a sample,
@@ -200,18 +200,18 @@ def corrected(work, slow, levels, sensor, z, many, own, errors, variances, k, la
                 s = s + load(work, P + a * N + b, o) * load(work, H + b, o)
             s = gauge * s
             if own >= 0:
-                s = s + load(slow, own * wide + 1 + a, o)
+                s = s + load(ar1, own * wide + 1 + a, o)
             store(work, UP + a, o, s)
         for a in range(N):
             var = var + gauge * load(work, H + a, o) * load(work, UP + a, o)
         if own >= 0:
-            miss = miss - load(slow, own * wide, o)
-            pulled = load(slow, own * wide + 1 + N + own, o)
+            miss = miss - load(ar1, own * wide, o)
+            pulled = load(ar1, own * wide + 1 + N + own, o)
             for a in range(N):
-                pulled = pulled + gauge * load(work, H + a, o) * load(slow, own * wide + 1 + a, o)
+                pulled = pulled + gauge * load(work, H + a, o) * load(ar1, own * wide + 1 + a, o)
             var = var + pulled
         precision = 1.0 / var
-        corrected_slow(work, slow, gauge, many, own, precision, miss, o)
+        corrected_ar1(work, ar1, gauge, many, own, precision, miss, o)
         for a in range(N):
             store(work, Y + a, o, load(work, Y + a, o) + load(work, UP + a, o) * (precision * miss))
         for a in range(N):
@@ -232,24 +232,24 @@ def corrected(work, slow, levels, sensor, z, many, own, errors, variances, k, la
 
 
 @jit
-def faded(slow, levels, sensor, own, many, lanes):  # type: ignore[no-untyped-def]
+def propagated_ar1(ar1, levels, sensor, own, many, lanes):  # type: ignore[no-untyped-def]
     """Let the slow noise of a sensor fade over one sample, and add what is new of it."""
     wide = 1 + N + many
     for o in range(0, lanes, WIDTH):
-        fade = load(levels, LEVELS * sensor + 2, o)
+        ar1_share = load(levels, LEVELS * sensor + 2, o)
         for j in range(1 + N):
-            store(slow, own * wide + j, o, fade * load(slow, own * wide + j, o))
+            store(ar1, own * wide + j, o, ar1_share * load(ar1, own * wide + j, o))
         for i in range(many):
-            store(slow, own * wide + 1 + N + i, o, fade * load(slow, own * wide + 1 + N + i, o))
+            store(ar1, own * wide + 1 + N + i, o, ar1_share * load(ar1, own * wide + 1 + N + i, o))
         for i in range(many):
-            store(slow, i * wide + 1 + N + own, o, fade * load(slow, i * wide + 1 + N + own, o))
-        fresh = (1.0 - fade * fade) * load(levels, LEVELS * sensor + 1, o)
+            store(ar1, i * wide + 1 + N + own, o, ar1_share * load(ar1, i * wide + 1 + N + own, o))
+        fresh = (1.0 - ar1_share * ar1_share) * load(levels, LEVELS * sensor + 1, o)
         row = own * wide + 1 + N + own
-        store(slow, row, o, load(slow, row, o) + fresh)
+        store(ar1, row, o, load(ar1, row, o) + fresh)
 
 
 @jit
-def begun(work, slow, start, noise, levels, sensors, sources, many, nsub, lanes):  # type: ignore[no-untyped-def]
+def begun(work, ar1, start, noise, levels, sensors, sources, many, nsub, lanes):  # type: ignore[no-untyped-def]
     """Set everything to what it is before the first sample."""
     wide = 1 + N + many
     for o in range(0, lanes, WIDTH):
@@ -258,11 +258,11 @@ def begun(work, slow, start, noise, levels, sensors, sources, many, nsub, lanes)
         for j in range(2 * sources):
             store(work, NOISE + j, o, load(noise, j, o))
         for j in range(many * wide + many):
-            store(slow, j, o, 0.0)
+            store(ar1, j, o, 0.0)
         for s in range(sensors.shape[0]):
             own = sensors[s, 2]
             if own >= 0:
-                store(slow, own * wide + 1 + N + own, o, load(levels, LEVELS * s + 1, o))
+                store(ar1, own * wide + 1 + N + own, o, load(levels, LEVELS * s + 1, o))
         store(work, ALIVE, o, 1.0)
         store(work, WISH, o, float(nsub))
         for a in range(N):
@@ -310,7 +310,7 @@ def filtered(functions, blocks, wiring, inputs, drives, z, sensors, unsure, dt, 
     """
     derive, observe = functions[0], functions[1]
     errors, variances, reached = told
-    space, work, slow, begin = pointer(blocks[0]), pointer(blocks[1]), pointer(blocks[2]), pointer(blocks[3])
+    space, work, ar1, begin = pointer(blocks[0]), pointer(blocks[1]), pointer(blocks[2]), pointer(blocks[3])
     levels, noise, start = pointer(blocks[4]), pointer(blocks[5]), pointer(blocks[6])
     wires, u, which = pointer(wiring), pointer(inputs), pointer(drives)
     samples, keep, failed = z.shape[0], kept[0].shape[0] > 1, 0
@@ -319,7 +319,7 @@ def filtered(functions, blocks, wiring, inputs, drives, z, sensors, unsure, dt, 
     many = 0 * z.shape[0]
     for s in range(z.shape[1]):
         many = max(many, sensors[s, 2] + 1)
-    begun(work, slow, start, noise, levels, sensors, sources, many, nsub, lanes)
+    begun(work, ar1, start, noise, levels, sensors, sources, many, nsub, lanes)
     for k in range(samples):
         redrawn(work, noise, sources, drawn, lanes)
         if keep:
@@ -344,7 +344,7 @@ def filtered(functions, blocks, wiring, inputs, drives, z, sensors, unsure, dt, 
                 driven(space, wires, u, which, begin, k, 0.0, dt, lanes)
                 given = (u, which, begin, k, levels, LEVELS * s + 5, dt, lagging)
                 failed |= linearised((derive, observe), space, wires, work, sensors[s, 0], dt / nsub, given, lanes)
-            corrected(work, slow, levels, s, z[k, s], many, sensors[s, 2], errors, variances, k, lanes)
+            corrected(work, ar1, levels, s, z[k, s], many, sensors[s, 2], errors, variances, k, lanes)
         living = False
         for lane in range(lanes):
             if value(work, ALIVE, lane) > 0.5:
@@ -361,11 +361,11 @@ def filtered(functions, blocks, wiring, inputs, drives, z, sensors, unsure, dt, 
         if k == samples - 1:
             break
         loosened(work, noise, sources, drawn, unsure[k], lanes)
-        failed |= crossed(derive, space, wires, work, slow, u, which, begin, k, nsub, dt, sources, many, keep, lanes)
+        failed |= crossed(derive, space, wires, work, ar1, u, which, begin, k, nsub, dt, sources, many, keep, lanes)
         for s in range(z.shape[1]):
             own = sensors[s, 2]
             if own >= 0:
-                faded(slow, levels, s, own, many, lanes)
+                propagated_ar1(ar1, levels, s, own, many, lanes)
         if keep:
             for a in range(N):
                 for b in range(N):

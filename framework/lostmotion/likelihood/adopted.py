@@ -44,10 +44,10 @@ def _names(code: CodeType) -> Iterator[str]:
 
 def fingerprint(function: Code) -> str:
     """Return a text that changes with whatever a function does: its code, its constants, and what it calls."""
-    return "".join(_told(function, set()))
+    return "".join(_sources(function, set()))
 
 
-def _told(function: Any, known: set[int]) -> Iterator[str]:
+def _sources(function: Any, known: set[int]) -> Iterator[str]:
     inner = _plain(function)
     if id(inner) in known:
         return
@@ -57,7 +57,7 @@ def _told(function: Any, known: set[int]) -> Iterator[str]:
     cells = [cell.cell_contents for cell in inner.__closure__ or ()]
     for value in [*(inner.__globals__.get(name) for name in _names(code)), *cells]:
         if isinstance(_plain(value), FunctionType):
-            yield from _told(value, known)
+            yield from _sources(value, known)
         elif isinstance(value, int | float | str | tuple | np.ndarray):
             yield repr(value)
 
@@ -134,7 +134,7 @@ def defined(text: str, path: str, given: Mapping[str, Any]) -> dict[str, Any]:
     return module.__dict__
 
 
-def told(function: Code) -> Code:
+def with_clear_errors(function: Code) -> Code:
     """Return the function with an error of the compiler, which works at the first call, told in one sentence."""
 
     def call(*args: Any) -> Any:

@@ -18,7 +18,7 @@ from numba import types
 
 from lostmotion.kernels import plain, vector, windows
 from lostmotion.kernels.vector import BARE
-from lostmotion.likelihood.adopted import adopted, defined, fingerprint, kept_as, told
+from lostmotion.likelihood.adopted import adopted, defined, fingerprint, kept_as, with_clear_errors
 from lostmotion.likelihood.plan import Blueprint, Law
 
 FIRST = 11
@@ -94,7 +94,7 @@ def _latent_lines(index: int, plan: Blueprint) -> list[str]:
     ]
 
 
-def _told(plan: Blueprint, dydt: str) -> str:
+def _model_arguments(plan: Blueprint, dydt: str) -> str:
     """Return what the functions of a model are told, with `dydt` behind the states."""
     rows = plan.rows
     return (
@@ -109,7 +109,7 @@ def _observe_lines(plan: Blueprint) -> list[str]:
     return [
         "    for l in range(lanes):",
         f"        seen = column(block, {plan.rows.channels}, l, {plan.channels})",
-        f"        model_observe({_told(plan, slopes + ', ')}, seen)",
+        f"        model_observe({_model_arguments(plan, slopes + ', ')}, seen)",
     ]
 
 
@@ -141,7 +141,7 @@ def model_text(plan: Blueprint) -> str:
         "def derive(block, wires, lanes):",
         "    failed = 0",
         "    for l in range(lanes):",
-        f"        model_rhs({_told(plan, '')}, {slopes})",
+        f"        model_rhs({_model_arguments(plan, '')}, {slopes})",
         "    for o in range(0, lanes, WIDTH):",
         f"        store(block, {rows.desk}, o, load(block, 0, o))",
         f"    for i in range(wires[{FIRST}]):",
@@ -206,7 +206,7 @@ def _compiled(text: str, parts: Mapping[str, Any], numbers: Mapping[str, Any], s
     offered |= {"column": windows.column, "shifted": windows.shifted, "invoked": windows.invoked}
     kernel = numba.njit(signature, **BARE, cache=True)
     part = numba.njit(**BARE)
-    space = told(defined)(text, str(path), {**given, **numbers, **offered, "kernel": kernel, "part": part})
+    space = with_clear_errors(defined)(text, str(path), {**given, **numbers, **offered, "kernel": kernel, "part": part})
     kernels = {name: getattr(made, "overloads", {}) for name, made in space.items()}
     return {name: made[signature.args] for name, made in kernels.items() if signature.args in made}
 
@@ -226,7 +226,7 @@ def law_kernel(law: Law, inputs: int) -> tuple[int, Any]:
 def _plain_law(law: Law, inputs: int) -> Callable[..., Any]:
     """Return a law as plain Python."""
     space = {**_parts(law), "fields": law.fields, **plain.SPACE, "kernel": plain.jit}
-    return told(defined(law_text(law, inputs), "<slow twin of a law>", space)["law"])
+    return with_clear_errors(defined(law_text(law, inputs), "<slow twin of a law>", space)["law"])
 
 
 @lru_cache(maxsize=64)
@@ -247,4 +247,4 @@ def plain_functions(plan: Blueprint) -> Functions:
 
     given = {**_model_parts(plan), **plain.SPACE, "invoked": invoked, "kernel": plain.jit, "part": plain.jit}
     space = defined(model_text(plan), "<slow twin>", given)
-    return Functions(told(space["derive"]), told(space["observe"]))
+    return Functions(with_clear_errors(space["derive"]), with_clear_errors(space["observe"]))

@@ -18,14 +18,14 @@ _CUBIC = np.linalg.inv(_THIRDS[:, None] ** np.arange(4))
 _LINE = np.linalg.pinv(QUARTERS[:, None] ** np.arange(2))
 
 
-class Tone(NamedTuple):
+class DriveHarmonic(NamedTuple):
     """What the drive of a recording is: angular frequency (rad/s; 0 where it has none) and amplitude."""
 
     omega: float = 0.0
     amplitude: float = 0.0
 
 
-SILENT = Tone()
+SILENT = DriveHarmonic()
 
 
 @dataclass(frozen=True)
@@ -39,7 +39,7 @@ class Drive:
     cubics: Array
     dt: float
     begin: float = 0.0
-    tone: Tone = SILENT
+    harmonic: DriveHarmonic = SILENT
 
     @property
     def samples(self) -> int:

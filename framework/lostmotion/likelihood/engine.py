@@ -62,8 +62,8 @@ class Points:
     process: Array
     pace: Array
     white: Array
-    slow: Array
-    fade: Array
+    ar1: Array
+    ar1_share: Array
     gain: Array
     offset: Array
     lag: Array

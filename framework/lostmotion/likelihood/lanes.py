@@ -69,7 +69,7 @@ class Lanes(Engine):
         for number, drive in enumerate(points.drives):
             rows = np.flatnonzero(points.which == number)
             if len(rows):
-                packed = dynamics.system.pack(points.params[rows], drive.dt / dynamics.nsub, drive.tone)
+                packed = dynamics.system.pack(points.params[rows], drive.dt / dynamics.nsub, drive.harmonic)
                 found = run(
                     dynamics.system, dynamics.active, packed, start[rows], drive, dynamics.nsub, points.first[rows],
                     steps, kicks=None if kicks is None else kicks[rows], compiled=self.compiled,
@@ -88,10 +88,10 @@ class Lanes(Engine):
         """Run the filter at up to `STRIDE` points, into the given arrays."""
         system, n = dynamics.system, dynamics.states + dynamics.forces
         drives = [drive.widened(len(system.model.inputs)) for drive in points.drives]
-        tone, dt, nsub = drives[0].tone, observation.dt, fine_steps(dynamics.nsub)
+        harmonic, dt, nsub = drives[0].harmonic, observation.dt, fine_steps(dynamics.nsub)
         numbers = _numbers_of(observation, dynamics, points)
         forces = tuple(dynamics.states + i for i in range(dynamics.forces))
-        packed = system.pack(points.params, dt / nsub, tone)
+        packed = system.pack(points.params, dt / nsub, harmonic)
         packed[:, system.blueprint.rows.pace - system.blueprint.rows.params] = points.pace
         wires = model_wires(system, dynamics.active, forces, compiled=self.compiled)
         noise, wires[SOURCES], wires[DRAWN] = _noise_of(dynamics, points, dt)
@@ -100,7 +100,7 @@ class Lanes(Engine):
         wires[DRIVES] = len(used)
         each = np.searchsorted(used, points.which) * observation.samples
         which = each[np.minimum(np.arange(STRIDE), len(points) - 1)].astype(np.int64)
-        levels = np.stack([points.white, points.slow, points.fade, points.gain, points.offset, points.lag], axis=2)
+        levels = np.stack([points.white, points.ar1, points.ar1_share, points.gain, points.offset, points.lag], axis=2)
         mean, covariance = _begun(dynamics, points)
         kernels = filter_kernels(n, self.compiled)
         many = int(numbers[:, 2].max()) + 1
@@ -160,11 +160,11 @@ def _numbers_of(observation: Observation, dynamics: Dynamics, points: Points) ->
 
     The shape is (sensors, 4).
     """
-    slow = -1
+    ar1 = -1
     rows = []
     for number, sensor in enumerate(observation.sensors):
-        slow += sensor.noise.kind == "ar1"
-        own, late = slow if sensor.noise.kind == "ar1" else -1, bool(points.lag[0, number])
+        ar1 += sensor.noise.kind == "ar1"
+        own, late = ar1 if sensor.noise.kind == "ar1" else -1, bool(points.lag[0, number])
         rows.append((*dynamics.system.shown(sensor, dynamics.active), own, late))
     return np.array(rows, dtype=np.int64)
 

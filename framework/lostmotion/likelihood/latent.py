@@ -9,7 +9,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from lostmotion.contracts import Array
-from lostmotion.likelihood.problem import PACE, RANDOM, Free, Problem
+from lostmotion.likelihood.problem import PACE, RANDOM, FreeParameter, Problem
 
 SHARES = (1e-3, 3e-3, 1e-2, 3e-2, 1e-1, 3e-1)
 PACES = (4.0, 12.0, 40.0)
@@ -98,6 +98,6 @@ def _with_force(problem: Problem, theta: Array, grid: list[tuple[float, float]])
     return replace(problem, free=frees), np.array(rows)
 
 
-def fixed(key: str) -> Free:
+def fixed(key: str) -> FreeParameter:
     """Return a level without bounds, for a point that is given and not estimated."""
-    return Free(key, "1", 0.0, -math.inf, math.inf)
+    return FreeParameter(key, "1", 0.0, -math.inf, math.inf)

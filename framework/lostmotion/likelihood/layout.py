@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from lostmotion.contracts import Array, DriveTerm, Interface, Model, Param, SensorTerm, Term, place_of
 from lostmotion.errors import ContractError, nearest
-from lostmotion.likelihood.drive import SILENT, Tone
+from lostmotion.likelihood.drive import SILENT, DriveHarmonic
 from lostmotion.quantities import TIME
 
 ALWAYS = -1e9
@@ -74,7 +74,7 @@ class Layout:
 
         They stand behind all parameters in the full vector. What a sensor shows has no onset.
         """
-        keys = [key for key, _ in self.forces] + [k for k, t in self.beside.items() if t.acts == "drive"]
+        keys = [key for key, _ in self.forces] + [k for k, t in self.channel_terms.items() if t.acts == "drive"]
         return tuple(Slot(since_of(key), ONSET, "s", self.keys.index(key)) for key in keys)
 
     @cached_property
@@ -122,7 +122,7 @@ class Layout:
         return tuple(sorted(own, key=lambda pair: (pair[1].acts == "sensor", "acceleration" in pair[1].needs)))
 
     @cached_property
-    def beside(self) -> Mapping[str, DriveTerm | SensorTerm]:
+    def channel_terms(self) -> Mapping[str, DriveTerm | SensorTerm]:
         """The terms of drive and sensor, by key."""
         pairs = zip(self.keys, self.terms, strict=True)
         return {key: term for key, term in pairs if isinstance(term, DriveTerm | SensorTerm)}
@@ -162,7 +162,7 @@ class Layout:
             start += len(term.states) if on[i] else 0
         return on, at
 
-    def pack(self, fulls: Array, step: float, tone: Tone = SILENT, *, line: int = 1) -> Array:
+    def pack(self, fulls: Array, step: float, harmonic: DriveHarmonic = SILENT, *, line: int = 1) -> Array:
         """Return what a model and its forces are handed, (points, params): each force has what it needs behind its own.
 
         `fulls` is (points, parameters); `step` is that of the integration (s), of which a law that jumps at rest takes
@@ -171,7 +171,7 @@ class Layout:
         """
         base = fulls[:, : len(self.model.params)]
         onsets = fulls[:, len(self.slots) : len(self.slots) + len(self.forces)]
-        more = {"step": step, "finest": step, "omega": tone.omega, "amplitude": tone.amplitude}
+        more = {"step": step, "finest": step, "omega": harmonic.omega, "amplitude": harmonic.amplitude}
         columns = []
         for key, term in self.forces:
             own = np.empty((len(fulls), len(self._sources[key])))
@@ -189,9 +189,9 @@ class Layout:
         silent, steps = np.zeros(len(fulls)), np.full(len(fulls), step)
         return np.column_stack([base, silent, steps, *inverse, *columns, onsets])
 
-    def values(self, full: Array, key: str, tone: Tone) -> tuple[float, ...]:
+    def values(self, full: Array, key: str, harmonic: DriveHarmonic) -> tuple[float, ...]:
         """Return `p` of a term beside the machine: its own parameters, and behind them what it needs of the drive."""
-        known = {"omega": tone.omega, "amplitude": tone.amplitude}
+        known = {"omega": harmonic.omega, "amplitude": harmonic.amplitude}
         return tuple(float(full[i] if kind == "own" else known.get(kind, 0.0)) for kind, i in self._sources[key])
 
     @cached_property

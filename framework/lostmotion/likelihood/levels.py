@@ -9,7 +9,7 @@ import numpy as np
 
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import USUAL, Problem, Scales
-from lostmotion.likelihood.space import FADE, NOISE, RANDOM, SLOW, Free, keys_of
+from lostmotion.likelihood.space import AR1_LEVEL, AR1_MEMORY, NOISE, RANDOM, FreeParameter, keys_of
 
 SHORTEST, LONGEST = 0.7, 0.5
 """A memory of noise lasts at least so many samples, and at most this share of the natural time of the motion: what is
@@ -63,7 +63,7 @@ def random_level(observations: Sequence[Observation], scales: Scales, share: flo
     return math.log((share * scales.force) ** 2 * observations[0].dt)
 
 
-def noise_frees(observations: Sequence[Observation], scales: Scales) -> tuple[Free, ...]:
+def noise_frees(observations: Sequence[Observation], scales: Scales) -> tuple[FreeParameter, ...]:
     """Return the noise levels: the intensity of a random force, and the noise of each sensor, as logarithms.
 
     The random force has a broad normal prior about the usual noise of a measured excitation. A sensor that is said to
@@ -71,7 +71,7 @@ def noise_frees(observations: Sequence[Observation], scales: Scales) -> tuple[Fr
     """
     usual = scales.usual
     start = max(random_level(observations, scales, LEVELS_TRIED[0]), usual + 2.0)
-    random = Free(RANDOM, "1", start, usual + LEAST, start + 6.0, mean=usual, sd=4.0)
+    random = FreeParameter(RANDOM, "1", start, usual + LEAST, start + 6.0, mean=usual, sd=4.0)
     first, frees = observations[0], [random]
     for i, sensor in enumerate(first.sensors):
         size = float(np.median([t.noises[i] for t in observations]))
@@ -81,18 +81,20 @@ def noise_frees(observations: Sequence[Observation], scales: Scales) -> tuple[Fr
     return tuple(frees)
 
 
-def memory_frees(observation: Observation, sensor: int, noise: float, scales: Scales) -> tuple[Free, Free]:
+def memory_frees(
+    observation: Observation, sensor: int, noise: float, scales: Scales
+) -> tuple[FreeParameter, FreeParameter]:
     """Return log size and log length (s) of noise with a memory of a sensor; `noise` is log size of the white one."""
     dt = observation.dt
     low, high = math.log(SHORTEST * dt), math.log(max(LONGEST * scales.time, LASTING * dt))
     middle = min(math.log(3.0 * dt), high)
     return (
-        Free(observation.level(SLOW, sensor), "1", noise - 0.5, noise - 5.0, noise + 3.0),
-        Free(observation.level(FADE, sensor), "1", middle, low, high, mean=middle, sd=1.0),
+        FreeParameter(observation.level(AR1_LEVEL, sensor), "1", noise - 0.5, noise - 5.0, noise + 3.0),
+        FreeParameter(observation.level(AR1_MEMORY, sensor), "1", middle, low, high, mean=middle, sd=1.0),
     )
 
 
-def own_levels(problem: Problem, random: float) -> tuple[Free, ...]:
+def own_levels(problem: Problem, random: float) -> tuple[FreeParameter, ...]:
     """Return random force and measurement noise of each recording, where a fit found one `random` for all.
 
     The noise of a measured excitation is in proportion to its amplitude, so that what is usual, where to start and
@@ -101,16 +103,16 @@ def own_levels(problem: Problem, random: float) -> tuple[Free, ...]:
     observations, scales = problem.observations, problem.scales
     names = [observation.name for observation in observations]
     most = max(random_level(observations, scales, LEVELS_TRIED[0]), scales.usual + 2.0) + 6.0
-    frees: list[Free] = []
+    frees: list[FreeParameter] = []
     for i, forced in enumerate(keys_of(RANDOM, names)):
         more = own_drive(problem, i)
         usual, high = scales.usual + more, most + more
         start = min(max(random + more, usual + LEAST), high)
-        frees.append(Free(forced, "1", start, usual + LEAST, high, mean=usual, sd=4.0))
+        frees.append(FreeParameter(forced, "1", start, usual + LEAST, high, mean=usual, sd=4.0))
         for sensor, size in enumerate(observations[i].noises):
             frees.append(_noise(keys_of(observations[i].level(NOISE, sensor), names)[i], size))
     return tuple(frees)
 
 
-def _noise(key: str, size: float) -> Free:
-    return Free(key, "1", math.log(size), math.log(size) - 7.0, math.log(size) + 3.0)
+def _noise(key: str, size: float) -> FreeParameter:
+    return FreeParameter(key, "1", math.log(size), math.log(size) - 7.0, math.log(size) + 3.0)

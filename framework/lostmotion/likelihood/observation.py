@@ -15,7 +15,7 @@ from scipy.optimize import brentq, minimize_scalar
 
 from lostmotion.contracts import Array, Interface, Model
 from lostmotion.errors import CaseError, nearest
-from lostmotion.likelihood.drive import SILENT, Drive, Tone
+from lostmotion.likelihood.drive import SILENT, Drive, DriveHarmonic
 from lostmotion.likelihood.sensors import NOISES, Sensor
 from lostmotion.likelihood.space import level_of
 from lostmotion.likelihood.splines import smoothing_spline
@@ -58,7 +58,7 @@ class Observation:
     sensors: tuple[Sensor, ...]
     held: bool = False
     begin: int = 0
-    tone: Tone = SILENT
+    harmonic: DriveHarmonic = SILENT
     driven: tuple[str, ...] | None = None
     lead: int = 0
     slope: int | None = None
@@ -120,7 +120,7 @@ class Observation:
             cubics[:-1] = self._spline.c[::-1].transpose(1, 0, 2) * powers[None, :, None]
             cubics[-1, 0] = self.inputs[-1]
             drive = Drive(cubics, self.dt)
-        return replace(drive, begin=self.begin * self.dt, tone=self.tone)
+        return replace(drive, begin=self.begin * self.dt, harmonic=self.harmonic)
 
     @cached_property
     def _spline(self) -> CubicSpline:
@@ -306,7 +306,7 @@ def observation_of(recording: Recording, model: Model, *, held: bool = False) ->
     sensors = tuple(_sensor(array, model, recording.name) for array in recording.sensors)
     lead = model.inputs.index(driven[0]) if driven else 0
     bare = Observation(recording.name, readings, inputs, recording.dt, sensors, held=held, driven=driven, lead=lead)
-    return replace(bare, slope=slope_of(model.inputs, lead), tone=tone_of(bare))
+    return replace(bare, slope=slope_of(model.inputs, lead), harmonic=harmonic_of(bare))
 
 
 def slope_of(inputs: Sequence[str], lead: int) -> int | None:
@@ -360,9 +360,9 @@ def rounded(values: Array) -> Array:
     return np.asarray(np.round(values / grain) * grain, dtype=float)
 
 
-def tone_of(observation: Observation) -> Tone:
+def harmonic_of(observation: Observation) -> DriveHarmonic:
     """Return the frequency (rad/s, 0 where there is none) and the amplitude of what drives a recording."""
-    return Tone(
+    return DriveHarmonic(
         2.0 * math.pi / (observation.period * observation.dt) if observation.period else 0.0, observation.travel
     )
 

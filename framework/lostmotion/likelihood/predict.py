@@ -137,7 +137,7 @@ def observed(problem: Problem, theta: Array, states: Array, where: tuple[int, in
         shown = states[:, direct]
     else:
         drive = problem.drive(index, theta)
-        packed = system.pack(problem.full(theta, index)[None], drive.dt / problem.nsub, drive.tone)
+        packed = system.pack(problem.full(theta, index)[None], drive.dt / problem.nsub, drive.harmonic)
         times = drive.begin + (start + np.arange(len(states))) * drive.dt
         inputs = drive.inputs[start : start + len(states)]
         shown = derivatives(system, problem.active, packed, states, inputs, times)[1][:, channel]

@@ -23,23 +23,23 @@ from lostmotion.likelihood.motion import lanes_for
 from lostmotion.likelihood.observation import Observation, shifted
 from lostmotion.likelihood.sensors import AR1
 from lostmotion.likelihood.space import (
-    FADE,
+    AR1_LEVEL,
+    AR1_MEMORY,
     LEVELS,
     NOISE,
     OFFSET,
     PACE,
     RANDOM,
-    SLOW,
-    Free,
+    FreeParameter,
     ParameterSpace,
-    Route,
+    RecordingCoordinates,
     Scales,
 )  # fmt: skip
 from lostmotion.likelihood.system import System
 from lostmotion.settings import DEFAULT, Settings
 
 __all__ = [
-    "LEVELS", "NOISE", "OFFSET", "PACE", "RANDOM", "USUAL", "Free", "Innovations", "Problem", "Scales",
+    "LEVELS", "NOISE", "OFFSET", "PACE", "RANDOM", "USUAL", "FreeParameter", "Innovations", "Problem", "Scales",
 ]  # fmt: skip
 
 USUAL = 1e-3
@@ -64,7 +64,7 @@ class Problem:
     observations: tuple[Observation, ...]
     scales: Scales
     known: Array
-    free: tuple[Free, ...]
+    free: tuple[FreeParameter, ...]
     active: frozenset[str] = frozenset()
     nsub: int = 3
     jobs: int = 2
@@ -105,9 +105,9 @@ class Problem:
         return any(f.parameter == PACE for f in self.free)
 
     @cached_property
-    def routes(self) -> tuple[Route, ...]:
+    def routes(self) -> tuple[RecordingCoordinates, ...]:
         """Which coordinate stands for what in each recording."""
-        return tuple(Route.of(self.keys, observation.name) for observation in self.observations)
+        return tuple(RecordingCoordinates.of(self.keys, observation.name) for observation in self.observations)
 
     def _seen(self, index: int, late: tuple[int, ...] = ()) -> Observation:
         """Return a recording as an engine sees it: with the noise that its sensors have, moved by whole samples.
@@ -118,7 +118,7 @@ class Problem:
         if (index, late) not in self._views:
             observation, columns = self.observations[index], self.routes[index].columns
             sensors = tuple(
-                replace(s, noise=AR1()) if observation.level(SLOW, i) in columns else s
+                replace(s, noise=AR1()) if observation.level(AR1_LEVEL, i) in columns else s
                 for i, s in enumerate(observation.sensors)
             )
             view, most = replace(observation, sensors=sensors), self._latest(index)
@@ -148,7 +148,7 @@ class Problem:
         return Dynamics(self.system, self.active, self.nsub, random)
 
     @cached_property
-    def _slots(self) -> tuple[tuple[int, Free], ...]:
+    def _slots(self) -> tuple[tuple[int, FreeParameter], ...]:
         """Where each free parameter of the system stands in the full vector."""
         frees = {f.parameter: f for f in self.free}
         return tuple((self.system.index[name], f) for name, f in frees.items() if f.level not in LEVELS)
@@ -276,7 +276,7 @@ class Problem:
         route, shape = self.routes[index], (len(thetas), len(observation.sensors))
         pace = np.exp(route.at(thetas, PACE)) if self.coloured else np.zeros(len(thetas))
         columns = [self._sensor(thetas, index, s) for s in range(shape[1])]
-        white, slow, fade, offset = (
+        white, ar1, ar1_share, offset = (
             np.stack([np.broadcast_to(c[k], len(thetas)) for c in columns], axis=1) for k in range(4)
         )
         gain, more, lag = self._gauged(fulls, index)
@@ -286,7 +286,20 @@ class Problem:
         process = np.exp(route.at(thetas, RANDOM))
         first = np.zeros(len(thetas), dtype=np.int64)
         return Points(
-            fulls, process, pace, white, slow, fade, gain, offset + more, lag, mean, covariance, drives, which, first
+            fulls,
+            process,
+            pace,
+            white,
+            ar1,
+            ar1_share,
+            gain,
+            offset + more,
+            lag,
+            mean,
+            covariance,
+            drives,
+            which,
+            first,
         )
 
     def _sensor(self, thetas: Array, index: int, sensor: int) -> tuple[Any, Any, Any, Any]:
@@ -297,11 +310,11 @@ class Problem:
             key = observation.level(name, sensor)
             return route.at(thetas, key) if key in route.columns else None
 
-        noise, slow, fade, offset = (level(name) for name in (NOISE, SLOW, FADE, OFFSET))
-        if slow is None:
+        noise, ar1, ar1_share, offset = (level(name) for name in (NOISE, AR1_LEVEL, AR1_MEMORY, OFFSET))
+        if ar1 is None:
             return np.exp(2.0 * noise), 0.0, 0.0, 0.0 if offset is None else offset
-        left = np.exp(-observation.dt / np.exp(fade))
-        return np.exp(2.0 * noise), np.exp(2.0 * slow), left, 0.0 if offset is None else offset
+        left = np.exp(-observation.dt / np.exp(ar1_share))
+        return np.exp(2.0 * noise), np.exp(2.0 * ar1), left, 0.0 if offset is None else offset
 
     def _gauged(self, fulls: Array, index: int) -> tuple[Array, Array, Array]:
         """Return what each sensor shows of one unit, and of nothing, and how late (s) it is, (points, sensors) each.
@@ -332,11 +345,13 @@ class Problem:
         for full in fulls:
             acts = [key for key in keys if not self.system.idle(full, key)]
             values = tuple(
-                (key, self.system.onset(full, key), self.system.values(full, key, observation.tone)) for key in acts
+                (key, self.system.onset(full, key), self.system.values(full, key, observation.harmonic)) for key in acts
             )
             if values not in numbers:
                 numbers[values] = len(drives)
-                columns = self.system.acting(observation.columns, full, acts, observation.tone, lead=observation.lead)
+                columns = self.system.acting(
+                    observation.columns, full, acts, observation.harmonic, lead=observation.lead
+                )
                 drives.append(Drive.acting(columns, observation.drive, observation.held) if acts else observation.drive)
             which.append(numbers[values])
         return tuple(drives), np.array(which, dtype=np.int64)
@@ -349,14 +364,14 @@ class Problem:
         """Return the intensity of the random force (N^2 s) and the variance of the white noise of a sensor."""
         return math.exp(self.routes[index].at(theta, RANDOM)), float(self._sensor(theta, index, sensor)[0])
 
-    def slow(self, theta: Array, index: int = 0, sensor: int = 0) -> tuple[float, float]:
+    def ar1(self, theta: Array, index: int = 0, sensor: int = 0) -> tuple[float, float]:
         """Return the variance of noise with a memory of a sensor, and the share that is left after a sample."""
         _, variance, left, _ = self._sensor(theta, index, sensor)
         return float(variance), float(left)
 
     def measurement(self, theta: Array, index: int = 0, sensor: int = 0) -> float:
         """Return the variance of all noise of a sensor, the white and the slow."""
-        return self.noise(theta, index, sensor)[1] + self.slow(theta, index, sensor)[0]
+        return self.noise(theta, index, sensor)[1] + self.ar1(theta, index, sensor)[0]
 
     def gauge(self, theta: Array, index: int = 0, sensor: int = 0) -> tuple[float, float, float]:
         """Return what a sensor shows of one unit, what at zero (unit of the channel), and how late it is (s)."""
@@ -375,7 +390,7 @@ class Problem:
         seen, _ = unbent(self._seen(index, self.late(theta[None], index)[0]), self._bends(theta, index))
         return self.engine.smooth(self.dynamics, seen, self.points(theta[None], index))
 
-    def extended(self, more: Iterable[Free], active: Iterable[str]) -> Problem:
+    def extended(self, more: Iterable[FreeParameter], active: Iterable[str]) -> Problem:
         """Return the problem with further free parameters and terms."""
         return replace(self, free=(*self.free, *more), active=self.active | frozenset(active))
 

@@ -86,7 +86,7 @@ class _Machine:
     def of(cls, dynamics: Dynamics, points: Points, nsub: int) -> _Machine:
         """Return the machine of a single point, with what its laws need of steps so fine."""
         drive = points.drives[points.which[0]].widened(len(dynamics.system.model.inputs))
-        packed = dynamics.system.pack(points.params, drive.dt / nsub, drive.tone)[0]
+        packed = dynamics.system.pack(points.params, drive.dt / nsub, drive.harmonic)[0]
         return cls(dynamics.system, dynamics, packed, drive, float(points.pace[0]))
 
     def input(self, k: int, share: float) -> Array:
@@ -184,7 +184,7 @@ class _Run:
     nsub: int
     y: Array
     cov: Array
-    slow: Array
+    ar1: Array
     shared: Array
     errors: Array
     variances: Array
@@ -205,7 +205,7 @@ class _Run:
         if dynamics.random == "latent":
             cov[n, n] = 0.5 * points.process[0] * points.pace[0]
         shared = np.zeros((m, total + m))
-        shared[:, total:] = np.diag(points.slow[0])
+        shared[:, total:] = np.diag(points.ar1[0])
         shape = (observation.samples, m)
         errors, variances = np.zeros(shape), np.full(shape, SILENT)
         return cls(machine, observation, points, nsub, y, cov, np.zeros(m), shared, errors, variances, nsub)
@@ -267,18 +267,18 @@ class _Run:
     def _corrected(self, k: int, sensor: int) -> None:
         """Correct all that is not known by one reading, in which it shows as `look` says."""
         p, n = self.points, len(self.y)
-        slow = self.observation.sensors[sensor].noise.kind == "ar1"
+        ar1 = self.observation.sensors[sensor].noise.kind == "ar1"
         expected, slopes, loose = self._expected(k, sensor)
-        look = np.concatenate([p.gain[0, sensor] * slopes, np.zeros(len(self.slow))])
-        look[n + sensor] = 1.0 if slow else 0.0
+        look = np.concatenate([p.gain[0, sensor] * slopes, np.zeros(len(self.ar1))])
+        look[n + sensor] = 1.0 if ar1 else 0.0
         whole = np.block([[self.cov, self.shared[:, :n].T], [self.shared]])
         gain = whole @ look
         variance = float(look @ gain) + p.white[0, sensor] + p.gain[0, sensor] ** 2 * loose
-        shown = p.gain[0, sensor] * expected + p.offset[0, sensor] + (self.slow[sensor] if slow else 0.0)
+        shown = p.gain[0, sensor] * expected + p.offset[0, sensor] + (self.ar1[sensor] if ar1 else 0.0)
         error = float(self.observation.readings[k, sensor]) - shown
         whole -= np.outer(gain, gain) / variance
         self.y = self.y + gain[:n] / variance * error
-        self.slow = self.slow + gain[n:] / variance * error
+        self.ar1 = self.ar1 + gain[n:] / variance * error
         self.cov, self.shared = whole[:n, :n], whole[n:]
         self.cov[np.diag_indices(n)] = np.maximum(np.diag(self.cov), 0.0)
         self.errors[k, sensor], self.variances[k, sensor] = error, variance
@@ -298,11 +298,11 @@ class _Run:
         if self.machine.dynamics.random == "held":
             across[self.machine.dynamics.states :] = 0.0
         self.steps.append(across)
-        fade = self.points.fade[0]
-        self.slow = self.slow * fade
-        self.shared[:, : len(self.y)] *= fade[:, None]
-        self.shared[:, len(self.y) :] *= np.outer(fade, fade)
-        self.shared[:, len(self.y) :] += np.diag((1.0 - fade**2) * self.points.slow[0])
+        ar1_share = self.points.ar1_share[0]
+        self.ar1 = self.ar1 * ar1_share
+        self.shared[:, : len(self.y)] *= ar1_share[:, None]
+        self.shared[:, len(self.y) :] *= np.outer(ar1_share, ar1_share)
+        self.shared[:, len(self.y) :] += np.diag((1.0 - ar1_share**2) * self.points.ar1[0])
 
     @property
     def _fine(self) -> float:

@@ -18,9 +18,9 @@ RANDOM = "log_random_force"
 NOISE = "log_noise"
 PACE = "log_random_pace"
 OFFSET = "offset"
-SLOW = "log_slow_noise"
-FADE = "log_noise_memory"
-LEVELS = (RANDOM, NOISE, PACE, OFFSET, SLOW, FADE)
+AR1_LEVEL = "log_slow_noise"
+AR1_MEMORY = "log_noise_memory"
+LEVELS = (RANDOM, NOISE, PACE, OFFSET, AR1_LEVEL, AR1_MEMORY)
 """The free parameters that are no physics: intensity and pace of a random force, the measurement noise, the zero of
 the response sensor, and measurement noise with a memory: its size and how long it lasts (s)."""
 _UNIT = NormalDist()
@@ -43,7 +43,7 @@ def keys_of(parameter: str, recordings: Sequence[str]) -> tuple[str, ...]:
 
 
 @dataclass(frozen=True)
-class Free:
+class FreeParameter:
     """A parameter to be estimated, in the coordinate in which its prior is simple.
 
     `log` says that the coordinate is the logarithm. The prior is uniform between `low` and `high` (coordinate), or
@@ -162,7 +162,7 @@ class Scales:
 class ParameterSpace:
     """The free parameters in order: coordinates are vectors of one number each, (count,), or many, (points, count)."""
 
-    free: tuple[Free, ...]
+    free: tuple[FreeParameter, ...]
 
     @cached_property
     def keys(self) -> tuple[str, ...]:
@@ -224,7 +224,7 @@ class ParameterSpace:
 
 
 @dataclass(frozen=True)
-class Route:
+class RecordingCoordinates:
     """Which coordinates stand for each parameter in one recording; several stand for it by their mean.
 
     They are several where a recording is predicted that has no value of its own: the others stand in for it.
@@ -234,7 +234,7 @@ class Route:
     count: int
 
     @classmethod
-    def of(cls, keys: Sequence[str], recording: str) -> Route:
+    def of(cls, keys: Sequence[str], recording: str) -> RecordingCoordinates:
         """Return the route of the recording with that name."""
         own: dict[str, tuple[int, ...]] = {}
         others: dict[str, tuple[int, ...]] = {}

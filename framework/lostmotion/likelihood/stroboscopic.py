@@ -12,7 +12,7 @@ import numpy as np
 
 from lostmotion.kernels.vector import BARE
 from lostmotion.kernels.views import slow_view, view
-from lostmotion.likelihood.adopted import adopted, defined, fingerprint, kept_as, told
+from lostmotion.likelihood.adopted import adopted, defined, fingerprint, kept_as, with_clear_errors
 from lostmotion.likelihood.plan import Blueprint
 
 
@@ -80,6 +80,6 @@ def stroboscopic_map(plan: Blueprint, states: int, compiled: bool = True) -> Cal
         space = defined(text, "<slow twin>", {**parts, **fields, "jit": lambda f: f, "view": slow_view})
 
     def mapped(*args: Any) -> int:
-        return int(space["march"](*args, np.zeros((10, states)), np.zeros((3, states, states))))
+        return int(space["strobe"](*args, np.zeros((10, states)), np.zeros((3, states, states))))
 
-    return told(mapped)
+    return with_clear_errors(mapped)

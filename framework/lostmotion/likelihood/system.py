@@ -17,7 +17,7 @@ from lostmotion.contracts import Array, Assembly, DriveTerm, Input, Model, Senso
 from lostmotion.errors import ContractError, nearest
 from lostmotion.likelihood.acting import Column, Recorded, of_order, through
 from lostmotion.likelihood.compose import Functions, functions, plain_functions
-from lostmotion.likelihood.drive import SILENT, Drive, Tone
+from lostmotion.likelihood.drive import SILENT, Drive, DriveHarmonic
 from lostmotion.likelihood.layout import ALWAYS, NUMB, Layout, Slot, key_of, since_of
 from lostmotion.likelihood.motion import derivatives, run
 from lostmotion.likelihood.plan import Blueprint, Place, law_of, room_for
@@ -104,7 +104,7 @@ class System(Layout):
         """
         return tuple(
             k
-            for k, t in self.beside.items()
+            for k, t in self.channel_terms.items()
             if k in set(active) and not t.marked and (alone or isinstance(t, DriveTerm))
         )
 
@@ -114,7 +114,7 @@ class System(Layout):
         return all(full[self.index[f"{key}.{name}"]] == null for name, null in term.null().items())
 
     def acting(
-        self, columns: Sequence[Column], full: Array, keys: Iterable[str], tone: Tone, *, lead: int = 0
+        self, columns: Sequence[Column], full: Array, keys: Iterable[str], harmonic: DriveHarmonic, *, lead: int = 0
     ) -> list[Column | None]:
         """Return what acts in place of the recorded inputs, one function of time (s) for each; None where it is that.
 
@@ -128,13 +128,13 @@ class System(Layout):
             u: Input = Recorded(tuple(columns[place] for place in places))
             own = [key for key in keys if self._touches(key, name, lead in places)]
             for key in own:
-                u = through(self.beside[key], u, self.values(full, key, tone), self.onset(full, key))
+                u = through(self.channel_terms[key], u, self.values(full, key, harmonic), self.onset(full, key))
             for order, place in enumerate(places if own else ()):
                 made[place] = partial(of_order, u, order)
         return made
 
     def _touches(self, key: str, name: str, leads: bool) -> bool:
-        term = self.beside[key]
+        term = self.channel_terms[key]
         return isinstance(term, SensorTerm) or term.at == name or (term.at == "drive" and leads)
 
     def gain(self, full: Array, active: Iterable[str], place: str = "sensor") -> float:
@@ -146,7 +146,7 @@ class System(Layout):
         chosen = set(active)
         return [
             (term, self.values(full, key, SILENT))
-            for key, term in self.beside.items()
+            for key, term in self.channel_terms.items()
             if isinstance(term, SensorTerm) and key in chosen and term.at == place
         ]
 
@@ -154,16 +154,16 @@ class System(Layout):
     def bending(self) -> tuple[str, ...]:
         """The keys of the terms that bend what a sensor shows."""
         bent = SensorTerm.bent
-        return tuple(k for k, t in self.beside.items() if isinstance(t, SensorTerm) and type(t).bent is not bent)
+        return tuple(k for k, t in self.channel_terms.items() if isinstance(t, SensorTerm) and type(t).bent is not bent)
 
     @cached_property
     def lagging(self) -> tuple[str, ...]:
         """The keys of the sensors that have states of their own."""
-        return tuple(key for key, term in self.beside.items() if term.acts == "sensor" and term.states)
+        return tuple(key for key, term in self.channel_terms.items() if term.acts == "sensor" and term.states)
 
     def gauging(self, active: Iterable[str]) -> bool:
         """Return whether any sensor term is active."""
-        return any(isinstance(self.beside[key], SensorTerm) for key in set(active) & set(self.beside))
+        return any(isinstance(self.channel_terms[key], SensorTerm) for key in set(active) & set(self.channel_terms))
 
     @cached_property
     def delaying(self) -> bool:
@@ -217,12 +217,17 @@ class System(Layout):
         chosen, drive = frozenset(active), drive.widened(len(self.model.inputs))
         start = np.zeros((1, self.states(chosen)))
         start[0, : min(start.shape[1], len(y0))] = y0[: start.shape[1]]
-        packed = self.pack(full[None], drive.dt / nsub, drive.tone)
+        packed = self.pack(full[None], drive.dt / nsub, drive.harmonic)
         states, reached = run(self, chosen, packed, start, drive, nsub, np.zeros(1, dtype=np.int64), drive.samples)
         return Motion(states[0], int(reached[0]))
 
     def moved(
-        self, full: Array, y0: Array, columns: Sequence[Callable[[Array], Array]], clock: Clock, tone: Tone = SILENT
+        self,
+        full: Array,
+        y0: Array,
+        columns: Sequence[Callable[[Array], Array]],
+        clock: Clock,
+        harmonic: DriveHarmonic = SILENT,
     ) -> Motion:
         """Return the free motion with all terms under inputs that are known at any time (s), one function to each.
 
@@ -233,7 +238,7 @@ class System(Layout):
         start[: min(len(start), len(y0))] = y0[: len(start)]
         while done < clock.samples:
             steps = min(count, clock.samples - done) * clock.nsub + 1
-            drive = replace(Drive.smooth(columns, dt, steps, done * clock.dt), tone=tone)
+            drive = replace(Drive.smooth(columns, dt, steps, done * clock.dt), harmonic=harmonic)
             piece = self.simulate(full, self.everything, start, drive)
             states.append(piece.states[: -1 : clock.nsub])
             start = piece.states[-1]

@@ -91,12 +91,12 @@ class FollowedFlow:
         self.period, self.driven, self.states = flow.period, flow.driven, flow.states
         self._orbits: dict[int, Orbit] = {}
 
-    def march(self, start: Array, *, periods: int, tangents: int) -> Orbit:
+    def strobe(self, start: Array, *, periods: int, tangents: int) -> Orbit:
         """Return the orbit from the start of this flow, with the first `tangents` of the vectors it follows."""
         if start is not self.start or tangents > self._tangents:
-            return self._flow.march(start, periods=periods, tangents=tangents)
+            return self._flow.strobe(start, periods=periods, tangents=tangents)
         if periods not in self._orbits:
-            self._orbits[periods] = self._flow.march(start, periods=periods, tangents=self._tangents)
+            self._orbits[periods] = self._flow.strobe(start, periods=periods, tangents=self._tangents)
         whole = self._orbits[periods]
         return whole if tangents == self._tangents else Orbit(whole.states, whole.growth[:, :tangents], whole.status)
 
@@ -153,7 +153,7 @@ def _follow(study: Study, flow: FollowedFlow, rng: np.random.Generator, into: tu
     columns, at = into
     estimate = quantify(flow, study.exponent, rng=rng)
     scaled = _scaled(study, estimate)
-    orbit = flow.march(flow.start, periods=study.transient + study.periods, tangents=1)
+    orbit = flow.strobe(flow.start, periods=study.transient + study.periods, tangents=1)
     period = period_of(orbit.states)
     columns[FLOW_EXPONENT][at], columns["lyapunov_stderr"][at] = scaled
     columns["status"][at], columns["period"][at] = CODES[estimate.status], period
@@ -185,7 +185,7 @@ def _warn(name: str, err: Exception) -> None:
 def _read(study: Study, flow: FollowedFlow, quantifier: Quantifier[Any], rng: np.random.Generator) -> Estimate:
     if quantifier.reads == "flow":
         return quantify(flow, quantifier, rng=rng)
-    settled = flow.march(flow.start, periods=study.transient + study.periods, tangents=1).states[study.transient]
+    settled = flow.strobe(flow.start, periods=study.transient + study.periods, tangents=1).states[study.transient]
     x = flow.sample(settled, periods=study.periods, looks=LOOKS)[:-1, 0]
     assert study.embedder is not None  # noqa: S101 - `study_of` gives one wherever a series is read
     return quantify(embed(x, study.embedder, dt=flow.period / LOOKS, period=flow.period), quantifier, rng=rng)

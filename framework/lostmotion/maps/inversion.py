@@ -22,7 +22,7 @@ import numpy as np
 
 from lostmotion.case.levels import Level, Measured
 from lostmotion.contracts import Array
-from lostmotion.likelihood.space import Free
+from lostmotion.likelihood.space import FreeParameter
 from lostmotion.maps.atlas import CHAOTIC, MISSING, PERIODIC, Atlas, Places
 from lostmotion.maps.numbers import NumberLaw
 from lostmotion.results.identification import ExpectedRange
@@ -58,7 +58,7 @@ class Inversion:
     atlases: tuple[Atlas, ...]
     which: tuple[int, ...]
     laws: tuple[Mapping[str, NumberLaw], ...]
-    free: tuple[Free, ...]
+    free: tuple[FreeParameter, ...]
 
     def log_prior(self, theta: Array) -> float:
         """Return the log prior density at the coordinates `theta`."""

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from lostmotion.codec import from_plain, to_plain, told
+from lostmotion.codec import described, from_plain, to_plain
 from lostmotion.defaults import FLOW_EXPONENT
 from lostmotion.errors import DataError
 from lostmotion.maps.cells import BEGINNING, CODES, LONGEST, WIDE, Study
@@ -32,12 +32,12 @@ PIECES = 4
 class Attributes:
     """What a file says of one of its arrays."""
 
-    units: str | None = told("unit of the numbers", default=None)
-    long_name: str = told("what the numbers are", default="")
-    spacing: str | None = told("the scale in which the points of an axis are even", default=None)
-    flag_values: tuple[int, ...] | None = told("the codes that an array of flags holds", default=None)
-    flag_meanings: str | None = told("a word for each code", default=None)
-    comment: str | None = told("what else is to be known", default=None)
+    units: str | None = described("unit of the numbers", default=None)
+    long_name: str = described("what the numbers are", default="")
+    spacing: str | None = described("the scale in which the points of an axis are even", default=None)
+    flag_values: tuple[int, ...] | None = described("the codes that an array of flags holds", default=None)
+    flag_meanings: str | None = described("a word for each code", default=None)
+    comment: str | None = described("what else is to be known", default=None)
 
 
 @dataclass(frozen=True)
@@ -63,18 +63,18 @@ class Coordinate:
 class MapSettings:
     """What a map was asked for, as the provenance of its file has it."""
 
-    model: str = told("name of the model")
-    terms: tuple[str, ...] = told("the terms that were added to it", default=())
-    fixed: Mapping[str, float] = told("what was held at a value, by name", default={})
-    axes: tuple[str, ...] = told("the axes, as the command line has them", default=())
-    exponent: str = told("the quantifier of the exponent with its settings", default="")
-    further: Mapping[str, str] = told("further quantifiers with their settings, by name", default={})
-    embedder: str | None = told("the embedder; null where no quantifier reads a series")
-    starts: int = told("starts in each cell", default=1)
-    unit: str = told("nat or bit, of exponents", default="nat")
-    level: int | None = told("the halving of which this is the list of cells", default=None)
-    levels: int | None = told("how often squares were halved", default=None)
-    motion: str | None = told("translation or rotation, where the model can be either", default=None)
+    model: str = described("name of the model")
+    terms: tuple[str, ...] = described("the terms that were added to it", default=())
+    fixed: Mapping[str, float] = described("what was held at a value, by name", default={})
+    axes: tuple[str, ...] = described("the axes, as the command line has them", default=())
+    exponent: str = described("the quantifier of the exponent with its settings", default="")
+    further: Mapping[str, str] = described("further quantifiers with their settings, by name", default={})
+    embedder: str | None = described("the embedder; null where no quantifier reads a series")
+    starts: int = described("starts in each cell", default=1)
+    unit: str = described("nat or bit, of exponents", default="nat")
+    level: int | None = described("the halving of which this is the list of cells", default=None)
+    levels: int | None = described("how often squares were halved", default=None)
+    motion: str | None = described("translation or rotation, where the model can be either", default=None)
 
 
 @dataclass(frozen=True)

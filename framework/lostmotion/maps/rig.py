@@ -160,4 +160,4 @@ def reach(flow: Flow, periods: int, looks: int = 8) -> Array:
 
 
 def _strobed(flow: Flow, periods: int) -> Array:
-    return flow.march(flow.start, periods=periods, tangents=0).states
+    return flow.strobe(flow.start, periods=periods, tangents=0).states

@@ -22,8 +22,8 @@ from lostmotion.codec import to_plain
 from lostmotion.errors import DataError
 from lostmotion.maps.cells import Columns
 from lostmotion.maps.layout import SCHEMA, MapLayout, origin_in
-from lostmotion.recording.apart import walk_apart
 from lostmotion.recording.limits import check_bytes
+from lostmotion.recording.subprocess_reader import walk_in_subprocess
 from lostmotion.recording.unpacked import RESULT, check_hdf5
 from lostmotion.results.background import Origin
 from lostmotion.storage import held, save_datasets, writing
@@ -99,7 +99,7 @@ def load(path: Path) -> xr.Dataset:
         raise DataError(f"{path} is not there: give the path of a map")
     try:
         if path.suffix == ".nc":
-            walk_apart(path)
+            walk_in_subprocess(path)
             check_hdf5(path, RESULT)
             with xr.open_dataset(path, engine="h5netcdf") as stored:
                 found = stored.load()

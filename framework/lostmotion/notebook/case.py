@@ -100,13 +100,13 @@ class Case:
         """Return the path of `case.toml`, written into a folder with a table of each recording, all in SI units."""
         place = folder_for(Path(folder))
         entries = [_written(one, place) for one in self._several]
-        content: dict[str, Any] = {"title": self.title, "recordings": entries, "model": self._told()}
+        content: dict[str, Any] = {"title": self.title, "recordings": entries, "model": self._model_table()}
         if self.truth:
             content["truth"] = dict(self.truth)
         dump_case(content, place / "case.toml")
         return place / "case.toml"
 
-    def _told(self) -> dict[str, Any]:
+    def _model_table(self) -> dict[str, Any]:
         """Return the table `[model]`; a model that nobody else could find is refused."""
         made = self._model
         if isinstance(made, Written):

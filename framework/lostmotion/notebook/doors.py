@@ -61,12 +61,12 @@ def diagnose(
     `settings` changes thresholds that decide, such as `{"select.decisive": 4.0}` (`lostmotion.settings` lists them).
     Raises `CaseError` or `DataError` where the case cannot be used, with the sentence of the command line.
     """
-    from lostmotion.diagnosis.run import told_of
+    from lostmotion.diagnosis.run import diagnose_prepared
 
     known_to = registry or default()
     asked = case_from(case, model, known, estimate, known_to)
     with shown("diagnose", progress) as say:
-        told = told_of(
+        told = diagnose_prepared(
             asked.prepared(known_to, terms), known_to, seed=seed, jobs=jobs, say=say, settings=read(settings)
         )
     found = DiagnosisResult(told.result, told.arrays, known_to, told.outcome)
@@ -154,7 +154,7 @@ def analyse(
     of their `draws`. `unit` is that of exponents: "1/s", "bit/s", "1/period" or "bit/period". `settings` are as
     for `diagnose`.
     """
-    from lostmotion.analysis.run import AnalysisRequest, told_of
+    from lostmotion.analysis.run import AnalysisRequest, analyse_source
     from lostmotion.analysis.source import WantedChannel, source_in, source_of
 
     request = AnalysisRequest(
@@ -179,7 +179,7 @@ def analyse(
         wanted = WantedChannel(request.columns or _texts(channel or ()), request.rate, request.every)
         source = source_of(Path(recording), wanted, known_to)
     with shown("analyse", progress) as say:
-        result, arrays = told_of(source, known_to, request, say)
+        result, arrays = analyse_source(source, known_to, request, say)
     found = AnalysisResult(result, arrays)
     if out is not None:
         found.save(out)

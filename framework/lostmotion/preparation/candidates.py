@@ -27,7 +27,7 @@ def candidates_of(
         if term.acts != "motion"
         for at in _beside(term, observations)
     ]
-    driven = all(observation.tone.omega > 0.0 for observation in observations)
+    driven = all(observation.harmonic.omega > 0.0 for observation in observations)
     tried = [term for term in tried if term.fits(model) and (driven or "omega" not in term.needs)]
     names = [term.name for term in tried]
     several = any(len(observation.sensors) > 1 for observation in observations)

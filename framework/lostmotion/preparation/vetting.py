@@ -67,10 +67,10 @@ def usable_terms(registry: Registry) -> tuple[list[type[Term]], tuple[str, ...]]
             terms.append(registry.load("term", name))
         except LostMotionError as err:
             aside.append(str(err))
-    return terms, tuple(told_aside(why) for why in dict.fromkeys(aside))
+    return terms, tuple(note_set_aside(why) for why in dict.fromkeys(aside))
 
 
-def told_aside(why: str) -> str:
+def note_set_aside(why: str) -> str:
     """Return the sentence on a plugin that is set aside, having warned with it."""
     sentence = f"Set aside: {why.rstrip('.')}."
     warnings.warn(sentence, PluginWarning, stacklevel=3)
@@ -119,7 +119,7 @@ class Guests:
         found, wrong = _watched(x, work)
         if not wrong:
             return found
-        self.said.append(told_aside(f"{entry.whose} {wrong}: `lostmotion plugins check {name}` tells what to mend"))
+        self.said.append(note_set_aside(f"{entry.whose} {wrong}: `lostmotion plugins check {name}` tells what to mend"))
         return None
 
 

@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lostmotion.errors import DataError, nearest
-from lostmotion.recording.apart import read_apart
 from lostmotion.recording.limits import TEXT, check_bytes
+from lostmotion.recording.subprocess_reader import read_in_subprocess
 from lostmotion.recording.table import Table
 from lostmotion.recording.text import read_text
 from lostmotion.recording.unpacked import check_hdf5, check_mat, check_npz
@@ -34,7 +34,7 @@ def read_table(path: Path) -> Table:
     if _reader(path) in (read_text, _read_npz):
         return table_of(path)
     _must_be_file(path)
-    return read_apart(path)
+    return read_in_subprocess(path)
 
 
 def columns_of(path: Path) -> dict[str, Array]:

@@ -14,12 +14,12 @@ from lostmotion.errors import DataError, nearest
 from lostmotion.provenance import digest
 from lostmotion.quantities import si_factor
 from lostmotion.recording.checks import bridged, check_finite, check_length, check_sensor, check_values, note_stuck
-from lostmotion.recording.doubts import DoubtedChannel, doubts
 from lostmotion.recording.formats import read_table
 from lostmotion.recording.spec import Channel, Hold, RecordingSpec
 from lostmotion.recording.table import Table
 from lostmotion.recording.timing import EvenClock, check_step, even_clock, resampled
 from lostmotion.recording.units import note_unit, seconds, time_unit
+from lostmotion.recording.warnings import DoubtedChannel, warnings_of
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -219,7 +219,7 @@ def recording_of(spec: RecordingSpec, table: Table, source: str, told_by: str) -
     arrays = [channel.array(si, grid) for channel, (si, _) in zip(channels, read, strict=True)]
     signals = [channel.signal(si) for channel, (si, _) in zip(channels, read, strict=True)]
     units = [n for c in channels for n in note_unit(c.channel, table.units.get(c.channel.column), c.what)]
-    odd = doubts(signals[:count], signals[count:], clock.dt)
+    odd = warnings_of(signals[:count], signals[count:], clock.dt)
     notes = dict.fromkeys((*told, *clock.notes, *(n for _, own in read for n in own), *units, *odd))
     inputs, sensors, start = (
         tuple(arrays[:count]),

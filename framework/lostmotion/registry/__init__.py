@@ -29,7 +29,7 @@ from lostmotion.registry.classes import (
     require,
     sources,
 )
-from lostmotion.registry.hooks import COMMAND, FAILURES, KINDS, Host, RefusedError, guarded, said
+from lostmotion.registry.hooks import COMMAND, FAILURES, KINDS, Host, RefusedError, first_line, guarded
 
 __all__ = ["KINDS", "Entry", "Registry", "default", "import_texts", "sources"]
 
@@ -121,7 +121,7 @@ class Registry:
     def entries(self) -> tuple[Entry, ...]:
         """Return everything that is offered, by kind and name, with what is wrong with it if something is."""
         order = {kind: i for i, kind in enumerate((*KINDS, COMMAND, _PACKAGE))}
-        judged = (self._judged(e) for e in self._offers)
+        judged = (self._checked_for_clash(e) for e in self._offers)
         return tuple(sorted(judged, key=lambda e: (order[e.kind], e.name, e.owner)))
 
     def commands(self) -> dict[str, Entry]:
@@ -137,9 +137,9 @@ class Registry:
 
         Where plugins are named as they are `used`, each by kind and name, only what brought those counts.
         """
-        guests = [e for e in self._offers if not e.ours and (not used or (e.kind, e.name) in used)]
-        packages = {e.owner: e.version for e in guests if e.version}
-        files = {Path(e.owner).name for e in guests}
+        third_party = [e for e in self._offers if not e.ours and (not used or (e.kind, e.name) in used)]
+        packages = {e.owner: e.version for e in third_party if e.version}
+        files = {Path(e.owner).name for e in third_party}
         return {**packages, **{name: digest for name, digest in self._files.items() if name in files}}
 
     def load(self, kind: str, name: str) -> type[Any]:
@@ -157,7 +157,7 @@ class Registry:
         except LostMotionError:
             raise
         except FAILURES as err:
-            raise PluginError(f"{kind} {name!r} cannot be made: {said(err)}: check its options") from err
+            raise PluginError(f"{kind} {name!r} cannot be made: {first_line(err)}: check its options") from err
 
     def _loaded(self, kind: str, name: str) -> Any:
         """Return the class behind a name, or the instance that was added under it."""
@@ -193,7 +193,7 @@ class Registry:
         self._offers.append(entry)
         self._given[entry] = obj
 
-    def _judged(self, entry: Entry) -> Entry:
+    def _checked_for_clash(self, entry: Entry) -> Entry:
         """Return the entry, marked as a clash when another owner offers its name too."""
         same = [e for e in self._offers if (e.kind, e.name) == (entry.kind, entry.name)]
         if entry.kind == _PACKAGE or len(same) == 1:
@@ -207,7 +207,7 @@ class Registry:
         _require_kind(kind)
         same = [e for e in self._offers if e.name == name and e.kind != _PACKAGE]
         for entry in (e for e in same if e.kind == kind):
-            if (judged := self._judged(entry)).state != "ready":
+            if (judged := self._checked_for_clash(entry)).state != "ready":
                 raise PluginError(judged.why)
             return entry
         near = nearest(name, self.names(kind))

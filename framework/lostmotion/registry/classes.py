@@ -17,7 +17,7 @@ from types import ModuleType
 from typing import Any
 
 from lostmotion.errors import PluginError, PluginWarning, nearest
-from lostmotion.registry.hooks import FAILURES, said
+from lostmotion.registry.hooks import FAILURES, first_line
 from lostmotion.registry.words import misfit
 
 SLOW = 2.0
@@ -57,7 +57,7 @@ def imported(target: str, whose: str, wanted: type[Any] = type) -> Any:
     try:
         found = importlib.import_module(module)
     except FAILURES as err:
-        raise PluginError(f"{whose} could not be imported from {module}: {said(err)}: tell its author") from err
+        raise PluginError(f"{whose} could not be imported from {module}: {first_line(err)}: tell its author") from err
     if not isinstance(thing := getattr(found, attribute, None), wanted):
         near, what = nearest(attribute, vars(found)), "class" if wanted is type else f"{wanted.__name__}"
         raise PluginError(f"{whose} points to {target}, and there is no such {what}{near}: mend its hook")
@@ -134,6 +134,6 @@ def _run(name: str, place: str) -> ModuleType:
             spec.loader.exec_module(module)
     except FAILURES as err:
         del sys.modules[name]
-        raise PluginError(f"plugin file {place} could not be loaded: {said(err)}: mend the file") from err
+        raise PluginError(f"plugin file {place} could not be loaded: {first_line(err)}: mend the file") from err
     _FILES[name] = place
     return module

@@ -75,7 +75,7 @@ class Host:
                 raise RefusedError("misspelt hook", why) from err
             raise RefusedError("broken", "a hook of it takes arguments: write it without any") from err
         except FAILURES as err:
-            raise RefusedError("broken", f"it could not be registered: {said(err)}") from err
+            raise RefusedError("broken", f"it could not be registered: {first_line(err)}") from err
 
     def _answers(self, label: str, hook: str, kind: str) -> list[Offer]:
         """Return what the plugin under `label` answers to one hook."""
@@ -87,7 +87,7 @@ class Host:
         return answers
 
 
-def said(err: BaseException) -> str:
+def first_line(err: BaseException) -> str:
     """Return the kind of an error and the first line of what it says."""
     lines = str(err).strip().splitlines()
     return f"{type(err).__name__}: {lines[0]}" if lines else type(err).__name__
@@ -98,7 +98,7 @@ def guarded(function: Callable[[], Any], complaint: str) -> Any:
     try:
         return function()
     except FAILURES as err:
-        raise RefusedError("broken", f"{complaint}: {said(err)}") from err
+        raise RefusedError("broken", f"{complaint}: {first_line(err)}") from err
 
 
 def _checked(offer: Any, hook: str, kind: str) -> Iterator[Offer]:

@@ -22,8 +22,8 @@ def misfit(cls: type[Any]) -> str:
 def _misfits(cls: type[Any]) -> Iterator[str]:
     from lostmotion import contracts
 
-    yield from _told(cls, TEXTS, _text, "text")
-    yield from _told(cls, LISTS, _texts, "a tuple of texts")
+    yield from _complaints(cls, TEXTS, _text, "text")
+    yield from _complaints(cls, LISTS, _texts, "a tuple of texts")
     if hasattr(cls, "params") and not (getattr(cls, "motions", ()) or hasattr(cls, "motion")):
         yield "neither motion nor motions: write 'translation' or 'rotation', or both"
     for key, kind in (("params", contracts.Param), ("further", contracts.Param), ("interfaces", contracts.Interface)):
@@ -38,23 +38,23 @@ def _misfits(cls: type[Any]) -> Iterator[str]:
 def _param(param: Any) -> Iterator[str]:
     from lostmotion.quantities import Dimension
 
-    yield from _told(param, ("name", "meaning", "scale"), _text, "text")
-    yield from _told(param, ("low", "high", "typical"), _real, "a number")
-    yield from _told(param, ("null",), lambda value: value is None or _real(value), "a number or None")
-    yield from _told(param, ("aliases", "words"), _texts, "a tuple of texts")
+    yield from _complaints(param, ("name", "meaning", "scale"), _text, "text")
+    yield from _complaints(param, ("low", "high", "typical"), _real, "a number")
+    yield from _complaints(param, ("null",), lambda value: value is None or _real(value), "a number or None")
+    yield from _complaints(param, ("aliases", "words"), _texts, "a tuple of texts")
     if getattr(param, "words", ()) and len(param.words) != len(getattr(param, "choices", ())):
         yield f"{len(param.words)} words for {len(param.choices)} choices: write one for each"
-    yield from _told(param, ("choices", "far"), lambda value: _all(value, _real), "a tuple of numbers")
-    yield from _told(param, ("dimension",), lambda value: isinstance(value, Dimension), "a Dimension")
+    yield from _complaints(param, ("choices", "far"), lambda value: _all(value, _real), "a tuple of numbers")
+    yield from _complaints(param, ("dimension",), lambda value: isinstance(value, Dimension), "a Dimension")
 
 
 def _place(place: Any) -> Iterator[str]:
-    yield from _told(place, ("name", "inertia"), _text, "text")
-    yield from _told(place, ("row",), lambda value: isinstance(value, int), "a whole number")
-    yield from _told(place, ("holds",), _texts, "a tuple of texts")
+    yield from _complaints(place, ("name", "inertia"), _text, "text")
+    yield from _complaints(place, ("row",), lambda value: isinstance(value, int), "a whole number")
+    yield from _complaints(place, ("holds",), _texts, "a tuple of texts")
 
 
-def _told(whose: Any, keys: Iterable[str], right: Check, wanted: str) -> Iterator[str]:
+def _complaints(whose: Any, keys: Iterable[str], right: Check, wanted: str) -> Iterator[str]:
     """Yield a complaint for each attribute that is there and is not right."""
     for key in keys:
         value = getattr(whose, key, _MISSING)

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from lostmotion.codec import told
+from lostmotion.codec import described
 
 Array = NDArray[np.float64]
 
@@ -33,11 +33,11 @@ DEGREES: Mapping[str, str] = {"rad": "deg", "rad/s": "deg/s", "rad/s^2": "deg/s^
 class Interval:
     """Median and central 95 % interval of a number, with its unit."""
 
-    median: float = told("median")
-    low: float = told("lower end of the central 95 % interval; null where it is withheld")
-    high: float = told("upper end of it; null where it is withheld")
-    unit: str = told("unit of the three")
-    withheld: str | None = told("why the interval is withheld, in a sentence", default=None)
+    median: float = described("median")
+    low: float = described("lower end of the central 95 % interval; null where it is withheld")
+    high: float = described("upper end of it; null where it is withheld")
+    unit: str = described("unit of the three")
+    withheld: str | None = described("why the interval is withheld, in a sentence", default=None)
 
     def __contains__(self, value: float) -> bool:
         return self.low <= value <= self.high

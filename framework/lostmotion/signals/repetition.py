@@ -53,7 +53,7 @@ def repetition_of(x: Array, noise: float, period: float | None = None) -> Repeti
     `distinct` is the diversity of order 2 that allows for similarity (Leinster, Cobbold 2012, Ecology 93, 477-489).
     None where there are fewer than two cycles, too much noise, or no period.
     """
-    if not _told(x, noise):
+    if not _has_motion(x, noise):
         return None
     cycle = period_found(x, noise) if period is None else period
     if cycle is None or cycle < SHORTEST or len(x) - 1 < 2.0 * cycle:
@@ -95,7 +95,7 @@ def period_found(x: Array, noise: float, drive: float | None = None) -> float | 
     With the period of the `drive` (samples) only its first multiples are tried. Otherwise each lag at which the
     squared difference has a minimum (de Cheveigne, Kawahara 2002, J. Acoust. Soc. Am. 111, 1917-1930) is.
     """
-    if not _told(x, noise):
+    if not _has_motion(x, noise):
         return None
     spline = CubicSpline(np.arange(len(x)), x)
     tried = [k * drive for k in range(1, MULTIPLES + 1)] if drive else _dips(x, noise)
@@ -173,7 +173,7 @@ def repeated_share(known: Array, new: Array, noise: float) -> float | None:
     is too much noise, or no motion.
     """
     piece = new[: max(len(known) // 2, 1)] if len(new) > len(known) // 2 else new
-    if len(piece) < 2.0 * SHORTEST or not (_told(known, noise) and _told(piece, noise)):
+    if len(piece) < 2.0 * SHORTEST or not (_has_motion(known, noise) and _has_motion(piece, noise)):
         return None
     gaps = _gaps(piece, known)
     spline, t = CubicSpline(np.arange(len(known)), known), np.arange(len(piece))
@@ -195,7 +195,7 @@ def _lowest(gaps: Array) -> list[int]:
     return [int(k) for k in places[np.argsort(gaps[places], kind="stable")][:TRIED]]
 
 
-def _told(x: Array, noise: float) -> bool:
+def _has_motion(x: Array, noise: float) -> bool:
     """Return whether a series has a motion that stands out of the noise, and no gaps."""
     whole = float(np.var(x)) if len(x) else 0.0
     return math.isfinite(whole) and whole > 0.0 and noise**2 < LOUD * whole

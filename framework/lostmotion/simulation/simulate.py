@@ -14,9 +14,9 @@ import numpy as np
 
 from lostmotion.contracts import Array, Assembly, Model, SensorTerm, Term
 from lostmotion.errors import CaseError, DataError, nearest
-from lostmotion.likelihood.drive import SILENT, Drive, Tone
+from lostmotion.likelihood.drive import SILENT, Drive, DriveHarmonic
 from lostmotion.likelihood.motion import derivatives
-from lostmotion.likelihood.observation import Observation, tone_of
+from lostmotion.likelihood.observation import Observation, harmonic_of
 from lostmotion.likelihood.system import Clock, Slot, System, key_of
 from lostmotion.preparation.vetting import sound
 from lostmotion.provenance import provenance
@@ -99,10 +99,10 @@ def set_in_motion(
     if not np.abs(inputs).max() < HUGE:
         raise CaseError(f"the drive reaches {np.abs(inputs).max():.3g}: check its unit")
     nsub = _substeps(system, full, y0, inputs, 1.0 / rate)
-    acting, tone = _acting(system, full, columns, inputs, 1.0 / rate)
-    motion = system.moved(full, y0, acting, Clock(1.0 / rate, nsub, samples), tone)
+    acting, harmonic = _acting(system, full, columns, inputs, 1.0 / rate)
+    motion = system.moved(full, y0, acting, Clock(1.0 / rate, nsub, samples), harmonic)
     acts = np.stack([column(times) for column in acting], axis=1)
-    packed = system.pack(full[None], 1.0 / (rate * nsub), tone)
+    packed = system.pack(full[None], 1.0 / (rate * nsub), harmonic)
     _, seen = derivatives(system, system.everything, packed, motion.states, acts, times)
     channels = dict(zip(assembly.model.channels, seen.T, strict=True))
     if motion.finite < samples or not all(np.abs(x).max() < HUGE for x in channels.values()):
@@ -221,14 +221,14 @@ def _inputs(plan: Plan) -> list[DriveSignal]:
 
 def _acting(
     system: System, full: Array, columns: Sequence[Callable[[Array], Array]], inputs: Array, dt: float
-) -> tuple[list[Callable[[Array], Array]], Tone]:
+) -> tuple[list[Callable[[Array], Array]], DriveHarmonic]:
     """Return the inputs that act, as functions of time, where terms stand between them and what is recorded.
 
     The tone is what a diagnosis would read off the recorded samples.
     """
-    tone = tone_of(Observation.of("drive", np.zeros(len(inputs)), inputs, dt, ""))
-    acting = system.acting(columns, full, system.shaping(system.everything), tone)
-    return [there or recorded for there, recorded in zip(acting, columns, strict=True)], tone
+    harmonic = harmonic_of(Observation.of("drive", np.zeros(len(inputs)), inputs, dt, ""))
+    acting = system.acting(columns, full, system.shaping(system.everything), harmonic)
+    return [there or recorded for there, recorded in zip(acting, columns, strict=True)], harmonic
 
 
 def _shown(system: System, full: Array, channels: Mapping[str, Array], plan: Plan) -> dict[str, Array]:
@@ -236,7 +236,7 @@ def _shown(system: System, full: Array, channels: Mapping[str, Array], plan: Pla
     shown, first = dict(channels), plan.assembly.model.channels[0]
     gain = system.gain(full, system.everything)
     shown[first] = gain * shown[first]
-    for key, term in system.beside.items():
+    for key, term in system.channel_terms.items():
         if isinstance(term, SensorTerm):
             shown[first] = term.rounded(shown[first], system.values(full, key, SILENT))
     return shown

@@ -58,7 +58,7 @@ class Spiral:
         """The state (2,) in which an orbit begins."""
         return np.array([1.0, 0.5])
 
-    def march(self, start: Array, *, periods: int, tangents: int) -> Orbit:
+    def strobe(self, start: Array, *, periods: int, tangents: int) -> Orbit:
         """Return the orbit from `start`, which winds into the origin."""
         rates = np.array([-0.2, -0.5])
         fade = np.exp(np.outer(np.arange(periods + 1), self.period * rates))

@@ -23,18 +23,18 @@ _STEPS = 5
 
 def pull(term: Term, point: Point, function: Any = None) -> Any:
     """Return the force at a point."""
-    return (function or term.force)(*_told(term, point))
+    return (function or term.force)(*_arguments(term, point))
 
 
 def pace(term: Term, point: Point, function: Any = None, *, over: float = math.nan) -> Array:
     """Return the time derivative of the own states, written over `over`."""
     dsdt = np.full(len(term.states), over)
     rate: Any = function or term.rate
-    rate(*_told(term, point), dsdt)
+    rate(*_arguments(term, point), dsdt)
     return dsdt
 
 
-def _told(term: Term, point: Point) -> tuple[Any, ...]:
+def _arguments(term: Term, point: Point) -> tuple[Any, ...]:
     return point.t, point.x, point.v, point.u, handed(term, point.p), tuple(point.y)
 
 

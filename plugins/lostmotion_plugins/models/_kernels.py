@@ -141,7 +141,7 @@ def stay(law, angle, x, v, side, x0, left, most):  # type: ignore[no-untyped-def
 
 
 @numba.njit(**_FAST)
-def march(start, numbers, looks, states, growth):  # type: ignore[no-untyped-def]
+def strobe(start, numbers, looks, states, growth):  # type: ignore[no-untyped-def]
     """Write `states` (periods * looks + 1, 2) and the logarithms of tangent growth (periods, tangents).
 
     Returns how many looks were reached, how often a boundary was crossed, and whether leaps ran out. The force is

@@ -10,7 +10,7 @@ import numpy as np
 
 from lostmotion.contracts import Array, Orbit
 from lostmotion.errors import ContractError
-from lostmotion_plugins.models._kernels import march
+from lostmotion_plugins.models._kernels import strobe
 
 _RESONANCE = 1e-7
 """Relative distance from a resonance without damping below which the closed form loses its digits."""
@@ -40,7 +40,7 @@ class ExactBacklash:
         """Whether the phase of a drive is one more direction of the flow, with the exponent zero."""
         return self.numbers[5] != 0.0
 
-    def march(self, start: Array, *, periods: int, tangents: int) -> Orbit:
+    def strobe(self, start: Array, *, periods: int, tangents: int) -> Orbit:
         """Return the orbit from `start` (2,) at drive phase 0, with `tangents` tangent vectors kept orthogonal."""
         return self._run(start, periods, 1, tangents)[0]
 
@@ -58,7 +58,7 @@ class ExactBacklash:
             raise ContractError(f"a start of shape {begin.shape} and {tangents} tangents do not fit 2 states")
         states, growth = np.full((periods * looks + 1, 2), np.nan), np.zeros((periods, tangents))
         carried = self._carried(np.arange(len(states)) % looks / looks)
-        done, crossings, stiff = march(begin - carried[0], self.numbers, looks, states, growth)
+        done, crossings, stiff = strobe(begin - carried[0], self.numbers, looks, states, growth)
         states += carried
         if done < len(states):
             growth[max(done - 1, 0) // looks :] = np.nan

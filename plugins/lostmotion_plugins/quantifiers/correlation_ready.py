@@ -40,7 +40,7 @@ def ready(data: Series, rng: np.random.Generator, *, guess: bool = True) -> Read
         return Ready(x, data.dt, data.embedding.lag, step, "", {})
     lag = max(1, round(data.embedding.lag * data.dt / dt))
     details = {"samples_per_period": period / dt, "resampled": float(dt != data.dt)}
-    return Ready(moved, dt, lag, step, _said(locked, period / data.dt, period / dt), details)
+    return Ready(moved, dt, lag, step, _locked_sentence(locked, period / data.dt, period / dt), details)
 
 
 def _line(data: Series) -> float | None:
@@ -48,7 +48,7 @@ def _line(data: Series) -> float | None:
     return None if found is None else found.period
 
 
-def _said(locked: Locked, before: float, after: float) -> str:
+def _locked_sentence(locked: Locked, before: float, after: float) -> str:
     """Return the sentence about a recording that keeps step with its drive."""
     if before < FEWEST:
         return (

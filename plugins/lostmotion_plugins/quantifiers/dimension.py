@@ -91,9 +91,9 @@ class CorrelationDimension(Quantifier[Series]):
             details["r_low"], details["r_high"] = found.ends
         if found is None or _status(found) or _uneven(details):
             return _declined(found, sums, noise * float(np.std(it.x)), curve, details)
-        return self._told(found, sums, it, curve, details)
+        return self._estimate(found, sums, it, curve, details)
 
-    def _told(
+    def _estimate(
         self, found: Plateau, sums: Sums, it: Ready, curve: dict[str, Array], details: dict[str, float]
     ) -> Estimate:
         """Return the value with its interval: the delay is varied too, and what that changes is counted."""

@@ -87,7 +87,7 @@ def exponent(series: Series, gather: Gather, *, before: bool = False) -> Estimat
         return _flat((made, read, c), details)
     doubts = _rates(rest, gather, steps, before)
     doubt = float(np.std([found.rate, *doubts[np.isfinite(doubts)]]))
-    return _judged(found, doubt, (made, read, c), details)
+    return _estimate_from(found, doubt, (made, read, c), details)
 
 
 def prepared(several: tuple[Series, ...]) -> list[States]:
@@ -146,7 +146,7 @@ def _unpaired(repeats: float, paired: float, details: Mapping[str, float]) -> Es
     return refused("too_few_neighbours", says, ({}, details))
 
 
-def _judged(found: Growth, doubt: float, behind: Behind, details: Mapping[str, float]) -> Estimate:
+def _estimate_from(found: Growth, doubt: float, behind: Behind, details: Mapping[str, float]) -> Estimate:
     """Return the estimate that the curves allow."""
     made, read, c = behind
     begin, end = found.domain.begin, found.domain.ends[0]

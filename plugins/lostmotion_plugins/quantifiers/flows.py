@@ -78,7 +78,7 @@ class LyapunovMax(Quantifier[Flow]):
         if growth.refusal:
             return growth.refusal
         mean = _mean(growth.rates, growth.period)
-        return _told(mean, growth, curve=_running(growth.rates))
+        return _largest_exponent(mean, growth, curve=_running(growth.rates))
 
 
 @dataclass(frozen=True)
@@ -103,7 +103,7 @@ class LyapunovSpectrum(Quantifier[Flow]):
         mean = _mean(growth.rates, growth.period)
         order = np.argsort(-mean.value, kind="stable")
         curve = {"spectrum": mean.value[order], "stderr": mean.stderr[order], **_running(growth.rates)}
-        return _told(mean, growth, curve=curve)
+        return _largest_exponent(mean, growth, curve=curve)
 
 
 @dataclass(frozen=True)
@@ -151,7 +151,7 @@ def _followed(flow: Flow, periods: int, transient: int, tangents: int) -> _Growt
     if periods < _FEWEST:
         says = f"{periods} periods are too few to judge an error from: follow {_FEWEST} or more"
         return _Growth(nothing, flow.period, driven, _refused("too_short", says, nothing))
-    orbit = flow.march(flow.start, periods=max(transient, 0) + periods, tangents=tangents)
+    orbit = flow.strobe(flow.start, periods=max(transient, 0) + periods, tangents=tangents)
     rates = orbit.growth[max(transient, 0) :] / flow.period
     if orbit.status != "ok":
         return _Growth(nothing, flow.period, driven, _refused(orbit.status, _why(orbit.status, orbit.growth), rates))
@@ -261,7 +261,7 @@ def _verdict(mean: _Mean) -> tuple[str, str]:
     )
 
 
-def _told(mean: _Mean, growth: _Growth, *, curve: dict[str, Array]) -> Estimate:
+def _largest_exponent(mean: _Mean, growth: _Growth, *, curve: dict[str, Array]) -> Estimate:
     """Return the estimate of the largest exponent."""
     best = int(np.argmax(mean.value))
     value, stderr = float(mean.value[best]), float(mean.stderr[best])

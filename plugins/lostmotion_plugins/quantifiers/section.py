@@ -50,7 +50,7 @@ class SectionDimension(Quantifier[Flow]):
         begin = max(self.transient, 0)
         if self.periods < _FEWEST:
             return Estimate.refused("too_short", f"{self.periods} periods are too few: follow {_FEWEST} or more")
-        orbit = data.march(data.start, periods=begin + self.periods, tangents=0)
+        orbit = data.strobe(data.start, periods=begin + self.periods, tangents=0)
         points = orbit.states[begin + 1 :]
         if not np.isfinite(points).all():
             status = orbit.status if orbit.status not in ("ok", "jumps") else "failed"
@@ -59,7 +59,7 @@ class SectionDimension(Quantifier[Flow]):
         if data.driven and _repeats(points):
             says = "The motion repeats itself: it is a closed line."
             return Estimate(1.0, 1.0, 1.0, "ok", "1", {}, says, {"stderr": 0.0, "section": 0.0})
-        return _told(_counted(points), more)
+        return _estimate(_counted(points), more)
 
 
 def _repeats(points: Array) -> bool:
@@ -80,7 +80,7 @@ def _counted(points: Array) -> NDArray[np.int64]:
     return counts
 
 
-def _told(counts: NDArray[np.int64], more: float) -> Estimate:
+def _estimate(counts: NDArray[np.int64], more: float) -> Estimate:
     """Return the estimate from the counted pairs."""
     radius, total = edges()[1:], np.cumsum(counts.sum(axis=(0, 1)))[:-1]
     curve = {"radius": radius, "correlation_sum": total / max(int(counts.sum()), 1)}

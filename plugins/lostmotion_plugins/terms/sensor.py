@@ -128,7 +128,7 @@ class SensorQuantisation(SensorTerm):
         return p[0] / math.sqrt(12.0)
 
     @staticmethod
-    def marks(z: Array) -> tuple[Values, Values]:
+    def quantisation(z: Array) -> tuple[Values, Values]:
         """Return the step of the lattice on which nearly all differences of the values lie, with its error."""
         seen = z[np.isfinite(z)]
         differences = np.abs(np.diff(seen))

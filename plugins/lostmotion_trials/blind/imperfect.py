@@ -14,7 +14,7 @@ from functools import partial
 
 import numpy as np
 
-from lostmotion.codec import told
+from lostmotion.codec import described
 from lostmotion.contracts import Array
 from lostmotion.settings import DEFAULT
 from lostmotion_trials.blind.mechanisms import NOISY, TABLE, UNKNOWN, Effect, Pilot
@@ -53,27 +53,29 @@ Curve = tuple[tuple[float, float], ...]
 class Blemish:
     """A small smooth force."""
 
-    over: str = told("what it runs over: position, velocity, phase or time")
-    rms: float = told("its root mean square", unit="N")
-    waves: Curve = told("cosine and sine of each wave of its random function")
+    over: str = described("what it runs over: position, velocity, phase or time")
+    rms: float = described("its root mean square", unit="N")
+    waves: Curve = described("cosine and sine of each wave of its random function")
 
 
 @dataclass(frozen=True)
 class World:
     """The flaws of one rig; of the noise all sizes are in deviations of it."""
 
-    kind: str = told("kind of the drive")
-    smooth: tuple[Blemish, ...] = told("small smooth forces")
-    friction: Curve = told("waves of the random curve of the level of friction over the speed")
-    flaws: Mapping[str, float] = told("scales of the motion, the foot that gives way and the far mode, in SI units")
-    stated: Mapping[str, float] = told("what the case says of each known value, over the truth")
-    bend: tuple[float, float] = told("even and odd bend of the sensor at its largest reading, as a share of that")
-    slow: float = told("share of the noise that has a memory")
-    memory: float = told("memory of that noise per sample")
-    hum: float = told("amplitude of the hum")
-    hum_pace: float = told("angular frequency of the hum", unit="rad/s")
-    step: float = told("quantisation of the readings")
-    curves: Mapping[str, tuple[float, ...]] = told(
+    kind: str = described("kind of the drive")
+    smooth: tuple[Blemish, ...] = described("small smooth forces")
+    friction: Curve = described("waves of the random curve of the level of friction over the speed")
+    flaws: Mapping[str, float] = described(
+        "scales of the motion, the foot that gives way and the far mode, in SI units"
+    )
+    stated: Mapping[str, float] = described("what the case says of each known value, over the truth")
+    bend: tuple[float, float] = described("even and odd bend of the sensor at its largest reading, as a share of that")
+    slow: float = described("share of the noise that has a memory")
+    memory: float = described("memory of that noise per sample")
+    hum: float = described("amplitude of the hum")
+    hum_pace: float = described("angular frequency of the hum", unit="rad/s")
+    step: float = described("quantisation of the readings")
+    curves: Mapping[str, tuple[float, ...]] = described(
         "tables that the integrator reads, by what they run over", default={}
     )
 

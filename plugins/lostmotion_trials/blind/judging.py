@@ -41,7 +41,7 @@ TURNING = {"phase": ("depth", "amplitude")}
 """Angles, and the amplitudes whose sign turns them by half a turn."""
 
 
-def judged(out: Path, registry: Registry, number: int) -> JudgedCase:
+def score_case(out: Path, registry: Registry, number: int) -> JudgedCase:
     """Return what became of a case: each effect with its outcome, what was named in error, parameters, held-out errors.
 
     Raises `DataError` when case or truth are not those that were sealed.
@@ -51,8 +51,8 @@ def judged(out: Path, registry: Registry, number: int) -> JudgedCase:
     file = place / "diagnosis" / "diagnosis.json"
     answer = load_result(Diagnosis, file, "run the same command again") if file.exists() else None
     if truth.world:
-        return _judged_roughly(answer, truth, truth.world.kind)
-    oracle = None
+        return _score_imperfect(answer, truth, truth.world.kind)
+    bound_status = None
     try:
         prepared = prepare(place / "case.toml", registry)
         best = yardstick(prepared, truth.machine, truth.effects, answer)
@@ -61,7 +61,7 @@ def judged(out: Path, registry: Registry, number: int) -> JudgedCase:
         raise
     except (LostMotionError, ArithmeticError, ValueError) as err:
         best = Yardstick((math.nan,) * len(truth.effects), ("failed",) * len(truth.effects))
-        oracle, places = " ".join(str(err).split()), 2 if truth.machine.model == "robot_joint" else 1
+        bound_status, places = " ".join(str(err).split()), 2 if truth.machine.model == "robot_joint" else 1
     each = zip(truth.effects, best.gains, best.status, strict=True)
     effects = tuple(_as_missed(effect, gain, status) for effect, gain, status in each)
     return JudgedCase(
@@ -69,7 +69,7 @@ def judged(out: Path, registry: Registry, number: int) -> JudgedCase:
         model=truth.machine.model,
         variant=truth.variant,
         margin=best.margin,
-        oracle=oracle,
+        bound_status=bound_status,
         verdict=answer.verdict if answer else FAILED,
         answer=_held_against(answer, effects, truth.machine, several=places > 1) if answer else HeldAgainst(effects),
         heldout=_heldout(answer.fit, best) if answer else None,
@@ -81,8 +81,8 @@ def _as_missed(effect: Effect, gain: float, status: str) -> JudgedEffect:
     return JudgedEffect(**vars(effect), gain=gain, status=status, outcome=MISSED)
 
 
-def _judged_roughly(answer: Diagnosis | None, truth: SealedTruth, kind: str) -> JudgedCase:
-    """Return what became of a case in an imperfect world, where no model is true: nothing is held against an oracle.
+def _score_imperfect(answer: Diagnosis | None, truth: SealedTruth, kind: str) -> JudgedCase:
+    """Return what became of a case in an imperfect world, where no model is true: nothing is held against a bound.
 
     Names that were stated with more than `SURE` are listed with whether what they name is there; an effect is `sure`
     where one of them names it.

@@ -186,7 +186,7 @@ def _mechanisms(told: ProofSummary, outcomes: list[str], note: str) -> Listed:
     if told.sure:
         rows = [_plain(spoken(row.mechanism), *cells) for row, cells in counts]
         return Listed("By mechanism", ["Mechanism", *head, *outcomes], rows, note.partition("; in brackets")[0] + ".")
-    rows = [_plain(spoken(row.mechanism), figures(row.median_gain), *cells, row.oracle) for row, cells in counts]
+    rows = [_plain(spoken(row.mechanism), figures(row.median_gain), *cells, row.bound_status) for row, cells in counts]
     return Listed("By mechanism", ["Mechanism", "Median gain", *head, *outcomes, "True model"], rows, "")
 
 

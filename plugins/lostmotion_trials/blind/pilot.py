@@ -13,7 +13,7 @@ from functools import cached_property
 
 import numpy as np
 
-from lostmotion.codec import told
+from lostmotion.codec import described
 from lostmotion.contracts import Array
 from lostmotion_trials.blind.simulator import USUAL, BlindMachine
 
@@ -22,10 +22,10 @@ from lostmotion_trials.blind.simulator import USUAL, BlindMachine
 class Effect:
     """One hidden mechanism; `what` tells those apart that no library has, and which a diagnosis should call unknown."""
 
-    mechanism: str = told("its name in a diagnosis")
-    at: str = told("the place at which it acts; empty where any will do")
-    parameters: Mapping[str, float] = told("its parameters, in SI units")
-    what: str = told("what it is, where no library has it", default="")
+    mechanism: str = described("its name in a diagnosis")
+    at: str = described("the place at which it acts; empty where any will do")
+    parameters: Mapping[str, float] = described("its parameters, in SI units")
+    what: str = described("what it is, where no library has it", default="")
 
 
 @dataclass(frozen=True)

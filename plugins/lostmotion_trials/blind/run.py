@@ -17,7 +17,7 @@ from lostmotion.provenance import digest, provenance
 from lostmotion.registry import Registry
 from lostmotion.storage import folder_for, save_json
 from lostmotion_trials.blind.commitment import Blind, concealed, label, publish
-from lostmotion_trials.blind.judging import judged
+from lostmotion_trials.blind.judging import score_case
 from lostmotion_trials.blind.page import write_proof
 from lostmotion_trials.blind.results import DiagnosedCase, JudgedCase, Proof
 from lostmotion_trials.blind.score import summary
@@ -61,7 +61,7 @@ class Scorer:
 
     def __call__(self, number: int) -> JudgedCase:
         """Return what became of a case."""
-        return judged(self.out, _registry(self.plugins), number)
+        return score_case(self.out, _registry(self.plugins), number)
 
 
 _registry = lru_cache(maxsize=1)(Registry.discover)

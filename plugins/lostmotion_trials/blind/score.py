@@ -84,7 +84,7 @@ def summary(rows: Sequence[JudgedCase], failed: Sequence[DiagnosedCase]) -> Proo
         misses=tuple(_miss(effect, of) for effect, of in effects if effect.outcome != HIT),
         false_alarms=tuple(_alarm(row) for row in rows if row.answer.false),
         failed=tuple(LostCase(row.case, row.says) for row in failed),
-        unmeasured=tuple(LostCase(row.case, row.oracle) for row in rows if row.oracle is not None),
+        unmeasured=tuple(LostCase(row.case, row.bound_status) for row in rows if row.bound_status is not None),
     )
     aimed = replace(found, targets=tuple(_targets(found, effects)))
     return replace(aimed, says=tuple(says_of(aimed)))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from lostmotion.codec import told
+from lostmotion.codec import described
 from lostmotion_trials.blind.imperfect import World
 from lostmotion_trials.blind.pilot import Effect
 from lostmotion_trials.blind.simulator import BlindMachine
@@ -15,34 +15,34 @@ from lostmotion_trials.blind.simulator import BlindMachine
 class SealedMachine(BlindMachine):
     """A machine with the noise of its recording."""
 
-    measurement_noise: float = told("standard deviation of the measurement noise, in SI units")
+    measurement_noise: float = described("standard deviation of the measurement noise, in SI units")
 
 
 @dataclass(frozen=True, kw_only=True)
 class SealedTruth:
     """The truth behind one case: `sealed/NNN.json`."""
 
-    schema: str = told("`lostmotion.sealed/1`")
-    case: str = told("name of the case")
-    salt: str = told("random bytes, so that nobody finds a truth by trying")
-    variant: str = told("kind of the measurement noise: plain, coloured or outliers")
-    effects: tuple[Effect, ...] = told("what is hidden in the machine")
-    machine: SealedMachine = told("the machine and how it is recorded")
-    world: World | None = told("the flaws of a machine of an imperfect world", default=None)
+    schema: str = described("`lostmotion.sealed/1`")
+    case: str = described("name of the case")
+    salt: str = described("random bytes, so that nobody finds a truth by trying")
+    variant: str = described("kind of the measurement noise: plain, coloured or outliers")
+    effects: tuple[Effect, ...] = described("what is hidden in the machine")
+    machine: SealedMachine = described("the machine and how it is recorded")
+    world: World | None = described("the flaws of a machine of an imperfect world", default=None)
 
 
 @dataclass(frozen=True)
 class ConcealedCase:
     """A case that was written, with its truth."""
 
-    case: str = told("name of the case")
-    digests: Mapping[str, str] = told("SHA-256 of its files, and of the truth")
+    case: str = described("name of the case")
+    digests: Mapping[str, str] = described("SHA-256 of its files, and of the truth")
 
 
 @dataclass(frozen=True)
 class Seal:
     """What is published before the first diagnosis: `seal.json`."""
 
-    schema: str = told("`lostmotion.seal/1`")
-    digest: str = told("name of the digest")
-    digests: Mapping[str, Mapping[str, str]] = told("for each case the digests of its files, and of the truth")
+    schema: str = described("`lostmotion.seal/1`")
+    digest: str = described("name of the digest")
+    digests: Mapping[str, Mapping[str, str]] = described("for each case the digests of its files, and of the truth")

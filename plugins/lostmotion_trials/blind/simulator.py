@@ -10,7 +10,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 from scipy.signal import lfilter
 
-from lostmotion.codec import told
+from lostmotion.codec import described
 from lostmotion.contracts import Array
 from lostmotion.errors import DataError
 from lostmotion_trials.integrators.hidden import Body, Hidden, move
@@ -38,11 +38,15 @@ LAG_STEPS = 20
 class BlindDrive:
     """A drive: tones, the first the strongest, that may rise in frequency; steps that stay; hits of one hump each."""
 
-    tones: tuple[tuple[float, float, float], ...] = told("amplitude, angular frequency (rad/s) and phase of each tone")
-    sweep: float = told("rise of the frequency from the beginning of the recording on", unit="rad/s^2", default=0.0)
-    steps: tuple[tuple[float, float, float], ...] = told("time (s), size and length (s) of each step", default=())
-    hits: tuple[tuple[float, float, float], ...] = told("time (s), size and length (s) of each hit", default=())
-    pace: float = told("angular frequency that says what is slow or fast without tones", unit="rad/s", default=0.0)
+    tones: tuple[tuple[float, float, float], ...] = described(
+        "amplitude, angular frequency (rad/s) and phase of each tone"
+    )
+    sweep: float = described(
+        "rise of the frequency from the beginning of the recording on", unit="rad/s^2", default=0.0
+    )
+    steps: tuple[tuple[float, float, float], ...] = described("time (s), size and length (s) of each step", default=())
+    hits: tuple[tuple[float, float, float], ...] = described("time (s), size and length (s) of each hit", default=())
+    pace: float = described("angular frequency that says what is slow or fast without tones", unit="rad/s", default=0.0)
 
     @property
     def omega(self) -> float:
@@ -147,24 +151,24 @@ def _behind(seen: Array, rate: float, time: float) -> Array:
 class WidePrior:
     """A wide prior over the logarithm of a parameter."""
 
-    low: float = told("lower end of its range, in SI units")
-    high: float = told("upper end of its range, in SI units")
-    scale: str = told("`log`: its logarithm is uniform", default="log")
+    low: float = described("lower end of its range, in SI units")
+    high: float = described("upper end of its range, in SI units")
+    scale: str = described("`log`: its logarithm is uniform", default="log")
 
 
 @dataclass(frozen=True)
 class BlindMachine:
     """A machine, its drive and how it is recorded."""
 
-    model: str = told("model of the machine")
-    values: Mapping[str, float] = told("true parameters, in SI units")
-    estimated: tuple[str, ...] = told("parameters that the case estimates")
-    signal: BlindDrive = told("what drives it")
-    rate: float = told("samples in a second", unit="Hz")
-    samples: int = told("samples of the recording")
-    noise: float = told("measurement noise over the deviation of its own motion")
-    priors: Mapping[str, WidePrior] = told("what the case says of the parameters that it estimates", default={})
-    channel: str = told("what the sensor shows: position, velocity or acceleration", default="position")
+    model: str = described("model of the machine")
+    values: Mapping[str, float] = described("true parameters, in SI units")
+    estimated: tuple[str, ...] = described("parameters that the case estimates")
+    signal: BlindDrive = described("what drives it")
+    rate: float = described("samples in a second", unit="Hz")
+    samples: int = described("samples of the recording")
+    noise: float = described("measurement noise over the deviation of its own motion")
+    priors: Mapping[str, WidePrior] = described("what the case says of the parameters that it estimates", default={})
+    channel: str = described("what the sensor shows: position, velocity or acceleration", default="position")
 
     @property
     def body(self) -> Body:

@@ -46,11 +46,11 @@ def trial(design: Design, number: int) -> MachineTrial:
         return MachineTrial(number, FAILED, " ".join(str(err).split()), unknown)
     if not result.converged:
         return MachineTrial(number, UNCONVERGED, "; ".join(result.lacks), unknown)
-    found = _judged(result, {**machine.truth, **also}, machine.drawn)
+    found = _ranks_of(result, {**machine.truth, **also}, machine.drawn)
     return MachineTrial(number, OK, "", found, float(result.quality.ess.min()), float(result.quality.rhat.max()))
 
 
-def _judged(result: SampledPosterior, truth: Mapping[str, float], drawn: frozenset[str]) -> dict[str, Sought]:
+def _ranks_of(result: SampledPosterior, truth: Mapping[str, float], drawn: frozenset[str]) -> dict[str, Sought]:
     """Return for each parameter whose truth is known where that lies among the draws."""
     if lost := drawn - set(result.keys):
         raise ValueError(f"the posterior has no parameter {sorted(lost)[0]}, which was drawn")
@@ -69,7 +69,7 @@ def _standing(truth: float, chain: Array, unit: str) -> Standing:
     return Standing(unit, low, median, high, sd, (truth - mean) / sd, below, rank_of(truth, chain))
 
 
-Route = Callable[[Workshop, DrawnMachine, np.random.Generator, int], tuple[SampledPosterior, dict[str, float]]]
+RouteFunction = Callable[[Workshop, DrawnMachine, np.random.Generator, int], tuple[SampledPosterior, dict[str, float]]]
 """Makes the posterior of a machine from a generator for its motion and a seed for the fit; and further truths."""
 
 
@@ -143,5 +143,5 @@ def _write(shop: Workshop, machine: DrawnMachine, seen: list[SeenMachine], folde
     return folder / design.case.name
 
 
-WAYS: Mapping[str, Route] = {"trajectory": by_trajectory, "quantifiers": by_quantifiers}
+WAYS: Mapping[str, RouteFunction] = {"trajectory": by_trajectory, "quantifiers": by_quantifiers}
 """The ways to a posterior."""

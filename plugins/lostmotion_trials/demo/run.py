@@ -85,11 +85,11 @@ def _hidden(diagnosis: Diagnosis) -> tuple[str, ...]:
     """Return what was hidden, and what was found with its interval and whether that holds the truth."""
     key, _, name = HIDDEN.partition(".")
     told = f"hidden     {key}, {FRICTION:g} N m: the model that is fitted knows nothing of it"
-    found = [line for entry in diagnosis.found for line in _told(entry, key, name)]
+    found = [line for entry in diagnosis.found for line in _entry_lines(entry, key, name)]
     return told, *(found or ["found      nothing: this should not happen"])
 
 
-def _told(entry: Mechanism, key: str, name: str) -> list[str]:
+def _entry_lines(entry: Mechanism, key: str, name: str) -> list[str]:
     """Return one entry in words; the truth stands beside the parameter that was hidden."""
     mine, lines = _key(entry), []
     for own, q in entry.parameters.items():

@@ -1,8 +1,8 @@
 """A body as real rigs have it: moved by leapfrog, with small forces and flaws that no term of the library describes.
 
-The hidden mechanisms are those of `independent_zoo`. Beside them act a force over the position, one over the velocity,
+The hidden mechanisms are those of `hidden`. Beside them act a force over the position, one over the velocity,
 a law of friction whose level follows a curve over the speed, a foot that gives way, and a far mode that the sensor
-sees. With none of these it is the same motion as that of `independent_zoo.move` (`tests/science/test_rough.py`).
+sees. With none of these it is the same motion as that of `hidden.move` (`tests/science/test_rough.py`).
 """
 
 from __future__ import annotations
@@ -55,7 +55,7 @@ def _read(table, z):  # type: ignore[no-untyped-def]
 def move_rough(force, base, body, hidden, flaws, curves, state, clock, every):  # type: ignore[no-untyped-def]
     """Return what a sensor at the body shows (samples, 1) before every `every` steps; `state` moves on to the end.
 
-    As `independent_zoo.move`, with `curves` (3, CELLS + 1): force (N) over position, force (N) over velocity, and the
+    As `hidden.move`, with `curves` (3, CELLS + 1): force (N) over position, force (N) over velocity, and the
     level of friction over the speed, in shares of its usual one. `state` holds position, velocity, acceleration, what
     is remembered, the way of the foot, place and velocity of the far mode, and those of a hidden mass.
     """

@@ -26,7 +26,7 @@ def landed(lab: Lab, case: PaperCase, places: tuple[Array, Array], periods: int)
 
     def work(row: int) -> None:
         for column, x in enumerate(across):
-            states = flow.march(np.array([x, up[row]]) * scale, periods=periods, tangents=0).states[1:] / scale
+            states = flow.strobe(np.array([x, up[row]]) * scale, periods=periods, tangents=0).states[1:] / scale
             back = period_of(states)
             orbit = states[-back:] if back else np.zeros((1, 2))
             ends[row, column] = (back, *orbit[np.argmin(orbit[:, 0])])
@@ -99,13 +99,13 @@ def _counted(lab: Lab, case: PaperCase, points: int, cells: int) -> tuple[Array,
     found = lab.follow(flow, starts, periods=500, transient=500)
     state = found.states[int(np.argmax(found.chaotic)), -1]
     scale = np.array([case.x0, case.x0 * case.natural])
-    first = flow.march(state, periods=20_000, tangents=0).states / scale
+    first = flow.strobe(state, periods=20_000, tangents=0).states / scale
     low, high = first.min(axis=0), first.max(axis=0)
     room = 0.04 * (high - low)
     edges = tuple(np.linspace(a - r, b + r, cells + 1) for a, b, r in zip(low, high, room, strict=True))
     counts, chunk = np.zeros((cells, cells)), 100_000
     for _ in range(max(points // chunk, 1)):
-        states = flow.march(state, periods=chunk, tangents=0).states
+        states = flow.strobe(state, periods=chunk, tangents=0).states
         state = states[-1]
         seen = states[1:] / scale
         counts += np.histogram2d(seen[:, 0], seen[:, 1], bins=[edges[0], edges[1]])[0]

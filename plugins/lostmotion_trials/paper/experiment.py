@@ -33,7 +33,7 @@ from lostmotion_trials.paper.joint import (
     recording,
 )
 from lostmotion_trials.paper.lab import Lab
-from lostmotion_trials.paper.outcome import PaperOutcome, PaperTable, judged
+from lostmotion_trials.paper.outcome import PaperOutcome, PaperTable, verdict_of
 
 FIRST = 2.68
 """The level (degrees) of Figs. 17 to 19."""
@@ -60,7 +60,7 @@ def fig17(lab: Lab) -> PaperOutcome:
     )
     data = JointDrawing(made.time, made.base, made.link, left, whole.frequency, whole.density, rest.density)
     numbers = {"aperiodic_share": share, "noise_share": floor, "removed_share": size(removed) / size(x)}
-    return PaperOutcome(judged(share > 3.0 * floor), says, numbers, data)
+    return PaperOutcome(verdict_of(share > 3.0 * floor), says, numbers, data)
 
 
 def fig18(lab: Lab) -> PaperOutcome:
@@ -73,7 +73,7 @@ def fig18(lab: Lab) -> PaperOutcome:
     )
     curves = made.series.embedding.curves
     data = InformationDrawing(curves["lag"], curves["ami"], lag)
-    return PaperOutcome(judged(abs(lag - 0.174) < 0.03), says, {"lag_s": lag}, data)
+    return PaperOutcome(verdict_of(abs(lag - 0.174) < 0.03), says, {"lag_s": lag}, data)
 
 
 def fig19(lab: Lab) -> PaperOutcome:
@@ -81,7 +81,7 @@ def fig19(lab: Lab) -> PaperOutcome:
     embedding = recording(lab, FIRST).series.embedding
     says = f"E1 levels off at dimension {embedding.dim} (paper: 5), {STAND_IN}."
     data = CaoDrawing(embedding.curves["dim"], embedding.curves["e1"], embedding.curves["e2"])
-    return PaperOutcome(judged(abs(embedding.dim - 5) <= 1), says, {"dim": float(embedding.dim)}, data)
+    return PaperOutcome(verdict_of(abs(embedding.dim - 5) <= 1), says, {"dim": float(embedding.dim)}, data)
 
 
 def fig20(lab: Lab) -> PaperOutcome:
@@ -101,7 +101,7 @@ def fig20(lab: Lab) -> PaperOutcome:
     seconds = [lag * m.series.dt for lag, m in zip(lags, made, strict=True)]
     data = DelayDrawing([m.link for m in made], lags, seconds, titles)
     numbers = {f"chaotic_share_{m.level:g}": float(f.chaotic.mean()) for m, f in zip(made, found, strict=True)}
-    return PaperOutcome(judged(*right), says, numbers, data)
+    return PaperOutcome(verdict_of(*right), says, numbers, data)
 
 
 def fig21(lab: Lab) -> PaperOutcome:
@@ -123,7 +123,7 @@ def fig21(lab: Lab) -> PaperOutcome:
     numbers = {f"d2_{level:g}": v.value for level, v in zip(SUSPECT, values, strict=True)}
     numbers |= {f"apart_{level:g}": float(np.median(f.apart[2:])) for level, f in zip(SUSPECT, found, strict=True)}
     data = SlopesDrawing(found, [f"{level:.2f}°" for level in SUSPECT])
-    return PaperOutcome(judged(*differs, any(math.isfinite(v.value) for v in values)), says, numbers, data)
+    return PaperOutcome(verdict_of(*differs, any(math.isfinite(v.value) for v in values)), says, numbers, data)
 
 
 def _dimension(lab: Lab, made: JointRecording) -> Estimate:
@@ -164,7 +164,9 @@ def fig22(lab: Lab) -> PaperOutcome:
     lag = made.series.embedding.lag
     titles = ("as recorded", "behind noise reduction")
     data = DelayDrawing((made.series.x, after.x), (lag, lag), (lag * made.series.dt,) * 2, titles)
-    return PaperOutcome(judged(left < 0.8 * before), says, {"error_before_deg": before, "error_after_deg": left}, data)
+    return PaperOutcome(
+        verdict_of(left < 0.8 * before), says, {"error_before_deg": before, "error_after_deg": left}, data
+    )
 
 
 def fig23(lab: Lab) -> PaperOutcome:
@@ -179,7 +181,7 @@ def fig23(lab: Lab) -> PaperOutcome:
     )
     numbers = {"dim_before": float(before.dim), "dim_after": float(after.dim), "e1_rise": rises}
     data = CleanedCaoDrawing(*(curves[key] for curves in (before.curves, after.curves) for key in ("dim", "e1")))
-    return PaperOutcome(judged(after.dim <= before.dim, rises > 0.0, after.dim < before.dim), says, numbers, data)
+    return PaperOutcome(verdict_of(after.dim <= before.dim, rises > 0.0, after.dim < before.dim), says, numbers, data)
 
 
 def table2(lab: Lab) -> PaperOutcome:
@@ -208,7 +210,7 @@ def table2(lab: Lab) -> PaperOutcome:
         "parameters."
     )
     kinds = all((numbers[f"share_{level:g}"] > 0.5) == (level in SUSPECT) for level in LEVELS)
-    return PaperOutcome(judged(kinds, all(right), all(near)), says, numbers, table=PaperTable(heads, tuple(rows)))
+    return PaperOutcome(verdict_of(kinds, all(right), all(near)), says, numbers, table=PaperTable(heads, tuple(rows)))
 
 
 def _exponent(lab: Lab, made: JointRecording) -> Estimate:

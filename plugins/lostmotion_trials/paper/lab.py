@@ -100,7 +100,7 @@ class Lab:
         exponents, back = np.full(len(starts), np.nan), np.zeros(len(starts), dtype=np.int64)
         states = np.full((len(starts), periods, starts.shape[1]), np.nan)
         for k, start in enumerate(starts):
-            orbit = flow.march(start, periods=transient + periods, tangents=1)
+            orbit = flow.strobe(start, periods=transient + periods, tangents=1)
             exponents[k] = orbit.growth[transient:, 0].mean() / flow.period
             states[k] = orbit.states[transient + 1 :]
             back[k] = period_of(states[k])

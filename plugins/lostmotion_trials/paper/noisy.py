@@ -18,7 +18,7 @@ from lostmotion_trials.paper.drawings import (
     SlopesDrawing,
 )
 from lostmotion_trials.paper.lab import Lab, SampledFlow
-from lostmotion_trials.paper.outcome import PaperOutcome, judged
+from lostmotion_trials.paper.outcome import PaperOutcome, verdict_of
 from lostmotion_trials.paper.portraits import shared
 
 LEVELS = (0.0, 0.01, 0.05, 0.1)
@@ -81,7 +81,7 @@ def fig11(lab: Lab) -> PaperOutcome:
     numbers = {f"lag_{100 * level:g}": lag for level, lag in zip(LEVELS, lags, strict=True)}
     lower = bool(np.all(np.diff(heights) < 0.0))
     same = max(lags) - min(lags) < 0.015
-    return PaperOutcome(judged(abs(lags[0] - PAPER_LAG) < 0.012, same, lower), says, numbers, data)
+    return PaperOutcome(verdict_of(abs(lags[0] - PAPER_LAG) < 0.012, same, lower), says, numbers, data)
 
 
 def _map(lab: Lab, x: Array, dt: float) -> Array:
@@ -100,7 +100,7 @@ def fig12(lab: Lab) -> PaperOutcome:
         f"noise blurs it and ten per cent, {0.1 / width:.1f} times its width, hides it, as the paper shows."
     )
     numbers = {"width_over_std": width}
-    return PaperOutcome(judged(0.0 < width < 0.1, width > 0.01), says, numbers, NoisyMapsDrawing(NAMES, maps))
+    return PaperOutcome(verdict_of(0.0 < width < 0.1, width > 0.01), says, numbers, NoisyMapsDrawing(NAMES, maps))
 
 
 def fig13(lab: Lab) -> PaperOutcome:
@@ -114,7 +114,7 @@ def fig13(lab: Lab) -> PaperOutcome:
     data = NoisyCaoDrawing(NAMES, [c["dim"] for c in curves], [c["e1"] for c in curves])
     numbers = {f"dim_{100 * level:g}": float(d) for level, d in zip(LEVELS, dims, strict=True)}
     rising = bool(np.all(np.diff(dims) >= 0) and dims[-1] > dims[0])
-    return PaperOutcome(judged(rising, abs(dims[0] - 3) <= 1, abs(dims[-1] - 6) <= 2), says, numbers, data)
+    return PaperOutcome(verdict_of(rising, abs(dims[0] - 3) <= 1, abs(dims[-1] - 6) <= 2), says, numbers, data)
 
 
 def fig14(lab: Lab) -> PaperOutcome:
@@ -131,7 +131,7 @@ def fig14(lab: Lab) -> PaperOutcome:
     )
     numbers = {f"apart_{100 * level:g}": float(np.median(f.apart[2:])) for level, f in zip(LEVELS, found, strict=True)}
     numbers |= {f"slope_{100 * level:g}": float(f.recorded[4]) for level, f in zip(LEVELS, found, strict=True)}
-    return PaperOutcome(judged(*differs), says, numbers, SlopesDrawing(found, NAMES))
+    return PaperOutcome(verdict_of(*differs), says, numbers, SlopesDrawing(found, NAMES))
 
 
 def _reduced(lab: Lab) -> tuple[list[Array], list[float]]:
@@ -161,7 +161,7 @@ def fig15(lab: Lab) -> PaperOutcome:
         "(its level being known here): it does well below 10 %, as the paper says."
     )
     numbers = {f"left_{100 * level:g}": x for level, x in zip(LEVELS[1:], left[1:], strict=True)}
-    return PaperOutcome(judged(left[1] < 0.6, left[2] < 0.6), says, numbers, _maps(lab))
+    return PaperOutcome(verdict_of(left[1] < 0.6, left[2] < 0.6), says, numbers, _maps(lab))
 
 
 def fig16(lab: Lab) -> PaperOutcome:
@@ -176,7 +176,7 @@ def fig16(lab: Lab) -> PaperOutcome:
         f"of noise, {100 * off[2]:.1f} % at 5 % and {100 * off[3]:.1f} % at 10 % (medians)."
     )
     numbers = {f"off_{100 * level:g}": x for level, x in zip(LEVELS[1:], off[1:], strict=True)}
-    return PaperOutcome(judged(off[1] < 0.02, off[2] < 0.1), says, numbers, _maps(lab, window))
+    return PaperOutcome(verdict_of(off[1] < 0.02, off[2] < 0.1), says, numbers, _maps(lab, window))
 
 
 def _off(points: Array, curve: Array) -> float:

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Literal
 
-from lostmotion.codec import told
+from lostmotion.codec import described
 from lostmotion_trials.paper.drawings import Drawing
 
 Verdict = Literal["reproduced", "reproduced in part", "not reproduced", "beyond the paper"]
@@ -39,20 +39,20 @@ class PaperOutcome:
 class ReproducedItem:
     """What became of one figure or table."""
 
-    verdict: str = told("reproduced, reproduced in part, not reproduced, or beyond the paper")
-    says: str = told("what was found, against what the paper says")
-    numbers: Mapping[str, float] = told("key figures, by name")
+    verdict: str = described("reproduced, reproduced in part, not reproduced, or beyond the paper")
+    says: str = described("what was found, against what the paper says")
+    numbers: Mapping[str, float] = described("key figures, by name")
 
 
 @dataclass(frozen=True)
 class Reproduction:
     """What `reproduce.json` holds."""
 
-    items: Mapping[str, ReproducedItem] = told("figures and tables, by name")
-    provenance: Mapping[str, object] = told("versions, settings and seed that made it")
+    items: Mapping[str, ReproducedItem] = described("figures and tables, by name")
+    provenance: Mapping[str, object] = described("versions, settings and seed that made it")
 
 
-def judged(*claims: bool) -> Verdict:
+def verdict_of(*claims: bool) -> Verdict:
     """Return the verdict on a figure of which these claims hold or not."""
     if all(claims):
         return "reproduced"

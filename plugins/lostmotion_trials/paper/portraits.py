@@ -11,7 +11,7 @@ from lostmotion.contracts import Array
 from lostmotion_trials.paper.cases import CASES, PRINTED, PaperCase
 from lostmotion_trials.paper.drawings import ForceDrawing, PhaseDrawing, SectionsDrawing, UnfoldedDrawing
 from lostmotion_trials.paper.lab import FollowedMotions, Lab, SampledFlow
-from lostmotion_trials.paper.outcome import PaperOutcome, PaperTable, Verdict, judged
+from lostmotion_trials.paper.outcome import PaperOutcome, PaperTable, Verdict, verdict_of
 
 LOOKS = 600
 DELAY = 0.102
@@ -45,7 +45,7 @@ def portrait(lab: Lab, case: PaperCase, found: FollowedMotions, periods: int) ->
     return case.flow(lab).sample(found.states[shown(found), -1], periods=periods, looks=LOOKS)
 
 
-def told(found: FollowedMotions, bit: float, unit: str) -> str:
+def describe_motions(found: FollowedMotions, bit: float, unit: str) -> str:
     """Return in words how many starts end in chaos, and with which exponents."""
     many, chaotic = len(found.exponents), found.chaotic
     values = bit * found.exponents[chaotic]
@@ -67,8 +67,8 @@ def fig3(lab: Lab) -> PaperOutcome:
     holds = bool(first.chaotic.all()), bool(second.chaotic.any())
     bit = 1.0 / math.log(2.0)
     says = (
-        f"Case 1 is {told(first, bit, 'bit/s')}; Case 2 at 240 N, which the paper calls chaotic, is "
-        f"{told(second, bit, 'bit/s')}."
+        f"Case 1 is {describe_motions(first, bit, 'bit/s')}; Case 2 at 240 N, which the paper calls chaotic, is "
+        f"{describe_motions(second, bit, 'bit/s')}."
     )
     numbers = {
         "case1_chaotic_share": float(first.chaotic.mean()),
@@ -76,7 +76,7 @@ def fig3(lab: Lab) -> PaperOutcome:
         "case2_chaotic_share": float(second.chaotic.mean()),
     }
     titles = (f"Case 1, A = 100 N: {kind(first)}", f"Case 2, A = 240 N: {kind(second)}")
-    return PaperOutcome(judged(*holds), says, numbers, PhaseDrawing(states, titles))
+    return PaperOutcome(verdict_of(*holds), says, numbers, PhaseDrawing(states, titles))
 
 
 def kind(found: FollowedMotions) -> str:
@@ -92,17 +92,17 @@ def fig4(lab: Lab) -> PaperOutcome:
     lag = round(DELAY / (2.0 * math.pi / case.omega) * LOOKS)
     calm = ~found.chaotic
     printed = motions(lab, replace(case, omega=PRINTED))
-    says = f"Case 3 is {told(found, 1.0 / math.log(2.0), 'bit/s')}, as the paper has it"
+    says = f"Case 3 is {describe_motions(found, 1.0 / math.log(2.0), 'bit/s')}, as the paper has it"
     if calm.any():
         says += f"; beside the chaos there is a periodic attractor ({found.bits[calm].mean():.2f} bit/s)"
     says += (
         f". Its frequency is 1.57 Hz to the digits given; at 1.57 Hz exactly, 1e-5 higher, the motion is "
-        f"{told(printed, 1.0 / math.log(2.0), 'bit/s')}: the case lies at the edge of a window."
+        f"{describe_motions(printed, 1.0 / math.log(2.0), 'bit/s')}: the case lies at the edge of a window."
     )
     numbers = {"chaotic_share": float(found.chaotic.mean()), "bit_per_s": float(found.bits[found.chaotic].mean())}
     numbers["periodic_bit_per_s"] = float(found.bits[calm].mean()) if calm.any() else math.nan
     numbers["printed_bit_per_s"] = float(printed.bits[printed.chaotic].mean()) if printed.chaotic.any() else math.nan
-    return PaperOutcome(judged(bool(found.chaotic.any())), says, numbers, UnfoldedDrawing(states, lag))
+    return PaperOutcome(verdict_of(bool(found.chaotic.any())), says, numbers, UnfoldedDrawing(states, lag))
 
 
 def fig5(lab: Lab) -> PaperOutcome:
@@ -117,7 +117,7 @@ def fig5(lab: Lab) -> PaperOutcome:
     off = float(np.abs(force - wanted).max())
     digits = "" if off == 0.0 else f" to {off:.1g}"
     says = f"The force of the model, read from its acceleration at rest, is that of eq. (3){digits}."
-    return PaperOutcome(judged(off < 1e-12), says, {"largest_difference": off}, ForceDrawing(p, force))
+    return PaperOutcome(verdict_of(off < 1e-12), says, {"largest_difference": off}, ForceDrawing(p, force))
 
 
 def four(lab: Lab) -> dict[float, FollowedMotions]:
@@ -140,8 +140,8 @@ def fig8(lab: Lab) -> PaperOutcome:
 
 def _four_told(found: dict[float, FollowedMotions]) -> tuple[Verdict, str]:
     bit = CASES[1].bit
-    words = [f"{x:g}: {told(found[x], bit, 'bit/time')}" for x in PLACES]
-    verdict = judged(
+    words = [f"{x:g}: {describe_motions(found[x], bit, 'bit/time')}" for x in PLACES]
+    verdict = verdict_of(
         bool(found[2.0].chaotic.all()), not found[2.6].chaotic.any(),
         bool(found[4.1].chaotic.any()), bool(found[7.6].chaotic.mean() > 0.5 and found[4.1].chaotic.any()),
     )  # fmt: skip
@@ -216,4 +216,4 @@ def table1(lab: Lab) -> PaperOutcome:
             else ", and Case 2 settles on periodic orbits from every start (it is chaotic at 230 N)."
         )
     )
-    return PaperOutcome(judged(*(k in good for k in CASES)), says, numbers, table=PaperTable(heads, tuple(rows)))
+    return PaperOutcome(verdict_of(*(k in good for k in CASES)), says, numbers, table=PaperTable(heads, tuple(rows)))

@@ -17,7 +17,7 @@ from lostmotion_trials.paper.drawings import (
     SharedPlaneDrawing,
 )
 from lostmotion_trials.paper.lab import Lab
-from lostmotion_trials.paper.outcome import PaperOutcome, judged, listed
+from lostmotion_trials.paper.outcome import PaperOutcome, listed, verdict_of
 
 LOW, HIGH = 1.0, 10.0
 """The range of 1/alpha in Fig. 6."""
@@ -118,7 +118,7 @@ def fig6(lab: Lab) -> PaperOutcome:
     numbers["highest_bit_per_time"] = float(np.nanmax(sweep.exponents))
     numbers["highest_near_4.1"] = near_four
     data = LineDrawing(sweep.inverse, sweep.exponents, sweep.share, KNOWN)
-    claims = judged(len(found) >= 3, abs(near_two - 0.06) < 0.015, near_four > 0.0)
+    claims = verdict_of(len(found) >= 3, abs(near_two - 0.06) < 0.015, near_four > 0.0)
     return PaperOutcome(claims, says, numbers, data)
 
 
@@ -138,7 +138,7 @@ def fig7(lab: Lab) -> PaperOutcome:
     numbers = {f"share_{d:g}": float(s) for d, s in zip(DAMPINGS, shares, strict=True)}
     data = DiagramsDrawing(inverse, [s.places for s in sweeps], DAMPINGS, shares)
     return PaperOutcome(
-        judged(bool(shares[-1] < 0.2 * shares.max()), bool(shares[3] > shares[-1])), says, numbers, data
+        verdict_of(bool(shares[-1] < 0.2 * shares.max()), bool(shares[3] > shares[-1])), says, numbers, data
     )
 
 
@@ -173,7 +173,7 @@ def fig10(lab: Lab) -> PaperOutcome:
     )
     numbers = {"share_low_damping": low, "share_high_damping": high, "share_mixed": mixed}
     data = SharedPlaneDrawing(found.inverse, 0.5 * found.dampings, found.exponents.max(axis=2), share)
-    return PaperOutcome(judged(low > 5.0 * high), says, numbers, data)
+    return PaperOutcome(verdict_of(low > 5.0 * high), says, numbers, data)
 
 
 def bifurcation(lab: Lab) -> PaperOutcome:

@@ -51,7 +51,7 @@ class DoubtedChannel(NamedTuple):
         return "force" if self.quantity == "torque" else self.quantity
 
 
-def doubts(inputs: Sequence[DoubtedChannel], sensors: Sequence[DoubtedChannel], dt: float) -> tuple[str, ...]:
+def warnings_of(inputs: Sequence[DoubtedChannel], sensors: Sequence[DoubtedChannel], dt: float) -> tuple[str, ...]:
     """Return what looks wrong with inputs and sensors that were sampled together every `dt` s.
 
     Units and power are compared where there is one input: with several, each may take up the power of the other. The

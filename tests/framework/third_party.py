@@ -94,7 +94,7 @@ class Reach(Quantifier[Flow]):
     reads = "flow"
 
     def estimate(self, data, *, rng):
-        value = float(np.max(np.abs(data.march(data.start, periods=40, tangents=1).states[:, 0])))
+        value = float(np.max(np.abs(data.strobe(data.start, periods=40, tangents=1).states[:, 0])))
         return Estimate(value, value, value, "ok")
 
 

@@ -17,7 +17,7 @@ CASE_1 = (1.0, 8.0, 4e4, 0.005, 40.0)
 
 
 @dataclass(frozen=True)
-class Animal:
+class LabelledSeries:
     """A series by name, what it is, its sampling step (s), and the period (s) of its drive if it has one."""
 
     name: str
@@ -172,7 +172,7 @@ def _roessler(n: int, dt: float) -> Callable[[np.random.Generator], Array]:
     return lambda rng: np.asarray(roessler(n, dt, np.array([1.0, 1.0, 0.0]) + rng.normal(size=3), 2000))
 
 
-def zoo(n: int = 10_000) -> list[Animal]:
+def rule_series(n: int = 10_000) -> list[LabelledSeries]:
     """Return the series with what each of them is."""
     period = 2 * math.pi / CASE_1[4]
     fifty, two = period / 50, period / 200
@@ -182,32 +182,32 @@ def zoo(n: int = 10_000) -> list[Animal]:
     golden = (math.sqrt(5) - 1) / 2
     torus = lines(((1.0, 1.0), (0.6, golden), (0.2, 1.0 + golden), (0.1, 2.0 - golden)), n, 0.02)
     return [
-        Animal("lin chaos", "chaotic", chaos, fifty, period),
-        Animal("lin chaos 200", "chaotic", lin(100.0, 200, 2 * n), two, period),
-        Animal("lin chaos 2 %", "chaotic", noisy(chaos, 0.02), fifty, period),
-        Animal("lin chaos 5 %", "chaotic", noisy(chaos, 0.05), fifty, period),
-        Animal("lin chaos 10 %", "chaotic", noisy(chaos, 0.10), fifty, period),
-        Animal("lin chaos 8 bit", "chaotic", quantised(chaos, 8), fifty, period),
-        Animal("lin 1/alpha 5", "chaotic", lin(40.0, 50, n), fifty, period),
-        Animal("lin 1/alpha 9.3", "chaotic", lin(200.0 / 9.3, 50, n), fifty, period),
-        Animal("roessler", "chaotic", _roessler(n, 0.1), 0.1),
-        Animal("roessler 5 %", "chaotic", noisy(_roessler(n, 0.1), 0.05), 0.1),
-        Animal("lin periodic", "periodic", twist, fifty, period),
-        Animal("lin periodic 2 %", "periodic", noisy(twist, 0.02), fifty, period),
-        Animal("lin periodic 10 %", "periodic", noisy(twist, 0.10), fifty, period),
-        Animal("lin 1/alpha 4.1", "periodic", lin(200.0 / 4.1, 50, n), fifty, period),
-        Animal("lin 1/alpha 4.1 8 bit", "periodic", quantised(lin(200.0 / 4.1, 50, n), 8), fifty, period),
-        Animal("sine and noise", "periodic", noisy(tone, 0.05), 0.0213),
-        Animal("torus", "quasiperiodic", torus, 0.02),
-        Animal("torus 5 %", "quasiperiodic", noisy(torus, 0.05), 0.02),
-        Animal("white noise", "stochastic", lambda rng: rng.normal(size=n), 0.01),
-        Animal("red noise", "stochastic", autoregressive((0.95,), n), 0.01),
-        Animal("random walk", "stochastic", lambda rng: np.cumsum(rng.normal(size=n)), 0.01),
-        Animal("resonance in noise", "stochastic", near, 0.01),
-        Animal("resonance, bent", "stochastic", _shaped(near), 0.01),
-        Animal("narrow resonance", "stochastic", autoregressive((0.995 * np.exp(0.2j),), n), 0.01),
-        Animal("chaos made noise", "stochastic", surrogate(chaos), fifty),
-        Animal("lin period 3, 5 %", "periodic", noisy(lin(66.0, 50, n), 0.05), fifty, period),
-        Animal("sine, resonating floor", "periodic", summed(tone, scaled(near, 0.15)), 0.0213),
-        Animal("two resonances", "stochastic", summed(near, autoregressive((0.98 * np.exp(0.9j),), n)), 0.01),
+        LabelledSeries("lin chaos", "chaotic", chaos, fifty, period),
+        LabelledSeries("lin chaos 200", "chaotic", lin(100.0, 200, 2 * n), two, period),
+        LabelledSeries("lin chaos 2 %", "chaotic", noisy(chaos, 0.02), fifty, period),
+        LabelledSeries("lin chaos 5 %", "chaotic", noisy(chaos, 0.05), fifty, period),
+        LabelledSeries("lin chaos 10 %", "chaotic", noisy(chaos, 0.10), fifty, period),
+        LabelledSeries("lin chaos 8 bit", "chaotic", quantised(chaos, 8), fifty, period),
+        LabelledSeries("lin 1/alpha 5", "chaotic", lin(40.0, 50, n), fifty, period),
+        LabelledSeries("lin 1/alpha 9.3", "chaotic", lin(200.0 / 9.3, 50, n), fifty, period),
+        LabelledSeries("roessler", "chaotic", _roessler(n, 0.1), 0.1),
+        LabelledSeries("roessler 5 %", "chaotic", noisy(_roessler(n, 0.1), 0.05), 0.1),
+        LabelledSeries("lin periodic", "periodic", twist, fifty, period),
+        LabelledSeries("lin periodic 2 %", "periodic", noisy(twist, 0.02), fifty, period),
+        LabelledSeries("lin periodic 10 %", "periodic", noisy(twist, 0.10), fifty, period),
+        LabelledSeries("lin 1/alpha 4.1", "periodic", lin(200.0 / 4.1, 50, n), fifty, period),
+        LabelledSeries("lin 1/alpha 4.1 8 bit", "periodic", quantised(lin(200.0 / 4.1, 50, n), 8), fifty, period),
+        LabelledSeries("sine and noise", "periodic", noisy(tone, 0.05), 0.0213),
+        LabelledSeries("torus", "quasiperiodic", torus, 0.02),
+        LabelledSeries("torus 5 %", "quasiperiodic", noisy(torus, 0.05), 0.02),
+        LabelledSeries("white noise", "stochastic", lambda rng: rng.normal(size=n), 0.01),
+        LabelledSeries("red noise", "stochastic", autoregressive((0.95,), n), 0.01),
+        LabelledSeries("random walk", "stochastic", lambda rng: np.cumsum(rng.normal(size=n)), 0.01),
+        LabelledSeries("resonance in noise", "stochastic", near, 0.01),
+        LabelledSeries("resonance, bent", "stochastic", _shaped(near), 0.01),
+        LabelledSeries("narrow resonance", "stochastic", autoregressive((0.995 * np.exp(0.2j),), n), 0.01),
+        LabelledSeries("chaos made noise", "stochastic", surrogate(chaos), fifty),
+        LabelledSeries("lin period 3, 5 %", "periodic", noisy(lin(66.0, 50, n), 0.05), fifty, period),
+        LabelledSeries("sine, resonating floor", "periodic", summed(tone, scaled(near, 0.15)), 0.0213),
+        LabelledSeries("two resonances", "stochastic", summed(near, autoregressive((0.98 * np.exp(0.9j),), n)), 0.01),
     ]

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from scipy.io import loadmat
 from scipy.signal import decimate
 
-from zoo import Animal
+from labelled_series import LabelledSeries
 
 Array = NDArray[np.float64]
 ROOT = Path(__file__).resolve().parents[1]
@@ -136,7 +136,7 @@ READERS: tuple[tuple[str, Callable[[Path], list[Found]]], ...] = (
 )
 
 
-def recorded(say: Callable[[str], None] = print) -> list[Animal]:
+def recorded(say: Callable[[str], None] = print) -> list[LabelledSeries]:
     """Return the recordings that are there; `say` is told which are not."""
     folder, animals = data_folder(), []
     for pattern, read in READERS:
@@ -147,5 +147,5 @@ def recorded(say: Callable[[str], None] = print) -> list[Animal]:
     return animals
 
 
-def _animal(found: Found) -> Animal:
-    return Animal(found.name, found.nature, lambda _rng: found.x, found.dt, found.period)
+def _animal(found: Found) -> LabelledSeries:
+    return LabelledSeries(found.name, found.nature, lambda _rng: found.x, found.dt, found.period)

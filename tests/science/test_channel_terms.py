@@ -12,10 +12,10 @@ import pytest
 from lostmotion.inference.fit import maximise
 from lostmotion.inference.selection import Selector
 from lostmotion.inference.setup import noise_frees
-from lostmotion.likelihood.drive import Tone
+from lostmotion.likelihood.drive import DriveHarmonic
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import Problem, Scales
-from lostmotion.likelihood.space import Free
+from lostmotion.likelihood.space import FreeParameter
 from lostmotion.likelihood.system import System
 from lostmotion_plugins.models.basic import LinearOscillator
 from lostmotion_plugins.terms.drive import ExcitationDelay, ExcitationGain, ExcitationHarmonic
@@ -48,11 +48,11 @@ def course_of(response, seed):
     observation = Observation.of(
         "run", response + 0.01 * response.std() * rng.standard_normal(SAMPLES), force[:, None], DT, "position"
     )
-    observation = replace(observation, tone=Tone(2.0 * math.pi / (observation.period * DT), AMPLITUDE))
+    observation = replace(observation, harmonic=DriveHarmonic(2.0 * math.pi / (observation.period * DT), AMPLITUDE))
     faults = (ExcitationDelay(), ExcitationGain(), ExcitationHarmonic())
     system = System(LinearOscillator(), (*faults, CoulombFriction(), CubicStiffness(), OffsetForce()))
     scales = Scales(AMPLITUDE, 1.2, 1.0 / OMEGA, usual=math.log((1e-3 * AMPLITUDE) ** 2 * DT), span=SAMPLES * DT)
-    free = Free("c", "N s/m", math.log(C), math.log(0.05), math.log(4.0), log=True)
+    free = FreeParameter("c", "N s/m", math.log(C), math.log(0.05), math.log(4.0), log=True)
     known = system.vector({"m": M, "c": C, "k": K})
     problem = Problem(system, (observation,), scales, known, (free, *noise_frees((observation,), scales)), nsub=2)
     fits = [maximise(problem, np.array([math.log(C), level, problem.start[-1]])) for level in (scales.usual, 0.0)]
@@ -102,8 +102,8 @@ def test_nothing_is_named_where_nothing_is_wrong():
 def test_the_step_of_a_sensor_is_read_off_its_values(step):
     """From a tenth of the noise to twice the noise; what was never rounded betrays no step. No chance but the noise."""
     z = moved() + 0.01 * np.random.default_rng(0).standard_normal(SAMPLES)
-    (found,), (error,) = SensorQuantisation.marks(SensorQuantisation.rounded(z, (step,)))
+    (found,), (error,) = SensorQuantisation.quantisation(SensorQuantisation.rounded(z, (step,)))
     assert found == pytest.approx(step, rel=1e-9)
     assert error < 1e-6 * step
-    assert SensorQuantisation.marks(z) == ((), ())
-    assert SensorQuantisation.marks(np.array([0.1, 0.1, np.nan, 0.1])) == ((), ())
+    assert SensorQuantisation.quantisation(z) == ((), ())
+    assert SensorQuantisation.quantisation(np.array([0.1, 0.1, np.nan, 0.1])) == ((), ())

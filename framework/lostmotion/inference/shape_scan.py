@@ -40,7 +40,7 @@ CLEAR = 8.0
 
 
 @dataclass(frozen=True)
-class Track:
+class SmoothedMotion:
     """A recorded motion: `states` (samples, n) as the filter sees them, and the gradient `lean` (samples,) there.
 
     `lean` is that of the log-likelihood by a force on the first body.
@@ -57,7 +57,7 @@ class Track:
         system, row = problem.system, place_of(problem.system.model, term_of(problem, key)[0]).row
         full = problem.full(self.theta)
         full[[system.index[name] for name in values]] = list(values.values())
-        packed = system.pack(full[None], observation.dt / problem.nsub, observation.tone)
+        packed = system.pack(full[None], observation.dt / problem.nsub, observation.harmonic)
         return np.asarray(self._rates(packed, frozenset({key}))[:, row] - self._bare[:, row])
 
     def columns(self, key: str, shape: Mapping[str, float]) -> Array:
@@ -79,7 +79,7 @@ class Track:
         """The derivatives (samples, n) of the states without any term."""
         problem, observation = self.problem, self.problem.observations[0]
         full = problem.full(self.theta)[None]
-        packed = problem.system.pack(full, observation.dt / problem.nsub, observation.tone)
+        packed = problem.system.pack(full, observation.dt / problem.nsub, observation.harmonic)
         return self._rates(packed, frozenset())
 
     def steady(self, key: str, shape: Mapping[str, float]) -> float:
@@ -143,7 +143,9 @@ def scouted(fit: Fit, *, forces: bool = True) -> dict[str, list[dict[str, float]
         return {}
     problem = stepped(fit.problem, fit.theta).on((whole.part(0, min(whole.samples, MOST_SAMPLES)),))
     states, lean = expected_force(problem, fit.theta)
-    track = Track(problem, fit.theta, np.ascontiguousarray(states[:, : len(problem.system.model.states)]), lean)
+    track = SmoothedMotion(
+        problem, fit.theta, np.ascontiguousarray(states[:, : len(problem.system.model.states)]), lean
+    )
     slopes, found = None, {}
     for key in keys:
         of_sensor = term_of(problem, key)[0].acts == "sensor"
@@ -166,7 +168,7 @@ def _free_shapes(problem: Problem, key: str) -> list[Slot]:
     return [s for s in sorted_slots(problem, key)[1] if s.param.scale == "log" and not s.param.choices]
 
 
-def _best(track: Track | SensorErrors, key: str) -> dict[str, float] | None:
+def _best(track: SmoothedMotion | SensorErrors, key: str) -> dict[str, float] | None:
     """Return the shape that goes with the gradient best, and better than the usual ones, or None."""
     problem = track.problem
     usual = {s.key: tried_of(s.param, problem.scales) for s in sorted_slots(problem, key)[1]}

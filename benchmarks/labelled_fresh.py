@@ -1,4 +1,4 @@
-"""A third zoo, written after the rules and looked at once they were settled: no limit was moved for it."""
+"""A third set of labelled series, written after the rules; no limit was moved for it."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.signal import lfilter
 
-from zoo import Animal, autoregressive, lines, noisy
-from zoo_wide import GOLDEN, TURN, Draw, bent, duffing, iterated, settled
+from labelled_series import LabelledSeries, autoregressive, lines, noisy
+from labelled_wide import GOLDEN, TURN, Draw, bent, duffing, iterated, settled
 
 Array = NDArray[np.float64]
 
@@ -105,26 +105,26 @@ def _henon(y: Array) -> Array:
     return np.array([1.0 - 1.4 * y[0] ** 2 + 0.3 * y[1], y[0]])
 
 
-def fresh_zoo(n: int = 10_000) -> list[Animal]:
+def fresh_series(n: int = 10_000) -> list[LabelledSeries]:
     """Return series that were made after the rules were settled, with what each of them is."""
     hard = settled(duffing(12.0, 1.0, 0.1, 0.0), (2.0, 3.0), TURN / 50, n)
     beats = lines(((1.0, 1.0), (0.3, 1.0 + 0.1 * GOLDEN), (0.3, 1.0 - 0.1 * GOLDEN)), n, 0.031)
     ar2 = autoregressive((0.985 * np.exp(0.3j),), n)
     return [
-        Animal("chua", "chaotic", settled(chua, (0.7, 0.0, 0.0), 0.06, n), 0.06),
-        Animal("halvorsen 2 %", "chaotic", noisy(settled(halvorsen, (-5.0, 0.0, 0.0), 0.03, n), 0.02), 0.03),
-        Animal("henon 3 %", "chaotic", noisy(iterated(_henon, (0.1, 0.1), n), 0.03), 1.0),
-        Animal("ueda at 12, 2 %", "chaotic", noisy(hard, 0.02), TURN / 50, TURN),
-        Animal("nagumo 3 %", "periodic", noisy(settled(nagumo, (0.0, 0.0), 0.9, n), 0.03), 0.9),
-        Animal("parametric swing", "periodic", settled(swing, (1.0, 0.0), 0.11, n), 0.11, 0.5 * TURN),
-        Animal("two van der pol", "quasiperiodic", settled(pair, (1.0, 0.0, 0.5, 0.0), 0.15, n), 0.15),
-        Animal("beats 2 %", "quasiperiodic", noisy(beats, 0.02), 0.031),
-        Animal("GARCH", "stochastic", garch(n), 0.01),
-        Animal("halves", "stochastic", halves(n), 0.01),
-        Animal("slipping sine", "stochastic", slipping(n), 0.01),
-        Animal("bilinear", "stochastic", bilinear(n), 0.01),
-        Animal("AR(2) behind a dead band", "stochastic", bent(ar2, lambda x: x - np.clip(x, -0.5, 0.5)), 0.01),
-        Animal("AR(2) hardened", "stochastic", bent(ar2, lambda x: x + 0.3 * x**3), 0.01),
-        Animal("exp of AR(2)", "stochastic", bent(ar2, np.exp), 0.01),
-        Animal("self-excited start", "unsteady", starting(n), 0.01),
+        LabelledSeries("chua", "chaotic", settled(chua, (0.7, 0.0, 0.0), 0.06, n), 0.06),
+        LabelledSeries("halvorsen 2 %", "chaotic", noisy(settled(halvorsen, (-5.0, 0.0, 0.0), 0.03, n), 0.02), 0.03),
+        LabelledSeries("henon 3 %", "chaotic", noisy(iterated(_henon, (0.1, 0.1), n), 0.03), 1.0),
+        LabelledSeries("ueda at 12, 2 %", "chaotic", noisy(hard, 0.02), TURN / 50, TURN),
+        LabelledSeries("nagumo 3 %", "periodic", noisy(settled(nagumo, (0.0, 0.0), 0.9, n), 0.03), 0.9),
+        LabelledSeries("parametric swing", "periodic", settled(swing, (1.0, 0.0), 0.11, n), 0.11, 0.5 * TURN),
+        LabelledSeries("two van der pol", "quasiperiodic", settled(pair, (1.0, 0.0, 0.5, 0.0), 0.15, n), 0.15),
+        LabelledSeries("beats 2 %", "quasiperiodic", noisy(beats, 0.02), 0.031),
+        LabelledSeries("GARCH", "stochastic", garch(n), 0.01),
+        LabelledSeries("halves", "stochastic", halves(n), 0.01),
+        LabelledSeries("slipping sine", "stochastic", slipping(n), 0.01),
+        LabelledSeries("bilinear", "stochastic", bilinear(n), 0.01),
+        LabelledSeries("AR(2) behind a dead band", "stochastic", bent(ar2, lambda x: x - np.clip(x, -0.5, 0.5)), 0.01),
+        LabelledSeries("AR(2) hardened", "stochastic", bent(ar2, lambda x: x + 0.3 * x**3), 0.01),
+        LabelledSeries("exp of AR(2)", "stochastic", bent(ar2, np.exp), 0.01),
+        LabelledSeries("self-excited start", "unsteady", starting(n), 0.01),
     ]  # fmt: skip

@@ -35,23 +35,23 @@ SLAB = 2**26
 """Bytes that are read at a time where nothing is kept."""
 _HEAD = "head"
 _READER = (
-    "import sys; from pathlib import Path; from lostmotion.recording.apart import main; "
+    "import sys; from pathlib import Path; from lostmotion.recording.subprocess_reader import main; "
     "sys.exit(main(sys.argv[1], Path(sys.argv[2])))"
 )
 """Run with -P, so that no module that lies beside a recording is taken for one of Python's."""
 
 
-def read_apart(path: Path) -> Table:
+def read_in_subprocess(path: Path) -> Table:
     """Return the columns of a file by name, each (n,), as another process has read them; `DataError` if it cannot."""
-    return _unpacked(_said(path, "columns"))
+    return _unpacked(_reader_output(path, "columns"))
 
 
-def walk_apart(path: Path) -> None:
+def walk_in_subprocess(path: Path) -> None:
     """Have another process read all of an HDF5 file first; `DataError` if that crashes, or has no end."""
-    _said(path, "walk")
+    _reader_output(path, "walk")
 
 
-def _said(path: Path, what: str) -> bytes:
+def _reader_output(path: Path, what: str) -> bytes:
     """Return the standard output of the reader."""
     line = [sys.executable, "-P", "-c", _READER, what, str(Path(path).absolute())]
     try:

@@ -6,7 +6,7 @@ from lostmotion.preparation.prepare import prepare
 from lostmotion.registry import default
 from lostmotion_trials.blind.bound import yardstick
 from lostmotion_trials.blind.commitment import Blind, concealed, publish, unsealed
-from lostmotion_trials.blind.judging import judged
+from lostmotion_trials.blind.judging import score_case
 from lostmotion_trials.blind.pilot import Effect
 
 pytestmark = pytest.mark.slow
@@ -34,7 +34,7 @@ def test_gain_grows_with_what_is_left_out(tmp_path):
 
 def test_case_without_a_diagnosis_counts_as_missed(tmp_path):
     concealed_in(tmp_path, Blind(4, 800, ("unknown",)))
-    row = judged(tmp_path, default(), 0)
+    row = score_case(tmp_path, default(), 0)
     assert row.verdict == "failed"
     assert [e.outcome for e in row.answer.effects] == ["missed"]
     assert row.answer.effects[0].status == "no likelihood"

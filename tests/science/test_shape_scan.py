@@ -12,7 +12,7 @@ from truths import case_of
 
 from lostmotion.contracts import Param, Term
 from lostmotion.diagnosis.search import diagnose
-from lostmotion.inference.scout import scouted
+from lostmotion.inference.shape_scan import scouted
 from lostmotion.likelihood.system import System
 from lostmotion.preparation.candidates import candidates_of
 from lostmotion.quantities import FORCE, LENGTH

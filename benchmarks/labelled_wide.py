@@ -1,7 +1,7 @@
 """Series that the rules of `analyse` were not made on: closed forms, maps, noise, and flows by SciPy's DOP853.
 
-What each flow is was found apart from `analyse`: `python benchmarks/zoo_wide.py` integrates the tangent equations and
-prints the largest exponent of each.
+What each flow is was found apart from `analyse`: `python benchmarks/labelled_wide.py` integrates the tangent equations
+and prints the largest exponent of each.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 from scipy.signal import lfilter
 
-from zoo import Animal, autoregressive, lines, noisy
+from labelled_series import LabelledSeries, autoregressive, lines, noisy
 
 Array = NDArray[np.float64]
 Draw = Callable[[np.random.Generator], Array]
@@ -285,16 +285,16 @@ def swept(n: int) -> Draw:
     return draw
 
 
-def _louder(animal: Animal, share: float) -> Animal:
+def _louder(animal: LabelledSeries, share: float) -> LabelledSeries:
     return replace(animal, name=f"{animal.name} {share:.0%}", draw=noisy(animal.draw, share))
 
 
-def wide_zoo(n: int = 10_000) -> list[Animal]:
+def wide_series(n: int = 10_000) -> list[LabelledSeries]:
     """Return series that the rules were not made on, with what each of them is.
 
     `unsteady` is what is none of the four: it dies away or is swept, and `undecided` is right of it.
     """
-    flows = [Animal(name, f[0], moved(name, n), f[3], f[4]) for name, f in FLOWS.items()]
+    flows = [LabelledSeries(name, f[0], moved(name, n), f[3], f[4]) for name, f in FLOWS.items()]
     by_name = {a.name: a for a in flows}
     shares = (("duffing chaos", 0.03), ("ueda", 0.10), ("lorenz", 0.05), ("duffing period 5", 0.03),
               ("van der pol", 0.05), ("van der pol driven", 0.03), ("duffing, two drives", 0.05))  # fmt: skip
@@ -305,35 +305,35 @@ def wide_zoo(n: int = 10_000) -> list[Animal]:
     return [
         *flows,
         *loud,
-        Animal("mackey-glass 30", "chaotic", mackey_glass(30.0, n, 1.0), 1.0),
-        Animal("mackey-glass 17, 3 %", "chaotic", noisy(mackey_glass(17.0, n, 1.0), 0.03), 1.0),
-        Animal("ikeda", "chaotic", iterated(_ikeda, (0.1, 0.1), n), 1.0),
-        Animal("ikeda 5 %", "chaotic", noisy(iterated(_ikeda, (0.1, 0.1), n), 0.05), 1.0),
-        Animal("logistic 3.9", "chaotic", logistic(3.9, n), 1.0),
-        Animal("intermittent logistic", "chaotic", logistic(1.0 + math.sqrt(8.0) - 2e-4, n), 1.0),
-        Animal("intermittent map", "chaotic", iterated(lambda y: (y + y**1.6) % 1.0, (0.3,), n), 1.0),
-        Animal("logistic period 4, 2 %", "periodic", noisy(logistic(3.5, n), 0.02), 1.0),
-        Animal("circle map", "quasiperiodic", iterated(_circle, (0.0, 0.1), n), 1.0),
-        Animal("three tones", "quasiperiodic", three, 0.03),
-        Animal("strange, no chaos", "quasiperiodic", iterated(_gopy, (0.5, 0.1), n), 1.0),
-        Animal("AR(4)", "stochastic", ar4, 0.01),
-        Animal("AR(2) cubed", "stochastic", bent(ar2, lambda x: x**3), 0.01),
-        Animal("AR(2) clipped", "stochastic", bent(ar2, np.tanh), 0.01),
-        Animal("AR(4) squared", "stochastic", bent(ar4, lambda x: x + 0.5 * x**2), 0.01),
-        Animal("1/f noise", "stochastic", coloured(1.0, n), 0.01),
-        Animal("1/f^1.7 noise", "stochastic", coloured(1.7, n), 0.01),
-        Animal("telegraph", "stochastic", telegraph(0.02, n), 0.01),
-        Animal("telegraph, smoothed", "stochastic", telegraph(0.02, n, 0.9), 0.01),
-        Animal("threshold AR", "stochastic", threshold(n), 0.01),
-        Animal("loud and quiet", "stochastic", loud_and_quiet(n), 0.01),
-        Animal("ringing pulses", "stochastic", pulses(n), 0.01),
-        Animal("shaken, hardening", "stochastic", shaken(1.0, 1.0, 0.5, n), 0.15),
-        Animal("shaken, two wells", "stochastic", shaken(-1.0, 1.0, 0.3, n), 0.15),
-        Animal("shaken and driven", "stochastic", shaken(-1.0, 1.0, 0.2, n, damping=0.3, sine=0.2), 0.15, TURN),
-        Animal("cycle, wandering", "stochastic", wandering(n, 0.03), 0.01),
-        Animal("cycle, wandering far", "stochastic", wandering(n, 0.1), 0.01),
-        Animal("decay", "unsteady", dying(n), 0.01),
-        Animal("sweep", "unsteady", swept(n), 0.01),
+        LabelledSeries("mackey-glass 30", "chaotic", mackey_glass(30.0, n, 1.0), 1.0),
+        LabelledSeries("mackey-glass 17, 3 %", "chaotic", noisy(mackey_glass(17.0, n, 1.0), 0.03), 1.0),
+        LabelledSeries("ikeda", "chaotic", iterated(_ikeda, (0.1, 0.1), n), 1.0),
+        LabelledSeries("ikeda 5 %", "chaotic", noisy(iterated(_ikeda, (0.1, 0.1), n), 0.05), 1.0),
+        LabelledSeries("logistic 3.9", "chaotic", logistic(3.9, n), 1.0),
+        LabelledSeries("intermittent logistic", "chaotic", logistic(1.0 + math.sqrt(8.0) - 2e-4, n), 1.0),
+        LabelledSeries("intermittent map", "chaotic", iterated(lambda y: (y + y**1.6) % 1.0, (0.3,), n), 1.0),
+        LabelledSeries("logistic period 4, 2 %", "periodic", noisy(logistic(3.5, n), 0.02), 1.0),
+        LabelledSeries("circle map", "quasiperiodic", iterated(_circle, (0.0, 0.1), n), 1.0),
+        LabelledSeries("three tones", "quasiperiodic", three, 0.03),
+        LabelledSeries("strange, no chaos", "quasiperiodic", iterated(_gopy, (0.5, 0.1), n), 1.0),
+        LabelledSeries("AR(4)", "stochastic", ar4, 0.01),
+        LabelledSeries("AR(2) cubed", "stochastic", bent(ar2, lambda x: x**3), 0.01),
+        LabelledSeries("AR(2) clipped", "stochastic", bent(ar2, np.tanh), 0.01),
+        LabelledSeries("AR(4) squared", "stochastic", bent(ar4, lambda x: x + 0.5 * x**2), 0.01),
+        LabelledSeries("1/f noise", "stochastic", coloured(1.0, n), 0.01),
+        LabelledSeries("1/f^1.7 noise", "stochastic", coloured(1.7, n), 0.01),
+        LabelledSeries("telegraph", "stochastic", telegraph(0.02, n), 0.01),
+        LabelledSeries("telegraph, smoothed", "stochastic", telegraph(0.02, n, 0.9), 0.01),
+        LabelledSeries("threshold AR", "stochastic", threshold(n), 0.01),
+        LabelledSeries("loud and quiet", "stochastic", loud_and_quiet(n), 0.01),
+        LabelledSeries("ringing pulses", "stochastic", pulses(n), 0.01),
+        LabelledSeries("shaken, hardening", "stochastic", shaken(1.0, 1.0, 0.5, n), 0.15),
+        LabelledSeries("shaken, two wells", "stochastic", shaken(-1.0, 1.0, 0.3, n), 0.15),
+        LabelledSeries("shaken and driven", "stochastic", shaken(-1.0, 1.0, 0.2, n, damping=0.3, sine=0.2), 0.15, TURN),
+        LabelledSeries("cycle, wandering", "stochastic", wandering(n, 0.03), 0.01),
+        LabelledSeries("cycle, wandering far", "stochastic", wandering(n, 0.1), 0.01),
+        LabelledSeries("decay", "unsteady", dying(n), 0.01),
+        LabelledSeries("sweep", "unsteady", swept(n), 0.01),
     ]  # fmt: skip
 
 
