@@ -105,6 +105,7 @@ def test_a_killed_campaign_goes_on_with_the_same_bytes(tmp_path, whole, jobs, ho
     assert files(out) == files(whole)
 
 
+@pytest.mark.slow
 def test_the_number_of_processes_changes_no_byte(tmp_path, whole):
     campaign().run(tmp_path, 2)
     assert files(tmp_path) == files(whole)

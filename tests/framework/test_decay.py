@@ -55,6 +55,7 @@ def test_the_exponential_is_met_to_nine_digits(samples, ratio):
     assert found.amplitude == pytest.approx(np.exp(-ratio * W * found.time), rel=1e-6)
 
 
+@pytest.mark.slow
 def test_standard_errors_are_those_of_the_scatter():
     rng = np.random.default_rng(1)
     rows = []

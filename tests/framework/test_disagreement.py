@@ -96,6 +96,7 @@ def struck(rng, loudest=1.0):
     return observed(excitation=push), size * squares(rng), starts
 
 
+@pytest.mark.slow
 def test_hits_are_compared_at_equal_times_after_each():
     """Errors that die away after every hit alike are no disagreement of one hit: 100 recordings at 5 %, at most 13."""
     rng, wrong = np.random.default_rng(5), 0

@@ -90,6 +90,7 @@ def cut_after(calls):
     return watch
 
 
+@pytest.mark.slow
 def test_cut_short_after_any_block_it_ends_the_same(tmp_path, monkeypatch):
     """The same with an exception in place of a kill, so that every place is visited: pilots, start, each block."""
     monkeypatch.setattr("lostmotion.identification.sampling.EVERY", 0.0)

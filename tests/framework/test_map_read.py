@@ -133,6 +133,7 @@ def fine():
     return study_of(Request("lin_backlash", axes, 80, 60, 1), default())
 
 
+@pytest.mark.slow
 def test_intervals_hold_what_a_finer_map_shows(fine, tmp_path):
     """Every fourth cell read at the cells between: 95 % are promised; of 300 fewer than 91 % would be chance 0.2 %."""
     whole = make_map(fine, tmp_path / "fine.zarr", How(Crew(2)), quiet)

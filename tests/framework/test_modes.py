@@ -133,6 +133,7 @@ def test_a_low_narrow_hill_is_started_from_too() -> None:
     assert len(tried.peaks(50)) == 40
 
 
+@pytest.mark.slow
 def test_a_rough_hill_is_one_mode() -> None:
     """The kink of a backlash makes the posterior rough; two seeds find the same single maximum. No chance."""
     priors = {"c": Prior(0.8, 80.0, "log"), "x0": Prior(5e-4, 5e-2, "log")}

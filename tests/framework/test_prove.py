@@ -123,6 +123,7 @@ def test_seal_is_enlarged_and_never_replaced(tmp_path):
         publish(tmp_path, [concealed(Blind(9, SHORT), tmp_path, 0)])
 
 
+@pytest.mark.slow
 def test_clean_study_has_every_kind_of_noise(tmp_path):
     kinds = set()
     for number in range(12):

@@ -75,6 +75,7 @@ def test_nothing_is_told_without_a_drift() -> None:
             assert [*note_drift(*both, DT)] == []
 
 
+@pytest.mark.slow
 def test_standard_errors_are_those_of_repeated_recordings() -> None:
     found = [clock_drift(*linear(seed, 100.0, tones=60, noise=0.1, seconds=20.0), DT) for seed in range(40)]
     away = [(1e6 * drift.rate - 100.0) / (1e6 * drift.error) for drift in found]

@@ -99,6 +99,7 @@ def test_known_values_stand_beside_the_parameters(page):
     assert "inside" in page
 
 
+@pytest.mark.usefixtures("unsaved")
 def test_a_known_value_outside_its_interval_is_said(tmp_path):
     page = _page(tmp_path, made.mismatch() | {"truth": {"c": 9.0}})
     assert '<td class="outside">outside</td>' in page
@@ -127,6 +128,7 @@ def test_dollar_signs_in_names_are_not_taken_for_formulas(tmp_path):
     assert "section-ranking" in _page(tmp_path, facts)
 
 
+@pytest.mark.usefixtures("unsaved")
 def test_an_adequate_model_has_nothing_missing_and_no_after(data, tmp_path):
     page = _page(tmp_path, made.adequate(), made.alone(data))
     assert _heading(page) == "Nothing is missing that this recording can show."
@@ -135,12 +137,14 @@ def test_an_adequate_model_has_nothing_missing_and_no_after(data, tmp_path):
     assert "<th>State" not in page
 
 
+@pytest.mark.usefixtures("unsaved")
 def test_a_mismatch_without_a_name_is_open(tmp_path):
     page = _page(tmp_path, made.unknown())
     assert _heading(page) == "Something is missing that no mechanism of the library explains."
     assert "Mismatch, open" in page
 
 
+@pytest.mark.usefixtures("unsaved")
 def test_what_was_learned_is_drawn_with_its_band_and_its_proposal(tmp_path):
     facts, at = made.unknown(), [-0.01, 0.0, 0.01]
     low, force, high = [-1.5, -0.2, 0.5], [-1.0, 0.0, 1.0], [-0.5, 0.2, 1.5]
@@ -154,6 +158,7 @@ def test_what_was_learned_is_drawn_with_its_band_and_its_proposal(tmp_path):
     assert "A proposal, not a finding. It reads 1·10⁶ N/m³ x³." in page
 
 
+@pytest.mark.usefixtures("unsaved")
 def test_what_noise_would_show_as_well_is_told_from_what_it_would_not(data, tmp_path):
     facts = made.mismatch()
     facts["where"] |= {"significant": ["velocity"], "against": "the likelihood ratio of a curve"}
@@ -161,6 +166,7 @@ def test_what_noise_would_show_as_well_is_told_from_what_it_would_not(data, tmp_
     assert "A star marks what is beyond chance by the likelihood ratio of a curve." in page
 
 
+@pytest.mark.usefixtures("unsaved")
 def test_without_arrays_there_are_still_words_ranking_and_parameters(tmp_path):
     assert _sections(_page(tmp_path, made.mismatch())) == ["ranking", "parameters", "show"]
 
@@ -222,6 +228,7 @@ def test_a_model_that_runs_away_does_not_blow_up_the_figures(data, tmp_path):
     assert _sections(_page(tmp_path, made.mismatch(), wild)) == list(SECTIONS)
 
 
+@pytest.mark.usefixtures("unsaved")
 def test_a_drive_without_period_and_numbers_that_are_null_are_borne(data, tmp_path):
     facts = made.mismatch() | {"lyapunov": {"before": None, "after": None, "unit": "1/s"}}
     facts["unexplained_before"] |= {"rms": None, "share_of_drive": None}
@@ -231,6 +238,7 @@ def test_a_drive_without_period_and_numbers_that_are_null_are_borne(data, tmp_pa
     assert _sections(_page(tmp_path, facts, data)) == list(SECTIONS)
 
 
+@pytest.mark.usefixtures("unsaved")
 def test_several_recordings_show_the_one_that_was_held_out(data, tmp_path):
     two = data.copy(deep=True)
     half = two.sizes["time"] // 2

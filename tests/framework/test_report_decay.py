@@ -6,6 +6,7 @@ import re
 from dataclasses import replace
 
 import numpy as np
+import pytest
 import report_fixture as made
 
 from lostmotion.codec import to_plain
@@ -75,6 +76,7 @@ def page_of(folder, facts):
     return write_report(folder).read_text(encoding="utf-8")
 
 
+@pytest.mark.usefixtures("unsaved")
 def test_the_page_shows_decays_after_the_prediction(tmp_path):
     page = page_of(tmp_path, made.mismatch() | {"decay": DECAY})
     assert page.index("section-prediction") < page.index("section-decay") < page.index("section-missing")
@@ -82,6 +84,7 @@ def test_the_page_shows_decays_after_the_prediction(tmp_path):
     assert "Each dot is a cycle of 2 decays, one after each hit" in page
 
 
+@pytest.mark.usefixtures("unsaved")
 def test_a_decay_that_could_not_be_measured_is_said_without_a_figure(tmp_path):
     page = page_of(tmp_path, made.mismatch() | {"decay": {"says": "No free decay could be measured."}})
     section = page.partition('id="section-decay"')[2].partition("</section>")[0]
@@ -89,6 +92,7 @@ def test_a_decay_that_could_not_be_measured_is_said_without_a_figure(tmp_path):
     assert "<figure>" not in section
 
 
+@pytest.mark.usefixtures("unsaved")
 def test_a_recording_without_decays_has_no_section(tmp_path):
     assert "section-decay" not in page_of(tmp_path, made.mismatch())
 
@@ -99,6 +103,7 @@ def test_lists_of_different_lengths_are_not_drawn():
     assert decay.draw(evidence) is None
 
 
+@pytest.mark.usefixtures("unsaved")
 def test_where_nothing_drives_the_page_speaks_of_no_drive(tmp_path):
     facts = made.mismatch() | {"decay": DECAY}
     facts["drive"] = {"amplitude": 3.0, "unit": "N", "of": "the inertial force", "frequency": None, "free": True}

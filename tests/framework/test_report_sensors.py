@@ -41,6 +41,7 @@ def data():
     return made.arrays(periods=20)
 
 
+@pytest.mark.usefixtures("unsaved")
 def test_each_sensor_has_its_panels_and_its_row(data, tmp_path):
     home = made.write(tmp_path, facts(), two_sensors(data))
     evidence = read_evidence(home)
@@ -65,6 +66,7 @@ def test_each_sensor_has_its_panels_and_its_row(data, tmp_path):
     assert "of the first sensor, motor &lt;b&gt;" in page
 
 
+@pytest.mark.usefixtures("unsaved")
 def test_one_model_has_one_column_of_errors(data, tmp_path):
     evidence = read_evidence(made.write(tmp_path, facts(made.adequate), two_sensors(made.alone(data))))
     table = sensors.table(evidence)
@@ -72,6 +74,7 @@ def test_one_model_has_one_column_of_errors(data, tmp_path):
     assert [row[-1] for row in table.rows] == ["19 %", "23 %"]
 
 
+@pytest.mark.usefixtures("unsaved")
 def test_a_sensor_that_is_read_more_rarely_is_drawn_as_a_line(data, tmp_path):
     evidence = read_evidence(made.write(tmp_path, facts(), two_sensors(data, every=4)))
     with style.applied():
@@ -82,6 +85,7 @@ def test_a_sensor_that_is_read_more_rarely_is_drawn_as_a_line(data, tmp_path):
     assert np.isfinite(figure.axes[3].lines[1].get_ydata()).sum() > 20
 
 
+@pytest.mark.usefixtures("unsaved")
 def test_one_sensor_has_no_section(data, tmp_path):
     home = made.write(tmp_path, made.mismatch() | {"sensors": ROWS[:1]}, data)
     assert sensors.draw(read_evidence(home)) is None

@@ -18,6 +18,7 @@ def test_a_wave_without_a_sine_stands_out_by_its_cosine():
 
 
 @pytest.mark.parametrize("count", [1, 2, 3])
+@pytest.mark.slow
 def test_noise_is_believed_no_more_often_where_there_are_more_amplitudes(count):
     rng = np.random.default_rng(count)
     root = rng.normal(size=(count, count)) + 2.0 * np.eye(count)

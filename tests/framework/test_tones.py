@@ -21,12 +21,14 @@ def test_a_torus_is_explained_and_its_second_frequency_found():
 
 
 @pytest.mark.parametrize("share", [0.02, 0.1])
+@pytest.mark.slow
 def test_what_is_left_of_a_noisy_torus_is_its_noise(share):
     x = torus()
     noisy = x + share * x.std() * np.random.default_rng(0).normal(size=len(x))
     assert two_tones(noisy, 0.02, 1.0).left == pytest.approx(share, rel=0.1)
 
 
+@pytest.mark.slow
 def test_noise_is_left_as_it_is():
     x = np.random.default_rng(1).normal(size=5000)
     assert two_tones(x, 0.02, 1.0).left == pytest.approx(1.0, abs=0.03)

@@ -87,6 +87,7 @@ def said(folder, way):
     return json.loads(done.stdout)
 
 
+@pytest.mark.slow
 def test_a_plugin_file_loaded_under_three_names_shares_one_cache_and_one_answer(tmp_path):
     (tmp_path / "my_terms.py").write_text(PLUGIN)
     (tmp_path / "told.py").write_text(TOLD)

@@ -88,6 +88,7 @@ def test_curves_of_cao_are_those_of_the_peers(reference):
 
 
 @pytest.mark.real
+@pytest.mark.slow
 def test_noise_hardly_moves_the_minimum_and_asks_for_more_dimensions(reference):
     """What the paper says of noise: up to 10 % the minimum moves by a sample at most, and more dimensions are wanted.
 
@@ -214,6 +215,7 @@ def test_ties_do_not_spoil_the_neighbours():
 
 
 @pytest.mark.parametrize("n", [200, 1000, 5000])
+@pytest.mark.slow
 def test_independent_samples_stay_below_the_floor(n):
     """The floor is meant to be crossed once in forty times; it is no more than twice that, over 400 draws."""
     rng, crossed = np.random.default_rng(n), 0
@@ -373,6 +375,7 @@ def test_what_does_not_fit_is_refused(lorenz):
         dimension.cao(lorenz[:300], 40, theiler=10)
 
 
+@pytest.mark.slow
 def test_the_order_of_the_work_does_not_matter(lorenz, monkeypatch):
     one = choices.AmiKnnCao().choose(checked(lorenz), dt=0.02)
     monkeypatch.setattr("lostmotion.kernels.threads.cores", lambda: 1)

@@ -75,6 +75,7 @@ def test_fourier_keeps_the_spectrum_exactly_and_aaft_does_not_claim_to():
     assert spectral_error(x, Aaft().draw(data, draws=5, rng=rng())).min() > 0.05
 
 
+@pytest.mark.slow
 def test_iaaft_reaches_the_spectral_error_of_the_best_programs(lorenz):
     """3.1e-4, relative, on 20,000 samples as they come, where an established program stops at 5.3e-4.
 

@@ -61,6 +61,7 @@ def test_the_size_of_a_motion_is_told_by_its_acceleration(number):
     assert scales.velocity == pytest.approx(math.sqrt(2.0) * states[:, 1].std(), rel=0.1)
 
 
+@pytest.mark.slow
 def test_the_usual_noise_of_a_hammer_goes_with_its_peak():
     machine, problem, _, _, observation = posed(0)
     size = math.sqrt(math.exp(usual_of(problem, 1.0)) / machine.dt)

@@ -141,6 +141,7 @@ def test_the_same_record_left_in_step_shows_the_section_at_small_radii(lin):
 
 
 @pytest.mark.parametrize("share", [0.005, 0.02, 0.1, 0.2])
+@pytest.mark.slow
 def test_the_noise_of_lorenz_and_of_the_oscillator_is_good_to_a_fifth(lorenz, lin, share):
     """The scatter over seeds is about 6 %, and the oscillator's lies 10 % low: a quarter is missed in one of 200."""
     for x, theiler in ((lorenz, 100), (lin, 50)):
@@ -181,6 +182,7 @@ def test_correlation_sums_of_an_independent_program(reference, key, array):
 
 
 @pytest.mark.real
+@pytest.mark.slow
 def test_close_pairs_of_a_long_record_agree_with_an_independent_program(reference):
     """100,000 samples: 4 % of the lags are counted, and close pairs in cells."""
     told = json.loads((reference / "d2_curves_reference.json").read_text())["L N=100k"]

@@ -87,6 +87,7 @@ def test_an_eight_bit_sensor_changes_little(lorenz, method):
     assert got.low <= LORENZ <= got.high
 
 
+@pytest.mark.slow
 def test_the_classical_recipe_is_five_percent_low(lorenz):
     got = estimate(Rosenstein("classical", begin=1.0, end=3.0), series(lorenz, 0.02, (8, 5, 100)))
     assert got.status == "uncertain"

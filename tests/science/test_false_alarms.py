@@ -130,6 +130,7 @@ def duffing(rng, n=3000, per=50):
 
 
 @pytest.mark.parametrize("noise", [0.0, 0.1])
+@pytest.mark.slow
 def test_driven_chaos_is_no_noisy_periodic_orbit(noise):
     """Ueda's Duffing oscillator (Ueda, J. Stat. Phys. 20 (1979) 181-196) against shuffled periods. Seeded."""
     rng = np.random.default_rng(3)

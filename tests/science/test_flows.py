@@ -145,6 +145,7 @@ def test_linear_oscillator_shrinks_by_its_damping():
 
 
 @pytest.mark.parametrize("periods", [200, 2000])
+@pytest.mark.slow
 def test_intervals_cover(periods):
     """100 orbits of Case 1, solved exactly: the 95 % interval misses 7.235 at most 12 times (binomial: 1 in 1000)."""
     rng, misses = np.random.default_rng(3), np.zeros(2)

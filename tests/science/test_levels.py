@@ -125,6 +125,7 @@ def interval(values, weights, share=0.95):
     return tuple(values[order][np.searchsorted(below, [0.5 - 0.5 * share, 0.5 + 0.5 * share])])
 
 
+@pytest.mark.slow
 def test_gap_of_a_machine_of_known_damping(tmp_path):
     case = oscillator(x0=Prior(low=0.002, high=0.012))
     truth, amplitudes = {"x0": 0.0047}, (50.0, 75.0, 100.0, 140.0)

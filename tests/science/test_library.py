@@ -70,6 +70,7 @@ def late_rub(x, v, t):
     return -RUBBED * math.tanh(v / 1e-3) if t > LATE else 0.0
 
 
+@pytest.mark.slow
 def test_play_of_a_spring_is_found_from_afar(tmp_path):
     """Play of a third of the travel: from the nominal model the slope of the likelihood says little of it."""
     gap = 0.012
@@ -96,6 +97,7 @@ def test_levels_of_friction_that_differ_little_are_told_as_friction_and_an_offse
         assert found["offset_force.force"] == pytest.approx(0.5 * (levels[1] - levels[0]), rel=0.15)
 
 
+@pytest.mark.slow
 def test_friction_that_sets_in_late_is_named_with_its_onset(tmp_path):
     terms = [CoulombFriction(), QuadraticDamping(), LinearStiffness()]
     fit = nominal_of(tmp_path, terms, extra=late_rub)

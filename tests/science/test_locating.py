@@ -28,6 +28,7 @@ def study():
         pytest.param(3, "position", marks=pytest.mark.slow),
     ],
 )
+@pytest.mark.slow
 def test_the_true_covariate_and_place_come_first_of_two(study, number, first):
     """Machines with two places, fixed by seed and number."""
     row = study.one("two", 0, number)

@@ -116,6 +116,7 @@ def test_series_that_does_not_repeat_is_not_taken_for_one_that_does(name):
     assert (repeated, found, few) == (0, 0, 0)
 
 
+@pytest.mark.slow
 def test_series_that_repeats_is_always_found():
     """All of 40 cycles of random shape, period and noise (91 to 100 %, Clopper-Pearson 95 %)."""
     for seed in range(40):

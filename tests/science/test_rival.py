@@ -84,6 +84,7 @@ def test_evidence_is_the_integral_over_the_coefficients(seed):
     assert evidence_of(h, g, np.array([widths[0], 0.0])) == pytest.approx(evidence_of(h[:1, :1], g[:1], widths[:1]))
 
 
+@pytest.mark.slow
 def test_a_smooth_force_is_seen_by_the_discrepancy_and_gets_no_name(tmp_path):
     nominal, system = nominal_of(tmp_path, bend(0.25))
     best = expanded(nominal).best((), 1.0)
@@ -125,6 +126,7 @@ def test_friction_is_named_beside_a_smooth_force(tmp_path):
     assert course.chosen.problem.active <= set(FRICTIONS)
 
 
+@pytest.mark.slow
 def test_leads_are_antisymmetric_and_bounded_by_what_the_larger_set_says(tmp_path):
     nominal, _ = nominal_of(tmp_path, bend(0.25))
     key = "cubic_stiffness"
@@ -195,6 +197,7 @@ def test_a_channel_is_put_right_as_far_as_flaws_are_usual(tmp_path):
         ("coulomb_friction", lambda x, v, t: bend(0.2)(x, v, t) - 1.0 * np.tanh(v / 1e-3), False),
     ],
 )
+@pytest.mark.slow
 def test_a_term_is_doubted_where_no_model_is_right_and_predictions_do_without_it(tmp_path, key, extra, doubted):
     prepared, system = made_of(tmp_path, extra)
     train, held = split(prepared.observations)

@@ -65,6 +65,7 @@ def test_without_flaws_it_moves_as_in_the_perfect_world(name):
     assert not flawed[4:7].any()
 
 
+@pytest.mark.slow
 def test_all_flaws_agree_with_an_adaptive_method():
     """The twin is written from the equations of motion: a spring with play on a foot, curves, a bristle, a far mode."""
     flaws = Flaws(0.03, 0.3, 4e4, 200.0, 90.0, 0.02, 2e-4)

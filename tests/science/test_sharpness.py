@@ -80,6 +80,7 @@ def relative(fit):
 
 
 @pytest.mark.parametrize("level", PERIODIC)
+@pytest.mark.slow
 def test_periodic_motion_is_read_as_sharply_as_it_can_be(level):
     """1 % noise, 100 periods, force measured with 0.1 %: deviations below 1.3 bounds, x0 to better than 0.1 %.
 

@@ -78,6 +78,7 @@ def test_a_force_over_position_and_velocity_is_learned_as_a_map(tmp_path):
     assert np.std(left) < 0.25 * np.std(true)
 
 
+@pytest.mark.slow
 def test_a_spring_behind_a_dashpot_is_a_force_that_depends_on_the_history(tmp_path):
     found = learned(tmp_path, yielding)
     assert depends(found) == ["history"]

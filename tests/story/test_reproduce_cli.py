@@ -73,6 +73,7 @@ def test_the_table_has_the_three_cases(done):
     assert rows[1]["k1 (N/m)"] == "1000"
 
 
+@pytest.mark.slow
 def test_the_same_seed_gives_the_same_files(done, tmp_path):
     assert run("table1", "fig3", "fig5", "fig18", "--out", tmp_path, "--quick", "--quiet", "--jobs", "1").exit_code == 0
     for path in done[1].iterdir():
