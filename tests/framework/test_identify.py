@@ -157,10 +157,10 @@ def test_a_task_weighs_modes_by_their_evidence_and_keeps_all():
     fits = [fit_of(log_evidence=e, log_posterior=p) for e, p in ((1.0, 0.0), (1.0, 2.0), (-50.0, 0.0), (np.nan, 0.0))]
     fits[1] = fit_of((1.0, 1.0, 1.0, 1.0, 1.0), 2.0, 1.0)
     task = task_of([*fits, fit_of(log_posterior=-np.inf)])
-    assert task.cloud.kernels == 4
-    assert task.cloud.weights[0] == pytest.approx(task.cloud.weights[1])
-    assert task.cloud.weights[2] == pytest.approx(task.cloud.weights[3])
-    assert 0.03 < task.cloud.weights[2] < 0.06
+    assert task.mixture.kernels == 4
+    assert task.mixture.weights[0] == pytest.approx(task.cloud.weights[1])
+    assert task.mixture.weights[2] == pytest.approx(task.cloud.weights[3])
+    assert 0.03 < task.mixture.weights[2] < 0.06
     np.testing.assert_array_equal(task.maximum, np.ones(5))
 
 

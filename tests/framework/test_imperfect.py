@@ -232,7 +232,7 @@ def judge(found, *effects, model="lin_backlash", errors=(0.2, 0.1)):
     machine = SealedMachine(model, {}, (), BlindDrive(((1.0, 1.0, 0.0),)), 1.0, 1, 0.0, measurement_noise=0.0)
     truth = SealedTruth(schema="s", case="000", salt="", variant="plain", effects=effects, machine=machine)
     said = answers.answer(found=list(found), ranking=list(found), errors=errors)
-    return judging._judged_roughly(said, truth, CYCLE)
+    return judging._score_imperfect(said, truth, CYCLE)
 
 
 @pytest.mark.parametrize("law", judging.RUB)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from lostmotion.diagnosis import unknowns
-from lostmotion.inference.curves import _told_apart
+from lostmotion.inference.curves import _independent_part
 from lostmotion.inference.learned import OverPhase, OverPosition, names_of, spread
 from lostmotion.inference.proposal import Axis, proposed
 from lostmotion.inference.surfaces import KINDS, OverHistory, Surface, curves_for
@@ -149,7 +149,7 @@ def test_what_free_parameters_cover_promises_nothing():
     """Of the first direction a millionth of its information is left: a gradient there would promise a gain of 5e5."""
     own = np.diag([1.0, 4.0])
     left = np.diag([1e-6, 3.0])
-    gradient, information = _told_apart(np.array([1.0, 6.0]), left, own)
+    gradient, information = _independent_part(np.array([1.0, 6.0]), left, own)
     assert gradient == pytest.approx([0.0, 6.0], abs=1e-9)
     assert information == pytest.approx(np.diag([0.0, 3.0]), abs=1e-9)
 
