@@ -158,8 +158,8 @@ def test_a_task_weighs_modes_by_their_evidence_and_keeps_all():
     fits[1] = fit_of((1.0, 1.0, 1.0, 1.0, 1.0), 2.0, 1.0)
     task = task_of([*fits, fit_of(log_posterior=-np.inf)])
     assert task.mixture.kernels == 4
-    assert task.mixture.weights[0] == pytest.approx(task.cloud.weights[1])
-    assert task.mixture.weights[2] == pytest.approx(task.cloud.weights[3])
+    assert task.mixture.weights[0] == pytest.approx(task.mixture.weights[1])
+    assert task.mixture.weights[2] == pytest.approx(task.mixture.weights[3])
     assert 0.03 < task.mixture.weights[2] < 0.06
     np.testing.assert_array_equal(task.maximum, np.ones(5))
 
