@@ -129,7 +129,7 @@ def test_the_first_coordinate_of_an_equation_is_the_position():
     assert (sensor.attrs["of"], sensor.attrs["sensor"]) == ("position", "x1")
 
 
-def test_a_model_of_ones_own_makes_a_case():
+def test_a_model_of_ones_own_makes_a_case(tmp_path):
     from third_party import Cart
 
     case = lm.Case(
@@ -137,7 +137,8 @@ def test_a_model_of_ones_own_makes_a_case():
     )
     assert case.prepared(Registry.discover()).model == Cart()
     with pytest.raises(lm.LostMotionError, match="stands in no file"):
-        case.write("nowhere")
+        case.write(tmp_path / "folder")
+    assert not (tmp_path / "folder").exists()
 
 
 def test_terms_are_chosen_by_name():

@@ -97,10 +97,13 @@ class Case:
         )
 
     def write(self, folder: str | Path) -> Path:
-        """Return the path of `case.toml`, written into a folder with a table of each recording, all in SI units."""
-        place = folder_for(Path(folder))
+        """Return the path of `case.toml`, written into a folder with a table of each recording, all in SI units.
+
+        Nothing is written where the model cannot be named in a file.
+        """
+        model, place = self._model_table(), folder_for(Path(folder))
         entries = [_written(one, place) for one in self._several]
-        content: dict[str, Any] = {"title": self.title, "recordings": entries, "model": self._model_table()}
+        content: dict[str, Any] = {"title": self.title, "recordings": entries, "model": model}
         if self.truth:
             content["truth"] = dict(self.truth)
         dump_case(content, place / "case.toml")
