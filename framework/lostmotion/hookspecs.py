@@ -1,4 +1,6 @@
-"""The hooks that a plugin may implement. Each returns names and not objects, so that listing plugins imports none::
+"""The hooks that a plugin may implement. Each returns names and not objects, so that listing plugins imports none.
+
+A plugin with one term::
 
     from lostmotion.hookspecs import hookimpl
 
