@@ -40,7 +40,7 @@ from lostmotion.errors import DataError
 from lostmotion.inference.candidates import screen, slopes_of
 from lostmotion.inference.odds import Ratio, likely, log_odds
 from lostmotion.inference.setup import problem_of, search, stepped
-from lostmotion.likelihood.latent import missing_force
+from lostmotion.likelihood.latent import smooth_latent_force
 from lostmotion.likelihood.system import System, key_of
 from lostmotion.preparation.prepare import Prepared, prepare
 from lostmotion.registry import default
@@ -151,7 +151,7 @@ def one(kind: str, seed: int, number: int) -> Row:
     fit = search(problem_of(system, made.case, made.observations, jobs=1), np.random.default_rng(0))
     fitted = time.perf_counter()
     honest = stepped(fit.problem, fit.theta)
-    missing, plays = missing_force(honest, fit.theta), plays_of(honest, fit.theta)
+    missing, plays = smooth_latent_force(honest, fit.theta), plays_of(honest, fit.theta)
     located = locate(made.model, made.observations[0], missing, plays=plays, rng=np.random.default_rng([seed, number]))
     shared = time.perf_counter()
     odds = log_odds(fit)

@@ -9,7 +9,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from lostmotion.inference.setup import problem_of, stepped
-from lostmotion.likelihood.predict import filtered, free_run, observed
+from lostmotion.likelihood.predict import filter_recording, simulate_run, observe_states
 from lostmotion.likelihood.problem import NOISE
 from lostmotion.likelihood.system import System
 from lostmotion.preparation.prepare import prepare
@@ -68,10 +68,10 @@ def measures():
     free, likelihood = [], []
     for value in np.log(GAPS):
         theta[gap] = value
-        begin = filtered(problem, theta).states[0]
-        states = free_run(problem, theta, begin, 0, observation.samples)
+        begin = filter_recording(problem, theta).states[0]
+        states = simulate_run(problem, theta, begin, 0, observation.samples)
         free.append(
-            np.sqrt(np.mean((observed(problem, theta, states) - observation.response) ** 2))
+            np.sqrt(np.mean((observe_states(problem, theta, states) - observation.response) ** 2))
             / np.std(observation.response)
         )
         likelihood.append(problem.innovations(theta).log_likelihood)

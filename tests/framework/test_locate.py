@@ -8,7 +8,7 @@ from lostmotion.diagnosis.search import locate
 from lostmotion.inference.locate import covariates, further, summary
 from lostmotion.inference.odds import Ratio, averaged, gained, inflation, likely, p_values
 from lostmotion.inference.shares import Covariate, adjusted, phase_randomised, shares_of, significant
-from lostmotion.likelihood.latent import Missing
+from lostmotion.likelihood.latent import LatentForce
 from lostmotion.likelihood.observation import Observation
 from lostmotion.registry import default
 
@@ -32,7 +32,7 @@ def asked(x, v):
     """Return what a diagnosis asks of a force along a motion in a gap of 5 mm."""
     model = default().make("model", "lin_backlash")
     observation = Observation.of("seen", x, np.cos(2.0 * np.pi * np.arange(SAMPLES) / PERIOD)[:, None], DT, "position")
-    missing = Missing(np.zeros(SAMPLES), np.zeros(SAMPLES), np.stack([x, v], axis=1), 0.0, 0.0, 0.0)
+    missing = LatentForce(np.zeros(SAMPLES), np.zeros(SAMPLES), np.stack([x, v], axis=1), 0.0, 0.0, 0.0)
     table = covariates(model, observation, missing)
     return table, {k: Covariate((c,)) for k, c in table.items()} | further(
         model, observation, missing, {"ground": 0.005}
@@ -118,7 +118,7 @@ def two_places(force, rng):
     model = default().make("model", "robot_joint")
     observation = Observation.of("seen", x, inputs, DT, "position")
     made = force(x - base, v - inputs[:, 1]) + 0.3 * smoothed_noise(rng)
-    missing = Missing(made, np.zeros(SAMPLES), np.stack([x, v], axis=1), 0.0, 0.0, 0.0)
+    missing = LatentForce(made, np.zeros(SAMPLES), np.stack([x, v], axis=1), 0.0, 0.0, 0.0)
     return locate(model, observation, missing, plays={"base": 0.005}, rng=rng)
 
 

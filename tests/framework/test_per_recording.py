@@ -14,11 +14,11 @@ from lostmotion.case import CaseFile, Prior, SensorSpec
 from lostmotion.contracts import Param
 from lostmotion.inference.setup import beginnings, free_of, problem_of, search, separated
 from lostmotion.likelihood.lanes import Lanes
-from lostmotion.likelihood.levels import LEAST, own_levels
+from lostmotion.likelihood.levels import LEAST, make_own_levels
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.predict import free_runs, observed
+from lostmotion.likelihood.predict import observe_states, predict_freely
 from lostmotion.likelihood.problem import NOISE, OFFSET, RANDOM, Problem, Scales
-from lostmotion.likelihood.space import FreeParameter, RecordingCoordinates, keys_of, parted
+from lostmotion.likelihood.space import FreeParameter, RecordingCoordinates, list_keys, split_key
 from lostmotion.likelihood.system import Slot, System
 from lostmotion.quantities import DAMPING
 from lostmotion.registry import default
@@ -70,9 +70,9 @@ def apart():
 
 
 def test_keys_say_the_recording() -> None:
-    assert keys_of("c", (LOW, HIGH)) == ("c[low]", "c[run 2.5 [high]]")
-    assert keys_of("c", (LOW,)) == ("c",)
-    assert [parted(k) for k in ("c", "friction.force", *keys_of("c", (LOW, HIGH)))] == [
+    assert list_keys("c", (LOW, HIGH)) == ("c[low]", "c[run 2.5 [high]]")
+    assert list_keys("c", (LOW,)) == ("c",)
+    assert [split_key(k) for k in ("c", "friction.force", *list_keys("c", (LOW, HIGH)))] == [
         ("c", None), ("friction.force", None), ("c", LOW), ("c", HIGH)]  # fmt: skip
 
 
@@ -98,7 +98,7 @@ def test_differences_filter_only_what_has_moved(apart, monkeypatch) -> None:
     runs = []
     plain = Lanes.filter
     monkeypatch.setattr(Lanes, "filter", lambda e, d, o, at: (runs.append(len(at)), plain(e, d, o, at))[1])
-    together = problem.many(points)
+    together = problem.filter_many(points)
     shared = sum(f.recording is None for f in problem.free)
     assert shared == 2
     assert sum(runs) == 2 + 2 * shared + (len(theta) - shared)
@@ -170,7 +170,7 @@ def test_a_base_motion_sets_what_is_usual_by_its_own_amplitude() -> None:
     )
     system = System(default().make("model", "robot_joint"), ())
     problem = Problem(system, observations, Scales(1.0, 1.0, 1.0, usual=-3.0), system.vector({}), ())
-    low, high = (f for f in own_levels(problem, -2.0) if f.parameter == RANDOM)
+    low, high = (f for f in make_own_levels(problem, -2.0) if f.parameter == RANDOM)
     assert (low.mean, low.start) == pytest.approx((-3.0, -2.0))
     assert (high.mean, high.start) == pytest.approx((-3.0 + math.log(2.0), -2.0 + math.log(2.0)))
 
@@ -203,8 +203,8 @@ def test_predictions_use_what_the_recording_has_for_itself(apart) -> None:
     problem, theta = apart.problem, apart.theta
     states = np.zeros((3, 2))
     zero = apart.values[f"offset[{HIGH}]"]
-    assert observed(problem, theta, states, (0, 1)) == pytest.approx(np.full(3, zero))
-    (runs,) = free_runs(problem, theta, np.zeros((1, 2)), np.array([0]), 20, index=1)
+    assert observe_states(problem, theta, states, (0, 1)) == pytest.approx(np.full(3, zero))
+    (runs,) = predict_freely(problem, theta, np.zeros((1, 2)), np.array([0]), 20, index=1)
     assert np.abs(runs.error).max() < 6.0 * LOUD["noise"]
 
 

@@ -16,7 +16,7 @@ from lostmotion.diagnosis.search import locate
 from lostmotion.errors import CaseError, ContractError, DataError
 from lostmotion.inference.candidates import _hint
 from lostmotion.inference.setup import known_of
-from lostmotion.likelihood.latent import Missing
+from lostmotion.likelihood.latent import LatentForce
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.system import System
 from lostmotion.preparation.candidates import candidates_of
@@ -127,7 +127,7 @@ def test_a_term_without_a_finite_force_is_refused():
 def test_a_filter_that_ran_away_is_no_diagnosis(size):
     system = oscillator()
     observation = Observation.of("seen", np.zeros(4), np.zeros((4, 1)), 0.1, "position")
-    missing = Missing(np.full(4, size), np.zeros(4), np.zeros((4, 2)), 0.0, 0.0, 0.0)
+    missing = LatentForce(np.full(4, size), np.zeros(4), np.zeros((4, 2)), 0.0, 0.0, 0.0)
     with pytest.raises(DataError, match=r"^seen: the model cannot follow this recording"):
         locate(system.model, observation, missing)
 

@@ -13,14 +13,14 @@ from scipy.integrate import solve_ivp
 from test_units import CASE
 
 from lostmotion.cli import main
-from lostmotion.flow import flow_of, stepped
+from lostmotion.flow import flow_of, make_stepped_flow
 from lostmotion.inference.fit import sensitivity
 from lostmotion.likelihood.drive import Drive
 from lostmotion.likelihood.engine import Dynamics, Points
 from lostmotion.likelihood.lanes import Lanes
 from lostmotion.likelihood.levels import LEAST
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.predict import WORST, FreeRuns, free_runs
+from lostmotion.likelihood.predict import WORST, FreeRuns, predict_freely
 from lostmotion.likelihood.problem import USUAL, Innovations
 from lostmotion.likelihood.space import FreeParameter, ParameterSpace
 from lostmotion.likelihood.system import System
@@ -69,7 +69,7 @@ def test_a_stiff_contact_becomes_a_rigid_wall():
     assert stiff[1e12] / stiff[1e14] == pytest.approx(10.0, rel=0.3)
 
 
-@pytest.mark.parametrize("make", [flow_of, stepped])
+@pytest.mark.parametrize("make", [flow_of, make_stepped_flow])
 def test_no_gap_is_a_linear_oscillator(make):
     def state(x0, **more):
         machine = LinBacklash() if make is flow_of else System.of(LinBacklash())
@@ -86,7 +86,7 @@ def test_without_gap_nothing_is_crossed():
     assert flow.crossings(START, periods=1000) == 0
 
 
-@pytest.mark.parametrize(("make", "most"), [(flow_of, 1e-9), (stepped, 1e-3)])
+@pytest.mark.parametrize(("make", "most"), [(flow_of, 1e-9), (make_stepped_flow, 1e-3)])
 def test_without_damping_no_energy_is_lost(make, most):
     machine = LinBacklash() if make is flow_of else System.of(LinBacklash())
     states = strobed(make(machine, {**MACHINE, "c": 0.0}, drive=(0.0, 40.0), start=START), 200)
@@ -110,8 +110,8 @@ def test_a_motion_too_stiff_to_follow_has_a_status():
     machine, stiff = System.of(LinBacklash()), {**MACHINE, "k0": 1e18, "x0": 1e-12}
     for flow, statuses in (
         (flow_of(LinBacklash(), stiff, drive=DRIVE, start=START), {"too_stiff"}),
-        (stepped(machine, {**MACHINE, "c": 1e9}, drive=DRIVE, start=START), {"too_stiff"}),
-        (stepped(machine, stiff, drive=DRIVE, start=START), {"too_stiff", "diverged"}),
+        (make_stepped_flow(machine, {**MACHINE, "c": 1e9}, drive=DRIVE, start=START), {"too_stiff"}),
+        (make_stepped_flow(machine, stiff, drive=DRIVE, start=START), {"too_stiff", "diverged"}),
     ):
         orbit = flow.strobe(START, periods=200, tangents=1)
         assert orbit.status in statuses
@@ -163,7 +163,7 @@ class Filter:
             self.full[None], np.array([self.q]), np.array([self.pace]), self.r * one, 0.0 * one, 0.0 * one, one, 0.0 *
             one, 0.0 * one, y[None], cov[None], (drive,), number, number,
         )  # fmt: skip
-        kept, seen = Lanes().kept(dynamics, observation, points)
+        kept, seen = Lanes().run_for_smoother(dynamics, observation, points)
         assert seen.finite.all()
         return seen.variances[0, :, 0], kept[1], kept[2][-1, :2], kept[3][-1, :2, :2]
 
@@ -235,7 +235,7 @@ def test_a_free_run_that_leaves_all_bounds_errs_by_the_most(monkeypatch):
 
     monkeypatch.setattr(predict, "_runs", lambda *args: np.zeros((1, 3, 2)))
     monkeypatch.setattr(predict, "observed", observed)
-    (runs,) = free_runs(Still(), np.zeros(1), np.zeros((4, 2)), np.array([0]), 3)
+    (runs,) = predict_freely(Still(), np.zeros(1), np.zeros((4, 2)), np.array([0]), 3)
     assert isinstance(runs, FreeRuns)
     spread = float(np.std(Still.observations[0].response))
     assert runs.growth(spread) == pytest.approx([abs(Still.observations[0].response[0]) / spread, WORST, WORST])

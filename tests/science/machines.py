@@ -20,7 +20,7 @@ from lostmotion.identification.trajectory import SampledCase, chosen_terms, samp
 from lostmotion.inference.fit import Fit, maximise, robust_covariance
 from lostmotion.inference.modes import distinct
 from lostmotion.inference.setup import problem_of, separated, stepped
-from lostmotion.likelihood.predict import filtered, free_run, observed
+from lostmotion.likelihood.predict import filter_recording, observe_states, simulate_run
 from lostmotion.likelihood.problem import NOISE, RANDOM, Problem
 from lostmotion.likelihood.system import System
 from lostmotion.preparation.prepare import prepare
@@ -161,8 +161,8 @@ def found(sample: SampledCase) -> Found:
     fit = sample.fits[0]
     problem, theta = fit.problem, fit.theta
     observation = problem.observations[0]
-    states = free_run(problem, theta, filtered(problem, theta).states[0], 0, observation.samples)
-    error = observed(problem, theta, states) - observation.response
+    states = simulate_run(problem, theta, filter_recording(problem, theta).states[0], 0, observation.samples)
+    error = observe_states(problem, theta, states) - observation.response
     return Found(sample.result, fit, float(np.sqrt(np.nanmean(error**2)) / np.nanstd(observation.response)))
 
 

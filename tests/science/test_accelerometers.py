@@ -16,8 +16,8 @@ from lostmotion.diagnosis.notes import vague
 from lostmotion.inference.fit import maximise
 from lostmotion.inference.setup import problem_of, scales_of, search, split, stepped
 from lostmotion.inference.unseen import place_of_body
-from lostmotion.likelihood.levels import usual_of
-from lostmotion.likelihood.observation import Observation, windowed
+from lostmotion.likelihood.levels import compute_usual_level
+from lostmotion.likelihood.observation import Observation, window_force
 from lostmotion.likelihood.problem import NOISE, RANDOM
 from lostmotion.likelihood.reference import Reference
 from lostmotion.likelihood.system import System
@@ -64,7 +64,7 @@ def test_the_size_of_a_motion_is_told_by_its_acceleration(number):
 @pytest.mark.slow
 def test_the_usual_noise_of_a_hammer_goes_with_its_peak():
     machine, problem, _, _, observation = posed(0)
-    size = math.sqrt(math.exp(usual_of(problem, 1.0)) / machine.dt)
+    size = math.sqrt(math.exp(compute_usual_level(problem, 1.0)) / machine.dt)
     assert size == pytest.approx(1e-3 * np.abs(problem.observations[0].inputs).max(), rel=0.01)
     assert size > 3e-3 * np.std(observation.inputs)
 
@@ -74,14 +74,14 @@ def test_between_hits_the_noise_of_a_hammer_is_no_force():
     t, rng = np.arange(4000.0), np.random.default_rng(3)
     true = machines.hammer(t, np.array([200.3, 2100.8]), np.array([8.0, 15.0]), np.array([1.0, 0.6]))
     noise = 1e-3 * rng.standard_normal(len(t))
-    kept = windowed(true + noise)
+    kept = window_force(true + noise)
     rest = np.abs(kept - true)[true == 0.0]
     assert np.mean(rest > 1e-4) < 0.01
     np.testing.assert_array_equal(kept[true > 0.01], (true + noise)[true > 0.01])
     wave = np.cos(0.1 * t) + noise
-    np.testing.assert_array_equal(windowed(wave), wave)
+    np.testing.assert_array_equal(window_force(wave), wave)
     slow = true + np.convolve(rng.standard_normal(len(t)), np.ones(20) / 20.0, "same") * 2e-3 + noise
-    np.testing.assert_array_equal(windowed(slow), slow)
+    np.testing.assert_array_equal(window_force(slow), slow)
 
 
 def test_what_edges_of_hits_do_between_samples_is_told_as_it_is():
@@ -97,16 +97,16 @@ def test_what_edges_of_hits_do_between_samples_is_told_as_it_is():
         force = machines.hammer(t, np.array([begin]), np.array([width]), np.array([1.0]))
         seen = Observation.of("a", force, force[:, None], 1.0, "acceleration")
         means = seen.drive.cubics[:-1, :, 0] @ (1.0 / np.arange(1.0, 5.0))
-        told, made = told + float(np.sum(seen.unsure)), made + float(np.sum((means - true) ** 2))
+        told, made = told + float(np.sum(seen.input_variance)), made + float(np.sum((means - true) ** 2))
     assert math.sqrt(told / made) == pytest.approx(1.0, rel=0.33)
-    assert not Observation.of("b", t, np.cos(0.1 * t)[:, None], 1.0, "acceleration").unsure.any()
+    assert not Observation.of("b", t, np.cos(0.1 * t)[:, None], 1.0, "acceleration").input_variance.any()
 
 
 def test_the_engines_agree_on_a_recording_with_hits():
     _, problem, true, _, observation = posed(0)
-    struck = int(np.argmax(observation.unsure > 0.0))
+    struck = int(np.argmax(observation.input_variance > 0.0))
     short = stepped(problem.on((observation.part(max(struck - 300, 0), struck + 300),)), true)
-    assert short.observations[0].unsure.any()
+    assert short.observations[0].input_variance.any()
     ours, plain = short.innovations(true), replace(short, engine=Reference()).innovations(true)
     np.testing.assert_allclose(plain.errors, ours.errors, rtol=0.0, atol=1e-9 * np.abs(ours.errors).max())
     np.testing.assert_allclose(plain.variances, ours.variances, rtol=1e-9)

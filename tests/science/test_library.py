@@ -15,7 +15,7 @@ from lostmotion.inference.likeness import likeness
 from lostmotion.inference.selection import Selector
 from lostmotion.inference.setup import problem_of, search, split
 from lostmotion.inference.shape_scan import scouted
-from lostmotion.likelihood.bends import stretched, unbent
+from lostmotion.likelihood.bends import correct_bends, rescale_innovations
 from lostmotion.likelihood.engine import Innovations
 from lostmotion.likelihood.problem import FreeParameter
 from lostmotion.likelihood.system import ALWAYS, System
@@ -127,10 +127,10 @@ def test_cut_sensitivities_are_those_of_a_term_that_sets_in(tmp_path):
     assert can_be_late(fit.problem, "linear_stiffness")
     key, small = "linear_stiffness.coefficient", 1e-3
     held = FreeParameter(key, "", 0.0, -math.inf, math.inf)
-    wider = fit.problem.extended((held,), {"linear_stiffness"})
+    wider = fit.problem.extend((held,), {"linear_stiffness"})
     zero, one = np.append(fit.theta, 0.0), np.append(fit.theta, small)
     slopes = slopes_of(fit)
-    seen = wider.many(np.array([zero, one]))
+    seen = wider.filter_many(np.array([zero, one]))
     joint = type(slopes)(
         zero,
         seen[0],
@@ -141,7 +141,7 @@ def test_cut_sensitivities_are_those_of_a_term_that_sets_in(tmp_path):
     found = np.array([g[-1] for _, g, _ in cut(fit.problem, joint, 1)])
     twin = []
     for time in times_of(fit.problem):
-        late = wider.knowing({since_of("linear_stiffness"): float(time)})
+        late = wider.hold_values({since_of("linear_stiffness"): float(time)})
         low, high = late.log_likelihoods(np.array([zero, one]))
         twin.append((high - low) / small)
     assert len(twin) == TIMES
@@ -163,7 +163,7 @@ def test_ripple_of_a_sensor_is_scouted_and_found(tmp_path):
 def test_readings_that_are_put_right_are_bent_to_what_was_read(tmp_path):
     fit = nominal_of(tmp_path, [PositionRipple()])
     seen, p = fit.problem.observations[0], (3e-4, -2e-4, 0.02)
-    right, slopes = unbent(seen, [(0, PositionRipple(), p)])
+    right, slopes = correct_bends(seen, [(0, PositionRipple(), p)])
     assert np.allclose(PositionRipple.bent(right.readings[:, 0], p), seen.readings[:, 0], atol=1e-9)
     step = 1e-7
     ends = [PositionRipple.bent(right.readings[:, 0] + h, p) for h in (step, -step)]
@@ -175,7 +175,7 @@ def test_density_of_bent_readings_is_that_of_the_readings():
     errors, variances = np.array([[[0.3], [-1.2]]]), np.array([[[0.5], [2.0]]])
     slopes = np.array([[0.8], [1.3]])
     bare = Innovations.of(errors, variances, np.array([2]))
-    found = stretched(bare, 1.0 / slopes)
+    found = rescale_innovations(bare, 1.0 / slopes)
     wanted = bare.log_likelihood[0] + math.log(1.0 / 0.8) + math.log(1.0 / 1.3)
     assert found.log_likelihood[0] == pytest.approx(wanted)
 

@@ -22,7 +22,7 @@ from lostmotion.inference.learned import OverTime
 from lostmotion.inference.natural import term_of
 from lostmotion.inference.rival import Righted
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.predict import filtered
+from lostmotion.likelihood.predict import filter_recording
 from lostmotion.likelihood.problem import RANDOM
 from lostmotion.quantities import TIME
 
@@ -127,7 +127,7 @@ def _scored(fit: Fit, pieces: Sequence[HeldOutStretch]) -> float:
     """Return the log score of one-step predictions of held-out data; minus infinity where a filter runs away."""
     total = 0.0
     for piece in pieces:
-        seen = filtered(fit.problem.on((piece.observation,)), fit.theta)
+        seen = filter_recording(fit.problem.on((piece.observation,)), fit.theta)
         total += seen.log_score(slice(piece.begin, None)) * (piece.observation.samples - piece.begin)
     return total if math.isfinite(total) else -math.inf
 

@@ -14,7 +14,7 @@ from lostmotion.diagnosis.search import Diagnosed
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.natural import term_of
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.predict import free_run, observed
+from lostmotion.likelihood.predict import observe_states, simulate_run
 from lostmotion.quantities import quantity_of, unit_of
 from lostmotion.recording.warnings import is_impulsive
 from lostmotion.report.words import readable, spoken
@@ -121,10 +121,10 @@ def _of_model(fit: Fit, observation: Observation, measured: Measured) -> list[tu
     most, found = MOST_CYCLES // len(measured), []
     for stretch, seen in measured:
         start, stop = stretch
-        run = free_run(problem, fit.theta, states[start], start, stop - start)
+        run = simulate_run(problem, fit.theta, states[start], start, stop - start)
         decay = None
         if np.all(np.abs(run) < 1e100):
-            shown = observed(problem, fit.theta, run, (start, 0))
+            shown = observe_states(problem, fit.theta, run, (start, 0))
             decay = _alike(shown, observation.dt, seen, most) if np.all(np.abs(shown) < bound) else None
         found.append((stretch, decay))
     return found

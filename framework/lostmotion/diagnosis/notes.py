@@ -15,7 +15,7 @@ from lostmotion.diagnosis.states import unsteady
 from lostmotion.inference.contacts import short_contacts
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.unseen import place_of_body
-from lostmotion.likelihood.initial import placed
+from lostmotion.likelihood.initial import shows_place
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.space import LEVELS
 
@@ -124,7 +124,7 @@ def _far_off(outcome: Outcome) -> list[str]:
 
 def vague(fit: Fit, observation: Observation) -> list[str]:
     """Return a note where no sensor of a recording shows the position and it is not known well."""
-    if placed(observation):
+    if shows_place(observation):
         return []
     place = place_of_body(fit, observation)
     reach, amplitude = 2.0 * float(place.sd.max()), math.sqrt(2.0) * float(place.mean.std())

@@ -11,7 +11,7 @@ from scipy.signal import lfilter
 from lostmotion.contracts import Array
 from lostmotion.diagnosis.excitations import Excitation
 from lostmotion.inference.fit import Fit, sensitivity, solved
-from lostmotion.likelihood.predict import kicked_run, observed
+from lostmotion.likelihood.predict import observe_states, simulate_kicked
 from lostmotion.likelihood.problem import RANDOM, Problem
 
 PIECE = 4
@@ -75,13 +75,13 @@ def simulated(model: RehearsedModel, excitation: Excitation, rng: np.random.Gene
     kicks = np.zeros((drive.samples, problem.dynamics.states))
     kicked = [min(start + PIECE, drive.samples - 1) for start in range(0, drive.samples - 1, PIECE)]
     kicks[kicked, place.row] = kick * rng.standard_normal(len(kicked))
-    states = kicked_run(problem, theta, model.fit.problem.begun(model.fit.theta), kicks)
+    states = simulate_kicked(problem, theta, model.fit.problem.begun(model.fit.theta), kicks)
     if not np.all(np.isfinite(states)):
         return None
     shown = []
     for sensor in range(len(problem.observations[0].sensors)):
         white = math.sqrt(problem.noise(theta, 0, sensor)[1]) * rng.standard_normal(drive.samples)
-        seen = observed(problem, theta, states, sensor=sensor)
+        seen = observe_states(problem, theta, states, sensor=sensor)
         shown.append(seen + white + _slow(problem, theta, sensor, rng))
     return np.stack(shown, axis=1)
 

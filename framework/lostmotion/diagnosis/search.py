@@ -25,8 +25,8 @@ from lostmotion.inference.shares import Covariate, Share, shares_of, significant
 from lostmotion.inference.stretches import sought
 from lostmotion.inference.unexplained import CurveSearch, UnknownForce, fewer
 from lostmotion.kernels.threads import each
-from lostmotion.likelihood.latent import Missing, missing_force
-from lostmotion.likelihood.motion import derivatives
+from lostmotion.likelihood.latent import LatentForce, smooth_latent_force
+from lostmotion.likelihood.motion import compute_derivatives
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import Problem
 from lostmotion.likelihood.space import LEVELS
@@ -52,7 +52,7 @@ class Located:
     are none the shares do.
     """
 
-    missing: Missing
+    missing: LatentForce
     curves: dict[str, Curve]
     explained: dict[str, Share]
     summary: str
@@ -231,7 +231,7 @@ def _shrunk(selection: Selection, gone: str) -> Selection:
     chosen, visits = selection.chosen, selection.visits
     terms = chosen.problem.active - {gone}
     if terms not in visits:
-        less = maximise(chosen.problem.reduced(gone, chosen.values))
+        less = maximise(chosen.problem.remove_term(gone, chosen.values))
         price = price_of(
             term_of(chosen.problem, gone)[0], len(fitted_keys(chosen.problem.system)), chosen.problem.settings
         )
@@ -269,7 +269,7 @@ def quantised_in(fit: Fit) -> dict[str, tuple[Values, Values]]:
 
 
 _NO = np.zeros(0)
-_NOWHERE = Located(Missing(_NO, _NO, np.zeros((0, 2)), 0.0, 0.0, 0.0), {}, {}, "")
+_NOWHERE = Located(LatentForce(_NO, _NO, np.zeros((0, 2)), 0.0, 0.0, 0.0), {}, {}, "")
 
 
 def _located(bare: Diagnosed, rng: np.random.Generator) -> Diagnosed:
@@ -280,7 +280,7 @@ def _located(bare: Diagnosed, rng: np.random.Generator) -> Diagnosed:
     of_left, of_all = rng, rng.spawn(1)[0]
 
     def placed(problem: Problem, theta: Array, chance: np.random.Generator, fit: Fit) -> Located:
-        missing = missing_force(problem, theta)
+        missing = smooth_latent_force(problem, theta)
         return locate(model, shown, missing, plays=plays, rng=chance, odds=lambda: log_odds(fit), limits=limits)
 
     if not bare.found:
@@ -310,7 +310,7 @@ def plays_of(problem: Problem, theta: Array) -> dict[str, float]:
 def locate(
     model: Model,
     observation: Observation,
-    missing: Missing,
+    missing: LatentForce,
     *,
     plays: Mapping[str, float] | None = None,
     rng: np.random.Generator | None = None,
@@ -344,8 +344,8 @@ def law_of(fit: Fit, observation: Observation, states: Array, key: str) -> Array
     times = drive.begin + np.arange(len(states)) * drive.dt
     seen = states[:, : problem.dynamics.states]
     inside = (system, problem.active, packed, seen)
-    with_term, _ = derivatives(*inside, drive.inputs[: len(states)], times)
-    without, _ = derivatives(*inside, other.inputs[: len(states)], times, muted=None if beside else key)
+    with_term, _ = compute_derivatives(*inside, drive.inputs[: len(states)], times)
+    without, _ = compute_derivatives(*inside, other.inputs[: len(states)], times, muted=None if beside else key)
     return np.asarray((with_term[:, place.row] - without[:, place.row]) * full[system.index[place.inertia]])
 
 

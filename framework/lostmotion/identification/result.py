@@ -11,7 +11,7 @@ from lostmotion.case.levels import Measured
 from lostmotion.contracts import Array
 from lostmotion.identification.levels import derived
 from lostmotion.identification.sampling import NOISES, SampledPosterior
-from lostmotion.likelihood.space import parted
+from lostmotion.likelihood.space import split_key
 from lostmotion.maps.inversion import Inversion, Predicted
 from lostmotion.results import Interval
 from lostmotion.results.background import Origin
@@ -32,7 +32,7 @@ SENSOR = (*NOISES.values(), "offset")
 def statement(found: SampledPosterior, route: RouteName, case: CaseFile, origin: Origin) -> Identification:
     """Return what the draws say of a case, without notes and without what belongs to one route alone."""
     rows = _parameters(found)
-    noise = {name for name in rows if parted(name)[0] in SENSOR}
+    noise = {name for name in rows if split_key(name)[0] in SENSOR}
     return Identification(
         route=route,
         converged=found.converged,

@@ -14,9 +14,9 @@ from lostmotion.inference.fit import Fit, Sensitivity, maximise, restarted, sens
 from lostmotion.inference.late import PRICE, can_be_late, cut, refined
 from lostmotion.inference.natural import frees_of, size_of, sorted_slots, star, term_of, tried_of
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.plan import handed
+from lostmotion.likelihood.plan import prepare_values
 from lostmotion.likelihood.problem import LATEST, NOISE, RANDOM, FreeParameter, Problem
-from lostmotion.likelihood.system import ALWAYS, Slot, since_of
+from lostmotion.likelihood.system import ALWAYS, Slot, onset_key
 from lostmotion.quantities import FORCE, TIME
 
 CREEP, FINEST = 0.02, 32
@@ -58,7 +58,7 @@ class Hint:
     @property
     def late(self) -> bool:
         """Whether the term acts from an onset on, and not from the beginning."""
-        return since_of(self.key) in self.start
+        return onset_key(self.key) in self.start
 
 
 def slopes_of(fit: Fit) -> Sensitivity:
@@ -98,7 +98,7 @@ def _late(fit: Fit, key: str, amplitudes: Sequence[Slot], always: Hint, joint: S
     for time, gradient, information in cut(fit.problem, joint, len(amplitudes)):
         hint = _hint_from(fit, key, amplitudes, shape, gradient, information)
         if hint.gain > best.gain + (ONSET if best is always else 0.0):
-            best = replace(hint, start={**hint.start, since_of(key): time})
+            best = replace(hint, start={**hint.start, onset_key(key): time})
     return best
 
 
@@ -111,12 +111,12 @@ def _afar(fit: Fit, slot: Slot, key: str, distinct: float) -> Hint:
     short = fit.problem.on(tuple(t.part(0, min(t.samples, SHORT)) for t in fit.problem.observations))
     size = size_of(slot.param, fit.problem.scales)
     best, gain, bottom = 0.0, 0.0, maximise(restarted(replace(fit, problem=short)), fit.theta, rounds=2)
-    wider = short.extended((_held(slot),), {key})
+    wider = short.extend((_held(slot),), {key})
     theta = warmed(short, bottom.theta, RAISED)
     log_densities = wider.log_likelihoods(np.array([np.append(theta, factor * size) for factor in slot.param.far]))
     for i in np.argsort(-log_densities)[:FARTHEST]:
         value = slot.param.far[i] * size
-        trial = short.knowing({slot.key: value})
+        trial = short.hold_values({slot.key: value})
         found = maximise(replace(trial, active=trial.active | {key}), bottom.theta, rounds=3, tolerance=1.0)
         if found.log_likelihood - bottom.log_likelihood > gain:
             best, gain = value, found.log_likelihood - bottom.log_likelihood
@@ -131,8 +131,8 @@ def _stretched(fit: Fit, slopes: Sensitivity, key: str, slot: Slot) -> list[Hint
     """
     problem = fit.problem
     reached = tried_of(slot.param, problem.scales)
-    wider = problem.extended((_held(slot),), {key})
-    here, seen = slopes.here, wider.many(np.vstack([np.append(slopes.theta, a) for a in reached]))
+    wider = problem.extend((_held(slot),), {key})
+    here, seen = slopes.here, wider.filter_many(np.vstack([np.append(slopes.theta, a) for a in reached]))
     hints = []
     for i, amplitude in enumerate(reached):
         if not seen.finite[i]:
@@ -166,9 +166,9 @@ def joined(problem: Problem, key: str, start: Mapping[str, float]) -> Problem:
     """Return a problem with one more term, begun at `start`, its choices held at what is said there."""
     _, slots = term_of(problem, key)
     choices = {s.key: start[s.key] for s in slots if s.param.choices and s.key in start}
-    if since_of(key) in problem.system.index:
-        choices[since_of(key)] = start.get(since_of(key), ALWAYS)
-    return problem.knowing(choices).extended(frees_in(problem, key, slots, start), {key})
+    if onset_key(key) in problem.system.index:
+        choices[onset_key(key)] = start.get(onset_key(key), ALWAYS)
+    return problem.hold_values(choices).extend(frees_in(problem, key, slots, start), {key})
 
 
 def frees_in(problem: Problem, key: str, slots: list[Slot], start: Mapping[str, float]) -> tuple[FreeParameter, ...]:
@@ -201,7 +201,7 @@ def _scored(fit: Fit, slopes: Sensitivity, key: str, shapes: Sequence[Mapping[st
     """Return what a term promises at several shapes, all of them computed together."""
     amplitudes, fixed = sorted_slots(fit.problem, key)
     frees = (*frees_in(fit.problem, key, amplitudes, {}), *(_held(slot) for slot in fixed))
-    wider = fit.problem.extended(frees, {key})
+    wider = fit.problem.extend(frees, {key})
     sizes = np.array([size_of(s.param, fit.problem.scales) for s in amplitudes])
     zeros = [np.concatenate([slopes.theta, np.zeros(len(sizes)), [shape[s.key] for s in fixed]]) for shape in shapes]
     widths = [1e-3 * sizes for _ in shapes]
@@ -231,7 +231,7 @@ def _joint(slopes: Sensitivity, wider: Problem, zeros: Sequence[Array], widths: 
         above = np.zeros((count, len(zero)))
         above[:, base : base + count] = np.diag(width)
         rows += [zero[None], zero + above]
-    seen, found = wider.many(np.vstack(rows)), []
+    seen, found = wider.filter_many(np.vstack(rows)), []
     for k, (zero, width) in enumerate(zip(zeros, widths, strict=True)):
         part = seen[k * (1 + count) : (k + 1) * (1 + count)]
         de = (part.errors[1:] - part.errors[0]) / width[:, None]
@@ -257,7 +257,7 @@ def _hint_from(
         return Hint(key, 0.0, dict(shape), 0.0)
     k = len(amplitudes)
     base, cross, own = information[:-k, :-k], information[:-k, -k:], information[-k:, -k:]
-    base = base + np.diag([f.pull for f in fit.problem.free])
+    base = base + np.diag([f.prior_information for f in fit.problem.free])
     pulled = solved(base, np.column_stack([cross, gradient[:-k]]))
     schur = own - cross.T @ pulled[:, :k]
     force = gradient[-k:] - cross.T @ pulled[:, k]
@@ -299,7 +299,7 @@ def called_with(
     term: Term, observation: Observation, looks: int
 ) -> Iterator[tuple[float, float, float, Array, Values, Values]]:
     """Yield what the force of a term is told at about `looks` points of a recording, all its numbers one at rest."""
-    p = handed(term, np.ones(len(term.params) + len(term.needs)))
+    p = prepare_values(term, np.ones(len(term.params) + len(term.needs)))
     s, u = (0.0,) * len(term.states), np.zeros(max(2, observation.inputs.shape[1]))
     speed = np.gradient(observation.response, observation.dt)
     for k in range(0, observation.samples, max(1, observation.samples // looks)):
@@ -349,7 +349,7 @@ def fit_in_place(fit: Fit, key: str, hint: Hint, *, hopeless: float = -math.inf)
     _, slots = term_of(fit.problem, hint.key)
     shared = {s.key: values.get(f"{key}.{s.param.name}") for s in slots}
     start = {**hint.start, **{name: value for name, value in shared.items() if value is not None}}
-    problem = with_term(restarted(fit).reduced(key, values), hint, start)
+    problem = with_term(restarted(fit).remove_term(key, values), hint, start)
     own = [s for s in slots if shared[s.key] is None]
     begins = np.array([problem.start, *_reshaped(problem, own), *_lessened(problem, own)])
     begins = problem.clip(np.vstack([begins, [warmed(problem, theta, RAISED) for theta in begins]]))
@@ -382,5 +382,5 @@ def _lessened(problem: Problem, slots: Sequence[Slot]) -> Iterator[Array]:
 
 def _scaled(hint: Hint, slots: list[Slot], factor: float) -> dict[str, float]:
     """Return the starting values of a hint with its amplitudes scaled."""
-    shapes = {s.key for s in slots if s.param.null is None} | {since_of(hint.key)}
+    shapes = {s.key for s in slots if s.param.null is None} | {onset_key(hint.key)}
     return {name: value if name in shapes else factor * value for name, value in hint.start.items()}

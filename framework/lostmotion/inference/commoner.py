@@ -9,7 +9,7 @@ from lostmotion.inference.fit import Fit, maximise, restarted
 from lostmotion.inference.late import onset
 from lostmotion.inference.natural import term_of
 from lostmotion.likelihood.problem import Problem
-from lostmotion.likelihood.system import key_of, since_of
+from lostmotion.likelihood.system import key_of, onset_key
 
 
 def in_commoner_terms(fit: Fit, candidates: Collection[str]) -> Fit:
@@ -33,8 +33,8 @@ def _rewritten(fit: Fit, key: str, candidates: Collection[str]) -> Problem | Non
     keys = {t.name: key_of(t) for t in fit.problem.system.terms if t.at == term.at and t.name in commoner}
     if not commoner or len(keys) < len(commoner) or not set(keys.values()) <= set(candidates) - fit.problem.active:
         return None
-    since, problem = onset(fit.problem, key), restarted(fit).reduced(key, values)
+    since, problem = onset(fit.problem, key), restarted(fit).remove_term(key, values)
     for name, own in commoner.items():
         start = {f"{keys[name]}.{param}": value for param, value in own.items()}
-        problem = joined(problem, keys[name], {**start, since_of(keys[name]): since})
+        problem = joined(problem, keys[name], {**start, onset_key(keys[name]): since})
     return problem

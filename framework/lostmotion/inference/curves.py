@@ -148,7 +148,7 @@ def shape_of(fit: Fit, slopes: Sensitivity, key: str) -> Shape:
         time = share * problem.scales.time
         held = {"time": time, **_middled(*_range(fit, term, "history", moved, time))}
         known = {f"{key}.{name}": value for name, value in held.items()}
-        best = _smoothest(replace(fit, problem=problem.knowing(known)), slopes, key)
+        best = _smoothest(replace(fit, problem=problem.hold_values(known)), slopes, key)
         found.append(replace(best, gain=best.gain - math.log(len(TIMES)), known=known))
     return max(found, key=lambda shape: shape.gain)
 
@@ -194,7 +194,7 @@ def joint_of(fit: Fit, slopes: Sensitivity, key: str) -> Sensitivity:
     width = NUDGE * size_of(term, problem)
     wider = with_curve(problem, key, np.full(term.count, math.inf), np.zeros(term.count))
     zero = np.concatenate([slopes.theta, np.zeros(term.count)])
-    seen = wider.many(np.vstack([zero[None], zero + width * np.eye(len(zero))[len(slopes.theta) :]]))
+    seen = wider.filter_many(np.vstack([zero[None], zero + width * np.eye(len(zero))[len(slopes.theta) :]]))
     above = np.where(seen.finite[1:], np.arange(1, len(seen)), 0)
     de = (seen.errors[above] - seen.errors[0]) / width
     dv = (seen.variances[above] - seen.variances[0]) / width
@@ -210,7 +210,7 @@ def projection(fit: Fit, joint: Sensitivity, k: int) -> tuple[Array, Array, Arra
     """
     problem = fit.problem
     gradient, information = joint.gradient(), joint.information()
-    pull = np.array([f.pull for f in problem.free])
+    pull = np.array([f.prior_information for f in problem.free])
     gradient[:k] -= pull * (joint.theta[:k] - np.array([f.mean for f in problem.free]))
     pulled = solved(information[:k, :k] + np.diag(pull), information[:k, k:])
     own = information[k:, k:]
@@ -239,13 +239,13 @@ def with_curve(problem: Problem, key: str, widths: Array, start: Array) -> Probl
     reach = np.where(np.isfinite(widths), 30.0 * widths, 1e3 * size_of(term, problem))
     unit = term.params[0].dimension.unit(problem.system.model.motion)
     rows = [(int(i), *(float(row[i]) for row in (start, reach, widths))) for i in np.flatnonzero(widths > 0.0)]
-    frees = [FreeParameter(f"{key}.v{i}", unit, at, -far, far, sd=wide, straight=True) for i, at, far, wide in rows]
-    return problem.extended(frees, {key})
+    frees = [FreeParameter(f"{key}.v{i}", unit, at, -far, far, sd=wide, linear=True) for i, at, far, wide in rows]
+    return problem.extend(frees, {key})
 
 
 def fit_curve(fit: Fit, shape: Shape) -> Fit:
     """Return the fit with one more curve, begun where its score test points, or with less of it, and fitted again."""
-    base = restarted(fit).knowing(shape.known)
+    base = restarted(fit).hold_values(shape.known)
     problems = [with_curve(base, shape.key, shape.widths, f * shape.start) for f in (1.0, 0.5, 0.2)]
     log_densities = [p.log_posterior(p.clip(p.start)) for p in problems]
     return maximise(problems[int(np.argmax(log_densities))], rounds=ROUNDS, tolerance=0.3)

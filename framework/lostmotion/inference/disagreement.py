@@ -22,7 +22,7 @@ from lostmotion.contracts import Array
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.shares import adjusted
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.predict import filtered
+from lostmotion.likelihood.predict import filter_recording
 
 WINDOWS = 30
 """A recording has so many windows at most: more are too narrow to be read in a figure of a page."""
@@ -57,7 +57,7 @@ class Windows:
 
 def squares_of(fit: Fit, observation: Observation) -> Array:
     """Return the squared standardised one-step error (samples,), mean over the sensors; NaN where none was read."""
-    seen = filtered(fit.problem.on((observation,)), fit.theta)
+    seen = filter_recording(fit.problem.on((observation,)), fit.theta)
     read = seen.taken & np.isfinite(seen.errors) & np.isfinite(seen.variances)
     with np.errstate(over="ignore", invalid="ignore"):
         squares = np.where(read, np.minimum(seen.errors**2 / seen.variances, LARGEST), np.nan)

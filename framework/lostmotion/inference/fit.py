@@ -134,7 +134,7 @@ def stencil(problem: Problem, theta: Array, steps: Array) -> tuple[Array, Array]
     Differences are central, but for coordinates in which errors are straight.
     """
     space = problem.space
-    straight = np.array([f.straight for f in problem.free], dtype=bool)
+    straight = np.array([f.linear for f in problem.free], dtype=bool)
     return np.minimum(theta + steps, space.high), np.where(straight, theta, np.maximum(theta - steps, space.low))
 
 
@@ -148,7 +148,7 @@ def around(theta: Array, up: Array, down: Array) -> Array:
 def sensitivity(problem: Problem, theta: Array, steps: Array) -> Sensitivity:
     """Return innovations and their derivatives at `theta`, by differences that stay within the bounds."""
     up, down = stencil(problem, theta, steps)
-    return differenced(theta, (up, down), problem.many(around(theta, up, down)), steps)
+    return differenced(theta, (up, down), problem.filter_many(around(theta, up, down)), steps)
 
 
 def differenced(theta: Array, ends: tuple[Array, Array], seen: Innovations, steps: Array) -> Sensitivity:
@@ -182,8 +182,8 @@ def _local(problem: Problem, slopes: Sensitivity) -> Local:
     with np.errstate(over="ignore", divide="ignore", invalid="ignore"):  # where the filter does not get through
         gradient, information = slopes.gradient(), slopes.information()
     for i, f in enumerate(problem.free):
-        gradient[i] -= f.pull * (theta[i] - f.mean)
-        information[i, i] += f.told
+        gradient[i] -= f.prior_information * (theta[i] - f.mean)
+        information[i, i] += f.evidence_information
     log_likelihood = slopes.here.log_likelihood
     return Local(theta, log_likelihood, log_likelihood + problem.log_prior(theta), gradient, information, slopes.steps)
 
@@ -258,7 +258,7 @@ def _climbed(problem: Problem, local: Local, damping: float) -> Local | None:
     steps = _tuned(local, problem)
     ends = stencil(problem, trials[0], steps)
     points = around(trials[0], *ends)
-    seen = problem.many(np.vstack([points, *(t[None] for t in trials[1:])]))
+    seen = problem.filter_many(np.vstack([points, *(t[None] for t in trials[1:])]))
     log_densities = [
         seen[k].log_likelihood + problem.log_prior(t)
         for k, t in zip((0, *range(len(points), len(seen))), trials, strict=True)

@@ -11,7 +11,7 @@ from lostmotion.contracts import Array
 from lostmotion.inference.fit import Fit, Sensitivity, maximise, restarted
 from lostmotion.inference.standing import standing
 from lostmotion.likelihood.problem import FreeParameter, Problem
-from lostmotion.likelihood.system import ALWAYS, since_of
+from lostmotion.likelihood.system import ALWAYS, onset_key
 from lostmotion.results import Interval
 
 TIMES = 24
@@ -27,7 +27,7 @@ PRICE = math.log(TIMES)
 
 def can_be_late(problem: Problem, key: str) -> bool:
     """Return whether an onset of a term can be told: of one recording, and not of a sensor."""
-    return len(problem.observations) == 1 and since_of(key) in problem.system.index
+    return len(problem.observations) == 1 and onset_key(key) in problem.system.index
 
 
 def onset(problem: Problem, key: str) -> float:
@@ -66,16 +66,16 @@ def at_any_time(problem: Problem, key: str, start: float) -> FreeParameter:
     """Return the onset of a term as a free parameter, uniform over the recording."""
     observation = problem.observations[0]
     begin = float(observation.time[0])
-    return FreeParameter(since_of(key), "s", start, begin, begin + observation.samples * observation.dt)
+    return FreeParameter(onset_key(key), "s", start, begin, begin + observation.samples * observation.dt)
 
 
 def refined(fit: Fit, key: str) -> Fit:
     """Return the fit with the onset of a term held where the likelihood is highest nearby; as it is without one."""
     if not onset(fit.problem, key) > ALWAYS:
         return fit
-    wider = restarted(fit).extended((at_any_time(fit.problem, key, onset(fit.problem, key)),), ())
+    wider = restarted(fit).extend((at_any_time(fit.problem, key, onset(fit.problem, key)),), ())
     found = maximise(wider, np.append(fit.theta, onset(fit.problem, key)))
-    held = restarted(fit).knowing({since_of(key): float(found.theta[-1])})
+    held = restarted(fit).hold_values({onset_key(key): float(found.theta[-1])})
     late = maximise(held, found.theta[:-1])
     return late if late.local.log_posterior > fit.local.log_posterior else fit
 
@@ -88,7 +88,7 @@ def believed(fit: Fit) -> Fit:
     """
     for key in sorted(fit.problem.active):
         if onset(fit.problem, key) > ALWAYS and fit.status != "diverged":
-            ever = maximise(restarted(fit).knowing({since_of(key): ALWAYS}), fit.theta)
+            ever = maximise(restarted(fit).hold_values({onset_key(key): ALWAYS}), fit.theta)
             needed = (PRICE + fit.problem.settings.select.onset) * standing(fit)[1] ** 2
             if ever.status != "diverged" and not fit.log_evidence - ever.log_evidence > needed:
                 fit = ever
@@ -105,7 +105,7 @@ def since(fit: Fit, key: str) -> Interval | None:
     if not at > ALWAYS:
         return None
     free = at_any_time(problem, key, at)
-    wider, reach = problem.extended((free,), ()), AROUND * (free.high - free.low)
+    wider, reach = problem.extend((free,), ()), AROUND * (free.high - free.low)
     low, high = max(at - reach, free.low), min(at + reach, free.high)
     grid, heights = np.zeros(0), np.zeros(0)
     for _ in range(2):

@@ -12,7 +12,7 @@ from scipy.special import chdtrc
 from lostmotion.contracts import Array, Model
 from lostmotion.inference.odds import Ratio, likely
 from lostmotion.inference.shares import Covariate, Share, significant
-from lostmotion.likelihood.latent import Missing
+from lostmotion.likelihood.latent import LatentForce
 from lostmotion.likelihood.observation import Observation
 from lostmotion.settings import DEFAULT, LocateSettings
 
@@ -29,7 +29,7 @@ class Curve:
     high: Array
 
 
-def covariates(model: Model, observation: Observation, missing: Missing) -> dict[str, Array]:
+def covariates(model: Model, observation: Observation, missing: LatentForce) -> dict[str, Array]:
     """Return position, velocity, phase (cycles, when there is a drive period) and time (s) of each sample.
 
     Where the model has further places than the ground, the relative motion there too: "position at base".
@@ -81,7 +81,7 @@ def parity(found: Curve) -> str:
 
 
 def further(
-    model: Model, observation: Observation, missing: Missing, plays: Mapping[str, float] | None = None
+    model: Model, observation: Observation, missing: LatentForce, plays: Mapping[str, float] | None = None
 ) -> dict[str, Covariate]:
     """Return what else a force may depend on: sign of velocity, contact, history, at each place of the model.
 

@@ -18,7 +18,7 @@ from lostmotion.inference.fit import Fit, maximise, together
 from lostmotion.inference.leftovers import significant_random_force
 from lostmotion.inference.selection import Progress, Promise, Selector
 from lostmotion.kernels.threads import each
-from lostmotion.likelihood.levels import memory_frees
+from lostmotion.likelihood.levels import make_ar1_levels
 from lostmotion.likelihood.problem import Problem
 from lostmotion.likelihood.space import AR1_LEVEL, AR1_MEMORY, NOISE, RANDOM
 
@@ -77,7 +77,7 @@ def remembering(fit: Fit, sensors: Sequence[int] | None = None) -> Fit | None:
     for sensor in white:
         key = first.level(NOISE, sensor)
         noise = float(np.mean([c for f, c in zip(problem.free, fit.theta, strict=True) if f.parameter == key]))
-        wider = replace(problem, free=(*problem.free, *memory_frees(first, sensor, noise, problem.scales)))
+        wider = replace(problem, free=(*problem.free, *make_ar1_levels(first, sensor, noise, problem.scales)))
         asked += [(replace(wider, jobs=1), _start(wider, fit, samples)) for samples in STARTS]
     if not asked:
         return None

@@ -219,9 +219,9 @@ def expanded(fit: Fit) -> Expansion:
         size, count = size_of(term, problem), min(term.count, MOST_WAVES)
         options = tuple(s * size * spread(term, length)[:count] for s in SIZES for length in LENGTHS)
         groups.append(CoefficientGroup(key, slice(len(frees), len(frees) + count), options))
-        frees += [FreeParameter(f"{key}.v{i}", "", 0.0, -1e3 * size, 1e3 * size, straight=True) for i in range(count)]
+        frees += [FreeParameter(f"{key}.v{i}", "", 0.0, -1e3 * size, 1e3 * size, linear=True) for i in range(count)]
         steps += [NUDGE * size] * count
-    errors, variances = _rows(problem.extended(frees, {key for key, _ in curves}), slopes, np.array(steps))
+    errors, variances = _rows(problem.extend(frees, {key for key, _ in curves}), slopes, np.array(steps))
     _centre(replace(fit, problem=problem), dict(curves), groups, (errors, variances))
     gauges = gauges_of(fit)
     joint = Sensitivity(
@@ -234,7 +234,7 @@ def expanded(fit: Fit) -> Expansion:
     gradient, information = joint.gradient(), joint.information()
     gradient[own + len(frees) :] += [g.stretch for g in gauges]
     gradient[:own] = 0.0  # it is a maximum; what is left is noise of the differences, and grows where nothing is told
-    information[np.arange(own), np.arange(own)] += [f.told for f in fit.problem.free]
+    information[np.arange(own), np.arange(own)] += [f.evidence_information for f in fit.problem.free]
     exact = [problem.settings.rival.known] * len(known)
     widths = np.array([*exact, *[0.0] * (len(frees) - len(known)), *(g.width for g in gauges)])
     return Expansion(
@@ -300,7 +300,7 @@ def stood_in(expansion: Expansion, gone: Collection[str]) -> tuple[Fit, float] |
     dropped = expansion.coordinates_of(gone)
     problem = restarted(transplanted(expansion.fit))
     for key in gone:
-        problem = problem.reduced(key, {})
+        problem = problem.remove_term(key, {})
     return _with_forces(expansion, problem, expansion.best(dropped, expansion.worse))
 
 
@@ -313,7 +313,7 @@ def _with_forces(expansion: Expansion, problem: Problem, best: Discrepancy) -> t
     trials = []
     for share in SHARES:
         wrong = [replace(f, start=f.mean + share * float(best.mean[i])) for i, f in enumerate(known)]
-        trial = problem.extended(wrong, ())
+        trial = problem.extend(wrong, ())
         for group in chosen:
             count = term_of(problem, group.name)[0].count  # type: ignore[attr-defined]
             rows = np.zeros((2, count))
@@ -373,7 +373,7 @@ def _rows(wider: Problem, slopes: Sensitivity, steps: Array) -> tuple[Array, Arr
     """Return the derivatives (count, readings) of errors and variances by coordinates behind those of the fit."""
     own = len(slopes.theta)
     zero = np.concatenate([slopes.theta, [f.start for f in wider.free[own:]]])
-    seen = wider.many(np.vstack([zero[None], zero + np.eye(len(zero))[own:] * steps[:, None]]))
+    seen = wider.filter_many(np.vstack([zero[None], zero + np.eye(len(zero))[own:] * steps[:, None]]))
     above = np.where(seen.finite[1:], np.arange(1, len(seen)), 0)
     errors = (seen.errors[above] - seen.errors[0]) / steps[:, None]
     return errors, (seen.variances[above] - seen.variances[0]) / steps[:, None]

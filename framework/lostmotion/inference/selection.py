@@ -350,7 +350,7 @@ class Selector:
         """Fit each relative of a term in place of it, so that one that only stands in for another gives way."""
         for key in sorted(fit.problem.active):
             known = self.course.visits.get(fit.problem.active - {key})
-            without = known.fit if known else self._visit(maximise(fit.problem.reduced(key, fit.values))).fit
+            without = known.fit if known else self._visit(maximise(fit.problem.remove_term(key, fit.values))).fit
             slopes = slopes_of(without)
             for other in self.candidates:
                 terms = without.problem.active | {other}
@@ -373,7 +373,9 @@ class Selector:
         for key in sorted(chosen.problem.active):
             terms = chosen.problem.active - {key}
             self.say(f"without {key}")
-            visit = self.course.visits.get(terms) or self._visit(maximise(chosen.problem.reduced(key, chosen.values)))
+            visit = self.course.visits.get(terms) or self._visit(
+                maximise(chosen.problem.remove_term(key, chosen.values))
+            )
             self.course.check(visit)
             self.course.contest(here, visit, self.limits.decisive)
             told = here.weight > visit.weight + self.limits.decisive

@@ -16,11 +16,17 @@ from lostmotion.inference.fit import Fit, maximise, restarted, warmed
 from lostmotion.inference.modes import Tried, distinct
 from lostmotion.inference.unseen import with_less_random_force
 from lostmotion.kernels.threads import each
-from lostmotion.likelihood.drive import substeps
-from lostmotion.likelihood.levels import LEVELS_TRIED, noise_frees, own_levels, random_level, usual_of
+from lostmotion.likelihood.drive import count_substeps
+from lostmotion.likelihood.levels import (
+    LEVELS_TRIED,
+    compute_random_level,
+    compute_usual_level,
+    make_noise_levels,
+    make_own_levels,
+)
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import Problem, Scales
-from lostmotion.likelihood.space import LEVELS, NOISE, OFFSET, RANDOM, FreeParameter, keys_of
+from lostmotion.likelihood.space import LEVELS, NOISE, OFFSET, RANDOM, FreeParameter, list_keys
 from lostmotion.likelihood.system import Slot, System
 from lostmotion.quantities import quantity_of, unit_of
 from lostmotion.recording.checks import filled
@@ -147,7 +153,7 @@ def free_of(slot: Slot, prior: Prior) -> FreeParameter:
 def frees_for(slot: Slot, prior: Prior, recordings: Sequence[str]) -> tuple[FreeParameter, ...]:
     """Return the free parameters of a case's prior: one, or with `each` one for each of the named recordings."""
     shared = free_of(slot, prior)
-    keys = keys_of(slot.key, recordings) if prior.each else (slot.key,)
+    keys = list_keys(slot.key, recordings) if prior.each else (slot.key,)
     return tuple(replace(shared, key=key) for key in keys)
 
 
@@ -215,8 +221,8 @@ def problem_of(
     names = [observation.name for observation in observations]
     frees = [f for name, prior in case.estimate.items() for f in frees_for(system.slot(name), prior, names)]
     problem = Problem(system, observations, scales, known, tuple(frees), jobs=jobs, settings=settings)
-    scales = replace(scales, usual=usual_of(problem, rate_of(problem, problem.start)))
-    problem = replace(problem, scales=scales, free=(*frees, *noise_frees(observations, scales)))
+    scales = replace(scales, usual=compute_usual_level(problem, rate_of(problem, problem.start)))
+    problem = replace(problem, scales=scales, free=(*frees, *make_noise_levels(observations, scales)))
     return stepped(problem, problem.start)
 
 
@@ -230,13 +236,13 @@ def rate_of(problem: Problem, theta: Array) -> float:
     middle = np.repeat(np.mean(observation.inputs, axis=0)[None], len(states), axis=0)
     alike = all(f.recording is None or f.level in LEVELS for f in problem.free)
     fulls = [problem.full(theta, i) for i in range(1 if alike else len(problem.observations))]
-    return max(1.0 / scales.time, *(system.stiffness(full, problem.active, states, middle) for full in fulls))
+    return max(1.0 / scales.time, *(system.find_fastest_rate(full, problem.active, states, middle) for full in fulls))
 
 
 def stepped(problem: Problem, theta: Array, *, accuracy: float = COARSE) -> Problem:
     """Return the problem with as many steps between samples as the stiffness along the recorded motion asks for."""
     rate = rate_of(problem, theta)
-    steps = substeps(rate, max(t.dt for t in problem.observations), accuracy=accuracy)
+    steps = count_substeps(rate, max(t.dt for t in problem.observations), accuracy=accuracy)
     return replace(problem, nsub=max(steps, steps_for_sticking(problem, theta, creep=CREEP * accuracy / COARSE)))
 
 
@@ -284,7 +290,7 @@ def _tried(problem: Problem, beginning: Problem, rng: np.random.Generator, point
     random = [f.parameter == RANDOM for f in problem.free]
     scores = np.full(points, -np.inf)
     for share in LEVELS_TRIED:
-        starts[:, random] = random_level(problem.observations, problem.scales, share)
+        starts[:, random] = compute_random_level(problem.observations, problem.scales, share)
         scores = np.maximum(scores, beginning.log_likelihoods(problem.clip(starts)))
     starts[:, random] = problem.start[random]
     return Tried(cube, starts, scores)
@@ -346,7 +352,7 @@ def separated(fit: Fit, sensor: SensorSpec) -> Fit:
     kept = tuple(f for f in problem.free if f.level not in (RANDOM, NOISE))
     levels = tuple(f for f in problem.free if f.level in (RANDOM, NOISE))
     if own:
-        levels = own_levels(problem, float(fit.theta[problem.keys.index(RANDOM)]))
+        levels = make_own_levels(problem, float(fit.theta[problem.keys.index(RANDOM)]))
     apart = replace(problem, free=(*kept, *zeros, *levels))
     return maximise(apart, apart.start)
 
@@ -360,7 +366,7 @@ def _offsets(problem: Problem, prior: Prior | None) -> tuple[FreeParameter, ...]
     return tuple(
         _free(key, unit_of(sensor.channel, motion), prior, (-math.inf, math.inf))
         for i, sensor in enumerate(first.sensors)
-        for key in keys_of(first.level(OFFSET, i), names)
+        for key in list_keys(first.level(OFFSET, i), names)
     )
 
 

@@ -20,8 +20,8 @@ from lostmotion.inference.candidates import screen, slopes_of
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.natural import size_of, sorted_slots, term_of, tried_of
 from lostmotion.inference.setup import stepped
-from lostmotion.likelihood.latent import expected_force
-from lostmotion.likelihood.motion import derivatives
+from lostmotion.likelihood.latent import smooth_expected_force
+from lostmotion.likelihood.motion import compute_derivatives
 from lostmotion.likelihood.problem import Problem
 from lostmotion.likelihood.system import Slot
 
@@ -72,7 +72,7 @@ class SmoothedMotion:
     def _rates(self, packed: Array, active: frozenset[str]) -> Array:
         observation = self.problem.observations[0]
         told = (packed, self.states, observation.inputs, observation.time)
-        return derivatives(self.problem.system, active, *told)[0]
+        return compute_derivatives(self.problem.system, active, *told)[0]
 
     @cached_property
     def _bare(self) -> Array:
@@ -138,11 +138,11 @@ def scouted(fit: Fit, *, forces: bool = True) -> dict[str, list[dict[str, float]
     Without `forces` only sensors are looked at: what bends them passes for noise, and leaves no random force.
     """
     keys, whole = scoutable(fit.problem), fit.problem.observations[0]
-    keys = [key for key in keys if forces or key in fit.problem.system.bending]
+    keys = [key for key in keys if forces or key in fit.problem.system.bending_terms]
     if not keys:
         return {}
     problem = stepped(fit.problem, fit.theta).on((whole.part(0, min(whole.samples, MOST_SAMPLES)),))
-    states, lean = expected_force(problem, fit.theta)
+    states, lean = smooth_expected_force(problem, fit.theta)
     track = SmoothedMotion(
         problem, fit.theta, np.ascontiguousarray(states[:, : len(problem.system.model.states)]), lean
     )
@@ -161,7 +161,7 @@ def scoutable(problem: Problem) -> list[str]:
     """Return the keys of forces without states, and of bends of sensors, that have a free shape and are not at work."""
     idle = [(key, term_of(problem, key)[0]) for key in problem.system.keys if key not in problem.active]
     plain = [key for key, term in idle if term.acts == "motion" and not term.states]
-    return [key for key in (*plain, *problem.system.bending) if _free_shapes(problem, key)]
+    return [key for key in (*plain, *problem.system.bending_terms) if _free_shapes(problem, key)]
 
 
 def _free_shapes(problem: Problem, key: str) -> list[Slot]:

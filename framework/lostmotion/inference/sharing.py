@@ -26,7 +26,7 @@ from lostmotion.inference.setup import separated
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import Problem
-from lostmotion.likelihood.space import LEVELS, FreeParameter, keys_of
+from lostmotion.likelihood.space import LEVELS, FreeParameter, list_keys
 from lostmotion.results import Interval
 from lostmotion.results.sharing import PowerOfLevel
 from lostmotion.settings import DEFAULT
@@ -141,7 +141,7 @@ def sharing_of(fit: Fit) -> SharedValues | None:
     if curves := curves_of(fit.problem):
         plain = compared.problem
         for key in curves:
-            plain = plain.reduced(key, fit.values)
+            plain = plain.remove_term(key, fit.values)
         bare, evidence = _course(separated(maximise(plain, warmed(plain, plain.start, RAISED)), SensorSpec()))
         courses.append((replace(bare, dropped=curves), evidence))
     return max(courses, key=lambda course: course[1])[0]
@@ -222,12 +222,12 @@ def apart_in(base: Fit, key: str) -> SeparateFit | None:
     free, names = problem.free[index], [observation.name for observation in problem.observations]
     fit = base
     if free.recording is None:
-        own = [replace(free, key=name) for name in keys_of(key, names)]
+        own = [replace(free, key=name) for name in list_keys(key, names)]
         split = replace(problem, free=(*problem.free[:index], *own, *problem.free[index + 1 :]))
         fit = maximise(split, rounds=ROUNDS)
         if fit.status == "diverged":
             return None
-    columns = [fit.problem.keys.index(name) for name in keys_of(key, names)]
+    columns = [fit.problem.keys.index(name) for name in list_keys(key, names)]
     return SeparateFit(
         key, fit, replace(free, key=key), fit.theta[columns], covariance_of(fit, columns), free.recording is not None
     )

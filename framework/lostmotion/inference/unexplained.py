@@ -112,7 +112,7 @@ class Search:
             return fit
         for key in sorted(fit.problem.active - set(curves)):
             self.say(f"learned curves without {key}")
-            less = maximise(fit.problem.reduced(key, fit.values), rounds=2 * ROUNDS, tolerance=0.3)
+            less = maximise(fit.problem.remove_term(key, fit.values), rounds=2 * ROUNDS, tolerance=0.3)
             if self.visit(less) > self.visits[fit.problem.active][1] - fit.problem.settings.select.decisive:
                 fit = less
         return fit
@@ -191,7 +191,7 @@ def fewer(unknown: UnknownForce, key: str) -> UnknownForce | None:
     keys = tuple(k for k in unknown.keys if k != key)
     if not keys:
         return None
-    fit = maximise(unknown.fit.problem.reduced(key, unknown.fit.values), rounds=ROUNDS, tolerance=0.3)
+    fit = maximise(unknown.fit.problem.remove_term(key, unknown.fit.values), rounds=ROUNDS, tolerance=0.3)
     gain = unknown.gain + fit.log_evidence - unknown.fit.log_evidence
     return replace(unknown, fit=fit, keys=keys, gain=gain) if gain > fit.problem.settings.select.decisive else None
 

@@ -10,7 +10,7 @@ import numpy as np
 from lostmotion.contracts import Array
 from lostmotion.inference.fit import Fit, Local, maximise
 from lostmotion.inference.mixture import nodes_of, root_of
-from lostmotion.likelihood.initial import placed
+from lostmotion.likelihood.initial import shows_place
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import RANDOM, Problem
 
@@ -71,7 +71,7 @@ def _shifted(problem: Problem, local: Local) -> Array:
 
 def blind(problem: Problem) -> bool:
     """Return whether there is a recording of which no sensor shows a position."""
-    return not all(placed(observation) for observation in problem.observations)
+    return not all(shows_place(observation) for observation in problem.observations)
 
 
 def with_less_random_force(fit: Fit) -> Fit:
@@ -112,7 +112,7 @@ def begun(fit: Fit) -> Fit:
 
 def _begun(fit: Fit, observation: Observation, index: int) -> tuple[Observation, float]:
     """Return an observation with what is known of its first states, and how many deviations these have moved."""
-    if placed(observation):
+    if shows_place(observation):
         return observation, 0.0
     problem, n = fit.problem, len(fit.problem.system.model.states)
     wide = problem.on(tuple(replace(o, begun=None) for o in problem.observations)).points(fit.theta[None], index)

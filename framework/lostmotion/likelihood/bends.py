@@ -1,4 +1,4 @@
-"""Readings of sensors that are bent: put right before the filter sees them, with what that does to their density."""
+"""Readings of nonlinear sensors: corrected before the filter, with the change of their probability density."""
 
 from __future__ import annotations
 
@@ -12,18 +12,18 @@ from lostmotion.likelihood.engine import Innovations
 from lostmotion.likelihood.observation import Observation
 
 Bend = tuple[int, SensorTerm, Values]
-"""The number of a sensor, the term that bends it, and what that is handed."""
+"""The number of a sensor, the term that makes it nonlinear, and the parameters of that term."""
 ROUNDS = 30
 CLOSE, NUDGE = 1e-10, 1e-6
-"""A reading is put right to this share of its range; slopes are taken over this share of it."""
+"""A reading is corrected to this share of its range; slopes are differences over this share of it."""
 FLATTEST = 0.1
-"""A sensor shows at least this share of a change of what it should show: one that folds back is not undone."""
+"""The least slope of a sensor: one that is not monotonic cannot be inverted."""
 
 
-def unbent(seen: Observation, bends: Sequence[Bend]) -> tuple[Observation, Array]:
-    """Return an observation with its readings put right, and by how much they grow (samples, sensors) as they change.
+def correct_bends(seen: Observation, bends: Sequence[Bend]) -> tuple[Observation, Array]:
+    """Return an observation with corrected readings, and the slopes (samples, sensors) of readings over true values.
 
-    What is right is looked for by x = z - (bent(x) - x), again and again, damped by the slope.
+    The true value x of a reading z is found by the iteration x = z - (bent(x) - x), damped by the slope.
     """
     slopes = np.ones(seen.readings.shape)
     if not bends:
@@ -37,23 +37,23 @@ def unbent(seen: Observation, bends: Sequence[Bend]) -> tuple[Observation, Array
         x = z.copy()
         for _ in range(ROUNDS):
             miss = term.bent(x, p) - z
-            x = x - miss / _slope(term, x, p, size)
+            x = x - miss / _compute_slope(term, x, p, size)
             if not np.nanmax(np.abs(miss), initial=0.0) > CLOSE * size:
                 break
-        readings[:, sensor], slopes[:, sensor] = x, slopes[:, sensor] / _slope(term, x, p, size)
+        readings[:, sensor], slopes[:, sensor] = x, slopes[:, sensor] / _compute_slope(term, x, p, size)
     return replace(seen, readings=readings), slopes
 
 
-def _slope(term: SensorTerm, x: Array, p: Values, size: float) -> Array:
-    """Return by how much more a sensor shows (samples,) where it should show a little more."""
+def _compute_slope(term: SensorTerm, x: Array, p: Values, size: float) -> Array:
+    """Return the slope (samples,) of the reading of a sensor over the true value."""
     step = NUDGE * size
     return np.maximum((term.bent(x + step, p) - term.bent(x - step, p)) / (2.0 * step), FLATTEST)
 
 
-def stretched(found: Innovations, slopes: Array) -> Innovations:
-    """Return innovations of readings that were put right as those of the readings themselves, which are wider.
+def rescale_innovations(found: Innovations, slopes: Array) -> Innovations:
+    """Return the innovations of corrected readings in the scale of the readings themselves.
 
-    The likelihood is then the density of what the sensors have shown, whatever bends them.
+    The likelihood is then the density of the readings, for any nonlinearity of the sensors.
     """
     kept = np.where(np.isfinite(slopes), slopes, 1.0)
     read = found.errors != 0.0

@@ -9,7 +9,7 @@ from pathlib import Path
 from lostmotion.case import WRITTEN, CaseFile, check_alike, load_case
 from lostmotion.contracts import Model, Term
 from lostmotion.errors import CaseError, ContractError
-from lostmotion.likelihood.observation import Observation, observation_of
+from lostmotion.likelihood.observation import Observation, make_observation
 from lostmotion.preparation.candidates import candidates_of
 from lostmotion.preparation.vetting import sound, usable_terms
 from lostmotion.quantities import ROTATES
@@ -76,7 +76,7 @@ def prepared_with(case: CaseFile, loaded: Sequence[Recording], model: Model, reg
     """Return a case with recordings that were loaded and a model that was made, and with its terms."""
     recordings = tuple(thinned(one) for one in loaded)
     model = moving(model, case, recordings)
-    observations = tuple(observation_of(r, model, held=r.hold == "step") for r in recordings)
+    observations = tuple(make_observation(r, model, held=r.hold == "step") for r in recordings)
     known, aside = usable_terms(registry)
     return Prepared(
         case, recordings, observations, model, candidates_of(model, known, observations), registry.origins(), aside

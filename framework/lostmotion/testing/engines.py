@@ -198,7 +198,7 @@ def smoother_agrees_with_matrices(engine: Engine) -> str:
     """Return filtered and smoothed states, with their covariances, as the engine `reference` does."""
     for what, given in _every():
         dynamics, observation, points = given
-        one = (dynamics, observation, points.taken(slice(0, 1)))
+        one = (dynamics, observation, points.select(slice(0, 1)))
         found, wanted = engine.smooth(*one), Reference().smooth(*one)
         pairs = ((found.filtered, wanted.filtered, wanted.filtered_covariance),)
         for mine, theirs, covariance in (*pairs, (found.states, wanted.states, wanted.covariance)):
@@ -230,11 +230,11 @@ def points_do_not_know_each_other(engine: Engine) -> str:
     for sensors, random in ((SENSORS["a state"], "white"), (SENSORS["a bent channel"], "held")):
         dynamics, observation, points = asked(sensors, random, MANY)  # type: ignore[arg-type]
         together = engine.filter(dynamics, observation, points)
-        turned = engine.filter(dynamics, observation, points.taken(slice(None, None, -1)))
+        turned = engine.filter(dynamics, observation, points.select(slice(None, None, -1)))
         if not _same(together, turned[::-1]):
             return "the order of the points changes what comes out for them"
         for i in (0, MANY - 1):
-            if not _same(together[i : i + 1], engine.filter(dynamics, observation, points.taken(slice(i, i + 1)))):
+            if not _same(together[i : i + 1], engine.filter(dynamics, observation, points.select(slice(i, i + 1)))):
                 return "a point alone gives other numbers than among others"
     return ""
 

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from lostmotion.contracts import Array, DriveTerm, SensorTerm, Term
-from lostmotion.likelihood.plan import handed, law_of
+from lostmotion.likelihood.plan import make_law, prepare_values
 from lostmotion.testing.probes import STEP, Point, compiled, differ, of_term
 from lostmotion.testing.rules import SNAKE, listed, rule
 from lostmotion.testing.shared import repeated
@@ -35,12 +35,12 @@ def pace(term: Term, point: Point, function: Any = None, *, over: float = math.n
 
 
 def _arguments(term: Term, point: Point) -> tuple[Any, ...]:
-    return point.t, point.x, point.v, point.u, handed(term, point.p), tuple(point.y)
+    return point.t, point.x, point.v, point.u, prepare_values(term, point.p), tuple(point.y)
 
 
 def _fast(term: Term, name: str) -> Any:
     """Return `force` or `rate` compiled, with the fields of the term where it reads them."""
-    law = law_of(term, 0)
+    law = make_law(term, 0)
     made = compiled(getattr(type(term), name))
     static = isinstance(inspect.getattr_static(type(term), name), staticmethod)
     return made if static else partial(made, law.fields)
