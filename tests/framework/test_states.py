@@ -195,7 +195,7 @@ def test_a_score_that_falls_within_a_wide_scatter_speaks_against_a_model_that_pr
 def test_what_makes_predictions_worse_is_taken_back_until_they_are_not(monkeypatch):
     errors = {("a", "b", "curve"): 0.5, ("a", "b"): 0.4, ("a",): 0.1, (): 0.3}
 
-    def judged(d, prepared, rng):
+    def compare_heldout(d, prepared, rng):
         return SimpleNamespace(diagnosis=d, before=prediction(0.3, [0.0]), after=prediction(errors[d.found], [0.0]))
 
     def simpler(d, rng):
@@ -203,7 +203,7 @@ def test_what_makes_predictions_worse_is_taken_back_until_they_are_not(monkeypat
             found=d.found[:-1], withdrawn=(*d.withdrawn, d.found[-1]), explains=True, settings=DEFAULT
         )
 
-    monkeypatch.setattr(ways, "judged", judged)
+    monkeypatch.setattr(ways, "compare_heldout", compare_heldout)
     monkeypatch.setattr(ways, "simpler", simpler)
     monkeypatch.setattr(ways, "predicted_better", lambda outcome, observations: None)
     monkeypatch.setattr(ways, "decided", lambda outcome, observations: None)

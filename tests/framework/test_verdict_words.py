@@ -33,7 +33,7 @@ def diagnosed(slow, *names, white=0.0):
     shown = observed(np.stack([wave] * max(len(names), 1), axis=1), *names)
     problem = SimpleNamespace(
         observations=(shown,),
-        slow=lambda theta, index, sensor: (slow[sensor] ** 2, 0.7),
+        ar1=lambda theta, index, sensor: (slow[sensor] ** 2, 0.7),
         measurement=lambda theta, index, sensor: slow[sensor] ** 2 + white**2,
     )
     after = SimpleNamespace(problem=problem, theta=np.zeros(0))

@@ -38,9 +38,7 @@ from lostmotion.likelihood.space import (
 from lostmotion.likelihood.system import System
 from lostmotion.settings import DEFAULT, Settings
 
-__all__ = [
-    "LEVELS", "NOISE", "OFFSET", "PACE", "RANDOM", "USUAL", "FreeParameter", "Innovations", "Problem", "Scales",
-]  # fmt: skip
+__all__ = ["LEVELS", "NOISE", "OFFSET", "PACE", "RANDOM", "USUAL", "FreeParameter", "Innovations", "Problem", "Scales"]
 
 USUAL = 1e-3
 """The noise of a measured excitation as a share of the drive that is usual, and no mechanism left out."""
@@ -286,21 +284,9 @@ class Problem:
         process = np.exp(route.at(thetas, RANDOM))
         first = np.zeros(len(thetas), dtype=np.int64)
         return Points(
-            fulls,
-            process,
-            pace,
-            white,
-            ar1,
-            ar1_share,
-            gain,
-            offset + more,
-            lag,
-            mean,
-            covariance,
-            drives,
-            which,
+            fulls, process, pace, white, ar1, ar1_share, gain, offset + more, lag, mean, covariance, drives, which,
             first,
-        )
+        )  # fmt: skip
 
     def _sensor(self, thetas: Array, index: int, sensor: int) -> tuple[Any, Any, Any, Any]:
         """Return the variances of white and of slow noise, the share of it that a sample leaves, and the zero."""
@@ -370,7 +356,7 @@ class Problem:
         return float(variance), float(left)
 
     def measurement(self, theta: Array, index: int = 0, sensor: int = 0) -> float:
-        """Return the variance of all noise of a sensor, the white and the slow."""
+        """Return the variance of all noise of a sensor, white and AR(1)."""
         return self.noise(theta, index, sensor)[1] + self.ar1(theta, index, sensor)[0]
 
     def gauge(self, theta: Array, index: int = 0, sensor: int = 0) -> tuple[float, float, float]:
