@@ -221,7 +221,7 @@ def test_a_map_with_holes_is_drawn_and_one_of_one_axis_refused(tmp_path):
 
 
 def test_what_is_no_map_is_refused(tmp_path):
-    with pytest.raises(DataError, match="is not there"):
+    with pytest.raises(DataError, match="does not exist"):
         Map.open(tmp_path / "nothing.zarr")
     xr.Dataset({"a": ("x", [1.0])}).to_netcdf(tmp_path / "other.nc", engine="h5netcdf")
     with pytest.raises(DataError, match="not a map of lostmotion"):
