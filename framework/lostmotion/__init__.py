@@ -8,8 +8,8 @@ A recording and a model make a case, and a case can be diagnosed:
     case = lm.Case(recording, lm.model("lin_backlash"), known={"m": 1.0}, estimate={"c": lm.LogUniform(0.8, 80.0)})
     found = lm.diagnose(case)
 
-All that stands here is imported when it is first used: objects, the commands as functions, and the steps of the chaos
-laboratory. What plugins they know is in `lostmotion.registry.default()`.
+Each name is imported when it is first used: objects, the commands as functions, and the steps of the analysis. The
+plugins that they know are in `lostmotion.registry.default()`.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ __all__ = [
     "Settings", "Uniform", "analyse", "denoise", "diagnose", "embed", "identify", "load", "map", "model", "quantify",
     "simulate", "surrogate_test",
 ]  # fmt: skip
-_DOORS = {
+_TARGETS = {
     **{name: f"notebook.doors:{name}" for name in ("analyse", "diagnose", "identify", "load", "map", "simulate")},
     **{name: f"notebook.case:{name}" for name in ("Case", "model")},
     **{name: f"notebook.priors:{name}" for name in ("HalfNormal", "LogNormal", "LogUniform", "Normal", "Uniform")},
@@ -51,19 +51,19 @@ _DOORS = {
 }
 
 
-_ROOMS = ("registry", "settings", "testing")
+_MODULES = ("registry", "settings", "testing")
 
 
 def __dir__() -> list[str]:
-    """Return the front doors and the rooms beside what has been imported, for completion in a shell."""
-    return sorted({*globals(), *__all__, *_ROOMS})
+    """Return all public names, imported or not, for completion in a shell."""
+    return sorted({*globals(), *__all__, *_MODULES})
 
 
 def __getattr__(name: str) -> Any:
-    """Return a front door, or the module that holds plugins or the one that checks them, imported now."""
-    if name in _ROOMS:
+    """Return a public object or module, which is imported at this moment."""
+    if name in _MODULES:
         return import_module(f"lostmotion.{name}")
-    if name not in _DOORS:
+    if name not in _TARGETS:
         raise AttributeError(f"module 'lostmotion' has no attribute {name!r}: it has {', '.join(__all__)}")
-    module, _, attribute = _DOORS[name].partition(":")
+    module, _, attribute = _TARGETS[name].partition(":")
     return getattr(import_module(f"lostmotion.{module}"), attribute)

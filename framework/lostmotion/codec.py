@@ -1,9 +1,9 @@
-"""One codec for all results: frozen dataclasses to plain JSON values and back, and what each key of a file means.
+"""The codec of all results: frozen dataclasses to plain JSON values and back, and the meaning of each key of a file.
 
-A field is written under its name, or under that of `told(key=...)`. Fields that are None by default are left out where
-they are None, and so are others with `told(spare=True)` where they have their default. Numbers that are not finite are
-written as null, and null is read as NaN where a number is wanted. Keys that nobody knows are ignored when a file is
-read, so that newer files can be read by older programs.
+A field is written under its name, or under that of `described(key=...)`. A field whose default is None is left out of
+the file where it is None; a field with `described(spare=True)` where it has its default. Numbers that are not finite
+are written as null, and null is read as NaN where a number is expected. Unknown keys are ignored when a file is read,
+so that older programs can read newer files.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 Cells = float | tuple[float, ...]
-"""A number, or a row of them."""
+"""A number, or a list of numbers."""
 ABSENT = ", or absent"
 WORDS: Mapping[Any, str] = {
     float: "number",
@@ -42,11 +42,11 @@ def described(
     spare: bool = False,
     default: Any = dataclasses.MISSING,
 ) -> Any:
-    """Return a field of a result: what it means, for the schema; its unit; its `key` in a file where that differs.
+    """Return a dataclass field with its meaning (`doc`), its unit, and its `key` in a file where that differs.
 
-    The keys of a `flat` field, a result itself, stand in the file among those of its owner; it may be None, where none
-    of them is there. A `spare` field is left out of a file where it has its `default`, as one is whose default is None.
-    A `default` that is a mapping stands for an empty one of its own in each result.
+    A `flat` field holds a result whose keys are written among those of the enclosing result; it may be None if none of
+    its keys is in the file. A `spare` field is left out of a file where it has its `default`. A mapping as `default`
+    means a new empty mapping in each result.
     """
     metadata = {"doc": doc, "unit": unit, "key": key, "flat": flat, "spare": spare}
     if isinstance(default, dict):
@@ -55,18 +55,18 @@ def described(
 
 
 def to_plain(result: Any) -> Any:
-    """Return a result as JSON has it: mappings, lists, strings, numbers, true and false, null."""
-    return _converter().unstructure(result)
+    """Return a result as plain JSON values: mappings, lists, strings, numbers, booleans, None."""
+    return _make_converter().unstructure(result)
 
 
 def from_plain(kind: type[T], plain: Any, what: str = "the file") -> T:
-    """Return a result of a `kind` from plain JSON values; `DataError` says which key of `what` is wrong."""
-    from cattrs import BaseValidationError, transform_error  # results are declared without it
+    """Return a result of type `kind` from plain JSON values; `DataError` names the key of `what` that is wrong."""
+    from cattrs import BaseValidationError, transform_error  # imported late: declaring results does not need it
 
     try:
-        return _converter().structure(plain, kind)
+        return _make_converter().structure(plain, kind)
     except (BaseValidationError, TypeError, ValueError, KeyError) as err:
-        first = transform_error(err, path="", format_exception=_why)[0]
+        first = transform_error(err, path="", format_exception=_format_error)[0]
         raise DataError(f"{what} is not what this program writes: {first}") from err
 
 
@@ -80,44 +80,44 @@ class SchemaEntry(NamedTuple):
 
 
 def schema(kind: type) -> Iterator[SchemaEntry]:
-    """Yield each key of the files of a kind of result, in the order in which it is written."""
-    yield from _entries(kind, "")
+    """Yield an entry for each key in the files of a type of result, in the order of writing."""
+    yield from _list_entries(kind, "")
 
 
-def _entries(kind: Any, before: str) -> Iterator[SchemaEntry]:
+def _list_entries(kind: Any, before: str) -> Iterator[SchemaEntry]:
     hints = get_type_hints(kind)
     for f in dataclasses.fields(kind):
-        path = before + _key(f)
-        core, ending, words = _read(hints[f.name])
+        path = before + _key_of(f)
+        core, ending, words = _read_hint(hints[f.name])
         if f.metadata.get("flat"):
-            yield from _entries(core, before)
+            yield from _list_entries(core, before)
             continue
         words += ABSENT if f.metadata.get("spare") else ""
         yield SchemaEntry(path + ending, words, f.metadata.get("unit", ""), f.metadata.get("doc", ""))
         if dataclasses.is_dataclass(core):
-            yield from _entries(core, f"{path}{ending}.")
+            yield from _list_entries(core, f"{path}{ending}.")
 
 
-def _read(hint: Any) -> tuple[Any, str, str]:
+def _read_hint(hint: Any) -> tuple[Any, str, str]:
     """Return the innermost type of a hint, the ending of a path into it, and the type in words."""
     if _is_literal(hint):
-        return hint, "", _choice(hint)
+        return hint, "", _format_choices(hint)
     options = [one for one in get_args(hint) if one is not type(None)]
     if type(None) in get_args(hint):
-        core, ending, words = _read(options[0])
+        core, ending, words = _read_hint(options[0])
         return core, ending, words + ABSENT
     origin = getattr(hint, "__origin__", None)
     if origin is tuple:
-        core, ending, words = _read(options[0])
+        core, ending, words = _read_hint(options[0])
         return core, f"[]{ending}", f"list of {words}"
     if isinstance(origin, type) and issubclass(origin, Mapping):
-        core, ending, words = _read(options[1])
+        core, ending, words = _read_hint(options[1])
         return core, f".NAME{ending}", f"mapping of names to {words}"
     return hint, "", "object" if dataclasses.is_dataclass(hint) else WORDS.get(hint, "value")
 
 
 @cache
-def _converter() -> Converter:
+def _make_converter() -> Converter:
     import numpy as np
     from cattrs import Converter
 
@@ -125,21 +125,21 @@ def _converter() -> Converter:
     made.register_unstructure_hook(float, lambda x: float(x) if math.isfinite(x) else None)
     made.register_unstructure_hook(int, operator.index)
     made.register_unstructure_hook(bool, bool)
-    made.register_structure_hook(float, lambda x, _: _number(x))
-    made.register_structure_hook(int, lambda x, _: _whole(x))
-    made.register_structure_hook(bool, lambda x, _: _wanted(x, bool, "true or false"))
+    made.register_structure_hook(float, lambda x, _: _read_number(x))
+    made.register_structure_hook(int, lambda x, _: _read_whole(x))
+    made.register_structure_hook(bool, lambda x, _: _check_type(x, bool, "true or false"))
     made.register_structure_hook_func(lambda kind: kind is object, lambda x, _: x)
     made.register_structure_hook(
-        Cells, lambda x, _: tuple(map(_number, x)) if isinstance(x, list | tuple) else _number(x)
+        Cells, lambda x, _: tuple(map(_read_number, x)) if isinstance(x, list | tuple) else _read_number(x)
     )
-    made.register_structure_hook(str, lambda x, _: _wanted(x, str, "a text"))
+    made.register_structure_hook(str, lambda x, _: _check_type(x, str, "a text"))
     made.register_unstructure_hook_func(lambda kind: kind is np.ndarray, lambda x: made.unstructure(x.tolist()))
-    made.register_structure_hook_func(_is_literal, _one_of)
+    made.register_structure_hook_func(_is_literal, _check_choice)
     made.register_unstructure_hook_func(
         lambda kind: isinstance(kind, type) and issubclass(kind, np.generic), lambda x: made.unstructure(x.item())
     )
-    made.register_unstructure_hook_factory(dataclasses.is_dataclass, lambda kind: _writer(kind, made))
-    made.register_structure_hook_factory(dataclasses.is_dataclass, lambda kind: _reader(kind, made))
+    made.register_unstructure_hook_factory(dataclasses.is_dataclass, lambda kind: _make_writer(kind, made))
+    made.register_structure_hook_factory(dataclasses.is_dataclass, lambda kind: _make_reader(kind, made))
     return made
 
 
@@ -147,44 +147,47 @@ def _is_literal(kind: Any) -> bool:
     return get_origin(kind) is Literal
 
 
-def _choice(kind: Any) -> str:
-    """Return the words that a field may hold, as a sentence has them."""
+def _format_choices(kind: Any) -> str:
+    """Return the words that a field may hold as text: `"a", "b" or "c"`."""
     *first, last = (f'"{word}"' for word in get_args(kind))
     return f"{', '.join(first)} or {last}" if first else last
 
 
-def _one_of(x: Any, kind: Any) -> Any:
+def _check_choice(x: Any, kind: Any) -> Any:
     if x not in get_args(kind):
-        raise TypeError(f"wanted {_choice(kind)}, found {x!r}")
+        raise TypeError(f"wanted {_format_choices(kind)}, found {x!r}")
     return x
 
 
-def _writer(kind: type, converter: Converter) -> Any:
+def _make_writer(kind: type, converter: Converter) -> Any:
     from cattrs.gen import make_dict_unstructure_fn, override
 
-    spare = {f.name for f in _of(kind) if f.default is None or f.metadata.get("spare")}
-    how = {f.name: override(rename=f.metadata.get("key") or None, omit_if_default=f.name in spare) for f in _of(kind)}
+    spare = {f.name for f in _fields_of(kind) if f.default is None or f.metadata.get("spare")}
+    how = {
+        f.name: override(rename=f.metadata.get("key") or None, omit_if_default=f.name in spare)
+        for f in _fields_of(kind)
+    }
     write: Any = make_dict_unstructure_fn(kind, converter, _cattrs_use_linecache=False, **how)  # type: ignore[arg-type]
-    fields = [(_key(f), bool(f.metadata.get("flat"))) for f in _of(kind)]
+    fields = [(_key_of(f), bool(f.metadata.get("flat"))) for f in _fields_of(kind)]
 
     def in_order(result: Any) -> dict[str, Any]:
-        found = write(result)  # the spare ones come last
+        found = write(result)  # cattrs writes fields with omitted defaults last
         plain: dict[str, Any] = {}
         for key, flat in fields:
             if key in found:
                 plain.update(found[key] if flat else {key: found[key]})
         return plain
 
-    return in_order if spare or _flat(kind) else write
+    return in_order if spare or _flat_fields(kind) else write
 
 
-def _reader(kind: type, converter: Converter) -> Any:
+def _make_reader(kind: type, converter: Converter) -> Any:
     from cattrs.gen import make_dict_structure_fn, override
 
-    how = {f.name: override(rename=f.metadata.get("key") or None) for f in _of(kind)}
+    how = {f.name: override(rename=f.metadata.get("key") or None) for f in _fields_of(kind)}
     read: Any = make_dict_structure_fn(kind, converter, _cattrs_use_linecache=False, **how)  # type: ignore[arg-type]
     hints = get_type_hints(kind)
-    flat = {_key(f): (f.default is None, _keys(_read(hints[f.name])[0])) for f in _flat(kind)}
+    flat = {_key_of(f): (f.default is None, _keys_of(_read_hint(hints[f.name])[0])) for f in _flat_fields(kind)}
 
     def structured(plain: Any, wanted: Any) -> Any:
         inner = {key: None if optional and not keys & set(plain) else plain for key, (optional, keys) in flat.items()}
@@ -193,23 +196,23 @@ def _reader(kind: type, converter: Converter) -> Any:
     return structured if flat else read
 
 
-def _flat(kind: Any) -> list[dataclasses.Field[Any]]:
-    return [f for f in _of(kind) if f.metadata.get("flat")]
+def _flat_fields(kind: Any) -> list[dataclasses.Field[Any]]:
+    return [f for f in _fields_of(kind) if f.metadata.get("flat")]
 
 
-def _keys(kind: Any) -> set[str]:
-    return {_key(f) for f in _of(kind)}
+def _keys_of(kind: Any) -> set[str]:
+    return {_key_of(f) for f in _fields_of(kind)}
 
 
-def _key(f: dataclasses.Field[Any]) -> str:
+def _key_of(f: dataclasses.Field[Any]) -> str:
     return str(f.metadata.get("key") or f.name)
 
 
-def _of(kind: Any) -> tuple[dataclasses.Field[Any], ...]:
+def _fields_of(kind: Any) -> tuple[dataclasses.Field[Any], ...]:
     return dataclasses.fields(kind)
 
 
-def _number(x: Any) -> float:
+def _read_number(x: Any) -> float:
     if x is None:
         return math.nan
     if isinstance(x, bool) or not isinstance(x, int | float):
@@ -217,17 +220,17 @@ def _number(x: Any) -> float:
     return float(x)
 
 
-def _whole(x: Any) -> int:
+def _read_whole(x: Any) -> int:
     if isinstance(x, bool) or not isinstance(x, int):
         raise TypeError(f"wanted a whole number, found {x!r}")
     return x
 
 
-def _wanted(x: Any, kind: type[T], words: str) -> T:
+def _check_type(x: Any, kind: type[T], words: str) -> T:
     if not isinstance(x, kind):
         raise TypeError(f"wanted {words}, found {x!r}")
     return x
 
 
-def _why(err: BaseException, _: Any) -> str:
+def _format_error(err: BaseException, _: Any) -> str:
     return f"{err.args[0]!r} is absent" if isinstance(err, KeyError) else str(err)

@@ -1,7 +1,9 @@
-"""The seven kinds of plugin, in one file: subclass one once, as a frozen dataclass.
+"""The seven kinds of plugin. Subclass one of them directly, as a frozen dataclass, and name the class in a hook.
 
-`rhs`, `observe`, `force` and `rate` are plain scalar Python on NumPy arrays. The host compiles them with numba into one
-kernel: they may use `math`, arithmetic, branches and such only. What is *estimated* is an entry of `p`, no field.
+`rhs`, `observe`, `force` and `rate` are scalar Python functions on NumPy arrays. The framework compiles them with numba
+into one kernel, so they may use arithmetic, branches and `math`, but no NumPy functions and no objects. A quantity that
+is *estimated* is an entry of `p`, never a field of the class. `lostmotion plugins check NAME` tests a plugin against
+all rules of its kind. All values are in SI units.
 """
 
 from __future__ import annotations
@@ -14,7 +16,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Generic, Literal, Self
 import numpy as np
 
 from lostmotion.errors import ContractError, nearest
-from lostmotion.parts import Array, Group, Interface, Param
+from lostmotion.parts import PSEUDO_NEEDS, Array, Group, Interface, Param
 from lostmotion.quantities import Dimension
 from lostmotion.results import Embedding, Estimate
 from lostmotion.subjects import Data, Flow, Orbit, Series
@@ -31,30 +33,22 @@ __all__ = [
 Input = Callable[[Array, int], Array]
 """A recorded input: its value (order 0) or its first derivative (order 1) at times (s) of any shape."""
 Values = tuple[float, ...]
-"""What a term is handed for its parameters and states: numbers to be indexed, nothing to be written."""
+"""The parameters or states that a term receives: numbers to be read by index; they cannot be assigned."""
 Drive = tuple[float, float, float]
+"""A harmonic drive: amplitude (SI), angular frequency omega (rad/s) and phase (rad)."""
 Motion = Literal["translation", "rotation"]
-PSEUDO_NEEDS = (
-    "step", "finest", "mobility", "inertia", "omega", "amplitude", "stiffness", "play", "contact", "acceleration",
-    "force_input", "shake_input",
-)  # fmt: skip
-"""What a term may need that is no parameter of that name: the integration `step` (s), which may be shorter or longer
-from one to the next, the `finest` of these, and `mobility`, step / inertia:
-the velocity that a unit force gives the body in a step. A law that jumps at zero velocity is as wide as `force *
-mobility`, so that it sticks without turning the integration stiff. `omega` is the angular frequency of the drive
-(rad/s), `amplitude` sqrt(2) of its rms; `stiffness` and `play` those of the spring at the place. `contact` is the
-stiffness of a contact with play at the place, 0 where there is none. `inertia` is what a force at the place moves,
-`acceleration` what all other forces give the body there; `force_input` and `shake_input` say which entry of `u` is the
-force on that body and the acceleration of the base: -1 where none is."""
 
 
 class Model(ABC):
-    """A machine as a system of first-order equations, driven by what was *measured* going in.
+    """A machine as a system of first-order equations under *measured* inputs.
 
-    `states` names the entries of `y`; `inputs` those of `u`, zero where nothing drives them: "force", "second_force",
-    "base_position" with "base_velocity", "base_acceleration" (motion is then relative, but for what accelerometers
-    show). `channels` names by quantity what `observe` writes. `motion` is "translation" (N, m) or "rotation"
-    (N m, rad); where it is a field, `motions` lists what it can be.
+    `states` names the entries of `y`, position and velocity of the first body in front. `inputs` names the entries of
+    `u`: "force", "second_force" and so on, "base_position" followed by "base_velocity", or "base_acceleration" (the
+    motion is then relative to the base, while an accelerometer shows both). An input that nothing drives is zero.
+    `channels` names the entries that `observe` writes; the last part of a name is its quantity ("second_position").
+    `params` names the entries of `p`, `interfaces` the places where terms may act, `groups` dimensionless numbers.
+    `motion` is "translation" (N, m) or "rotation" (N m, rad). Where the equations hold for both, it is a field, and
+    `motions` lists both. `paper` cites the source. `plugins/template` has a complete example.
     """
 
     name: ClassVar[str]
@@ -71,25 +65,32 @@ class Model(ABC):
     @staticmethod
     @abstractmethod
     def rhs(t: float, y: Array, u: Array, p: Array, dydt: Array) -> None:
-        """Write the time derivative of the states `y` (len(states),) into `dydt`."""
+        """Write the time derivative of the states `y` (states,) into every entry of `dydt` (states,), in SI units.
+
+        `t` is the time (s), `u` (inputs,) and `p` (params,); none of the arguments but `dydt` may be changed. For
+        m x'' + c x' = u: `dydt[0] = y[1]` and `dydt[1] = (u[0] - p[1] * y[1]) / p[0]`.
+        """
 
     @staticmethod
     @abstractmethod
     def observe(t: float, y: Array, dydt: Array, u: Array, p: Array, seen: Array) -> None:
-        """Write what the sensors see into `seen` (len(channels),); `dydt` already holds the forces of the terms."""
+        """Write the values of the channels into every entry of `seen` (channels,), in SI units.
+
+        `dydt` (states,) is the derivative with the forces of all terms: `seen[2] = dydt[1]` shows the acceleration.
+        """
 
     @classmethod
     def exact(cls, values: Mapping[str, float], drive: Drive, start: Array | None) -> Flow | None:
-        """Return the flow under a drive (amplitude, omega, phase) where it is known in closed form, or None."""
+        """Return the closed-form flow under a `drive` from `start` (states,), or None; `values` maps all parameters."""
         return None
 
     @property
     def driven(self) -> tuple[str, ...]:
-        """The inputs that a single drive moves: the first one, and with a base position its velocity."""
+        """The names of the inputs that a single drive sets: the first, and for a base position also its velocity."""
         return self.inputs[: 2 if self.inputs[:1] == ("base_position",) else 1]
 
     def turned(self, motion: str) -> Self:
-        """Return the model in that motion, or raise a `ContractError` where it cannot be in it."""
+        """Return the model for "translation" or "rotation"; raise `ContractError` where it does not support that."""
         if motion not in (known := self.motions or (self.motion,)):
             words = " or ".join(known)
             raise ContractError(f"{self.name} is of {words}, not of {motion}: ask for {words}, or another model")
@@ -100,15 +101,17 @@ class Model(ABC):
 
 
 class Term(ABC):
-    """One piece of physics that a model may lack: a force at an interface, with states of its own if it needs them.
+    """A physical effect that a model may lack: a force at an interface, with states of its own where it needs them.
 
-    `force` returns the generalised force on the body in positive direction (friction is negative for v > 0), with
-    `x`, `v` the relative motion at the interface `at`, `p` the own `params` followed by `needs`, `s` the own states.
-    `physics` is a sentence with the parameters in braces; `formula` the law in plain text. `resembles` names terms that
-    tell a similar story, `equals` those that no recording of a machine that does not age can tell from it. `begins` are
-    the dimensions of those states that may be anything of natural size at first; all others begin at zero. One that
-    does the same `anywhere` is tried at the ground alone. `force` and `rate` are static, or methods that read numbers
-    among the fields of the term. `unlikely` is the log odds by which an engineer looks for other causes first.
+    `at` names the interface, `physics` is a sentence with the parameters in braces, `formula` the law as text. A
+    parameter with a `null` is an amplitude: where all of these are at their null, the force is exactly zero. `p` holds
+    the values of `params`, then of `needs`: parameters that the interface `holds`, or names in `PSEUDO_NEEDS`. Each of
+    `states` starts at zero, except the first ones, for which `begins` gives a dimension: they may start at any value
+    of natural size. `further` declares the results of `derived`. `resembles` names terms that explain recordings
+    almost as well; `equals` those that no recording of a machine with constant parameters can tell from this one.
+    A term whose effect is the same `anywhere` is tried only at the ground. `unlikely` is subtracted from the log odds
+    of a cause that an engineer considers last. `force` and `rate` are static, or methods that read numeric fields.
+    Example: `force` of viscous damping is `return -p[0] * v`; see `plugins/template` for a term with a state.
     """
 
     at: str
@@ -131,59 +134,62 @@ class Term(ABC):
     @staticmethod
     @abstractmethod
     def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
-        """Return the force (N or N m) on the body in positive direction."""
+        """Return the generalised force (N or N m) on the body, positive in the direction of positive motion.
+
+        `t` is the time (s), `x` and `v` the relative position and velocity at the interface (friction is negative for
+        v > 0), `u` (inputs,), `p` the values of `params` and `needs`, `s` those of `states`. The result is finite.
+        """
 
     @staticmethod  # noqa: B027 - most terms have no states of their own
     def rate(t: float, x: float, v: float, u: Array, p: Values, s: Values, dsdt: Array) -> None:
-        """Write the time derivative of the own states into `dsdt`; a term without states leaves this alone."""
+        """Write the time derivative of the own states into every entry of `dsdt` (states,), where there are any."""
 
     def prepared(self, p: Array) -> Array:
-        """Return what a law is handed for `params` and `needs` (points, count): once for each point, not each step."""
+        """Return the numbers (points, any) that `force` gets as `p`, computed once for each point of `p`."""
         return p
 
     @staticmethod
     def derived(p: Values) -> Values:
-        """Return the numbers that `further` names: what a reader asks for beside the parameters, such as a phase."""
+        """Return the numbers that `further` declares, computed from `p`: for instance a phase from two amplitudes."""
         return ()
 
     def commoner(self, values: Mapping[str, float]) -> Mapping[str, Mapping[str, float]]:
-        """Return commoner terms that are the same force together at these values, by name, with their values; or none.
+        """Return more common terms whose sum is the same force at these values, `{name: {param: value}}`, or `{}`.
 
-        A set of terms is told with these: a part of friction that has one direction is, where it is small, an offset.
+        The diagnosis then reports these: friction with two nearly equal levels is dry friction plus a constant force.
         """
         return {}
 
     @property
     def marked(self) -> bool:
-        """Whether the stored values themselves tell of this term, so that it is not fitted."""
+        """Whether the term is read from the stored values (`SensorTerm.quantisation`) and therefore not fitted."""
         return False
 
     def null(self) -> dict[str, float]:
-        """Return the parameters, with their values, at which the term does nothing."""
+        """Return the null of each amplitude, by name: with these values the term has no effect."""
         return {q.name: q.null for q in self.params if q.null is not None}
 
     def fits(self, model: Model) -> bool:
-        """Return whether the term can act in `model`: the place, the kind of motion and the needs exist there."""
+        """Return whether the term can act in `model`: its place, kind of motion and `needs` exist there."""
         try:
             return bool(place_of(model, self))
         except ContractError:
             return False
 
 
-class _Beside(Term):
-    """A term that acts beside the machine, and is no force."""
+class _NoForce(Term):
+    """A term that changes an input or a reading and exerts no force."""
 
     @staticmethod
     def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
-        """Return no force."""
+        """Return zero."""
         return 0.0
 
 
-class DriveTerm(_Beside):
-    """Something between the recorded excitation and the one that acts: no force, but another input.
+class DriveTerm(_NoForce):
+    """An effect between the recorded input and the input that acts on the machine, for instance a delay. No force.
 
-    `true` returns what acts of the recorded input `u` at times `t` (s from the start of the recording), or its time
-    derivative (`order` 1, for a base velocity); `p` is as for `Term.force`.
+    `at` is the name of the input. Example of a delayed drive, `true`: `return u(t - p[0], order)`.
     """
 
     acts = "drive"
@@ -191,16 +197,18 @@ class DriveTerm(_Beside):
     @staticmethod
     @abstractmethod
     def true(u: Input, t: Array, p: Values, order: int) -> Array:
-        """Return the input that acts at times `t`, as `t`, or its derivative."""
+        """Return the acting input at times `t` (s from the start, any shape), or for `order` 1 its time derivative.
+
+        `u(t, order)` is the recorded input, `p` is as for `Term.force`. At the null the result equals `u(t, order)`.
+        """
 
 
-class SensorTerm(_Beside):
-    """Something between the motion and its recording: no force.
+class SensorTerm(_NoForce):
+    """An effect between the motion and its recorded readings, for instance a wrong gain. No force.
 
-    It shows `gain(p)` times what is there and `offset(p)` more, `delay(p)` s late, `bent` and `rounded`. One with
-    states shows the first of them: `rate` is told what the `channel`, a field of its own, shows in place of `x`. What
-    shows in the stored values (`quantisation`) is not fitted. One that is `relative` is tried where there are several
-    sensors.
+    The sensor reads `rounded(gain * bent(x) + offset)`, `delay` s late. Override what applies; the defaults have no
+    effect. Where the term has states, the sensor reads the first of them, and `rate` gets the value of `channel` (a
+    field) as `x`. A `relative` term is tried only where there are several sensors. `p` is as for `Term.force`.
     """
 
     acts = "sensor"
@@ -209,48 +217,48 @@ class SensorTerm(_Beside):
 
     @staticmethod
     def gain(p: Values) -> float:
-        """Return what the sensor shows of one unit."""
+        """Return the gain, reading per value of the channel (dimensionless); 1 for an exact sensor."""
         return 1.0
 
     @staticmethod
     def offset(p: Values) -> float:
-        """Return what the sensor shows where nothing is."""
+        """Return the reading at zero, in the unit of the channel."""
         return 0.0
 
     @staticmethod
     def delay(p: Values) -> float:
-        """Return how late it shows it, in s."""
+        """Return the delay of the reading, in s."""
         return 0.0
 
     @staticmethod
     def bent(x: Array, p: Values) -> Array:
-        """Return what the sensor shows where it should show `x`, of any shape; it grows with x."""
+        """Return the nonlinear reading for values `x` of any shape, with that shape; it increases with `x`."""
         return x
 
     @staticmethod
     def rounded(z: Array, p: Values) -> Array:
-        """Return the shown values (samples,) as they are stored."""
+        """Return the readings `z` (samples,) as a file stores them, for instance in steps of a converter."""
         return z
 
     @staticmethod
     def quantisation(z: Array) -> tuple[Values, Values]:
-        """Return the parameters that the stored values (samples,) betray, with their errors; or nothing."""
+        """Return the parameters that values `z` (samples,) reveal, and their errors (sd), or two empty tuples."""
         return (), ()
 
     @staticmethod
     def scatter(p: Values) -> float:
-        """Return the standard deviation of the error that such marks bring with them."""
+        """Return the standard deviation of the error that this rounding adds, in the unit of the channel."""
         return 0.0
 
     @property
     def marked(self) -> bool:
-        """Whether the values themselves tell of this term, so that it is not fitted."""
+        """Whether the term is read from the stored values, because it overrides `quantisation`."""
         return type(self).quantisation is not SensorTerm.quantisation
 
 
 @dataclass(frozen=True)
 class Assembly:
-    """A model plus named terms: the one description that is simulated, fitted, diagnosed and drawn."""
+    """A model plus named terms, `model + term + term`: the form in which machines are simulated, fitted and drawn."""
 
     model: Model
     terms: tuple[Term, ...] = ()
@@ -263,14 +271,14 @@ class Assembly:
 
     @property
     def label(self) -> str:
-        """The sum as people write it, for instance `lin_backlash + coulomb_friction`."""
+        """The sum as text, for instance `lin_backlash + coulomb_friction`."""
         return " + ".join([self.model.name, *(t.name for t in self.terms)])
 
 
 def place_of(model: Model, term: Term) -> Interface:
-    """Return the interface of `model` at which `term` acts, or raise a `ContractError` that says what is wanting."""
+    """Return the interface of `model` at which `term` acts; raise `ContractError` that says what is missing there."""
     beside = (term.acts, *(model.inputs if term.acts == "drive" else (term.at,)))
-    named = {name: replace(_BESIDE, name=name) for name in beside}
+    named = {name: replace(_NOWHERE, name=name) for name in beside}
     places = {i.name: i for i in model.interfaces} if term.acts == "motion" else named
     if term.at not in places:
         raise ContractError(
@@ -285,22 +293,26 @@ def place_of(model: Model, term: Term) -> Interface:
     return place
 
 
-_BESIDE = Interface("", -1, "", lambda y, u: (0.0, 0.0))
+_NOWHERE = Interface("", -1, "", lambda y, u: (0.0, 0.0))
 
 
 class Embedder(ABC):
-    """Chooses the delay and the dimension in which a series unfolds."""
+    """Chooses lag and dimension of the delay vectors of a series."""
 
     name: ClassVar[str]
     paper: ClassVar[str]
 
     @abstractmethod
     def choose(self, x: Array, *, dt: float) -> Embedding:
-        """Return lag, dim and Theiler window for `x` (n,) sampled every `dt` s, with the curves behind them."""
+        """Return lag (samples), dimension and Theiler window (samples) for `x` (n,) sampled every `dt` s.
+
+        Example: `Embedding(lag=6, dim=3, theiler=20)` from `lostmotion.results`. For an unsuitable series raise no
+        error: set `status` to one of `results.STATUSES`, and explain it in `says`.
+        """
 
 
 class Quantifier(ABC, Generic[Data]):
-    """Measures one number, in `unit`: `Quantifier[Series]` of a recording, `Quantifier[Flow]` with `reads = "flow"`."""
+    """Estimates one number in `unit`, from a `Series`, or from the `Flow` of a model where `reads = "flow"`."""
 
     name: ClassVar[str]
     paper: ClassVar[str]
@@ -309,14 +321,19 @@ class Quantifier(ABC, Generic[Data]):
 
     @abstractmethod
     def estimate(self, data: Data, *, rng: np.random.Generator) -> Estimate:
-        """Return value, low, high, status and curve; a refusal is a status with a sentence, not an exception."""
+        """Return value with its 95 % interval (low <= value <= high), status and curve; draw only from `rng`.
+
+        Example: `Estimate(value, low, high, "ok", unit=self.unit)` from `lostmotion.results`. For unsuitable data raise
+        no error: return `Estimate.refused(status, says, unit=self.unit)` with a sentence that explains it.
+        """
 
 
 class Surrogate(ABC):
-    """Draws series that share what `preserves` names with the recording and are random otherwise.
+    """Draws random series that share the properties named in `preserves` with the recording.
 
-    `null` is the hypothesis, in words, under which the recording is one more such draw. `preserves` names some of
+    `null` states in words the hypothesis under which the recording is one more such draw. `preserves` names some of
     "mean", "variance", "amplitudes" (the sorted values), "spectrum", "cycles" (the shape of single periods).
+    Example of a shuffle: `return np.array([rng.permutation(series.x) for _ in range(draws)])`.
     """
 
     name: ClassVar[str]
@@ -326,28 +343,32 @@ class Surrogate(ABC):
 
     @abstractmethod
     def draw(self, series: Series, *, draws: int, rng: np.random.Generator) -> Array:
-        """Return surrogates (draws, m) of the series, m = n unless `piece` cuts its ends off."""
+        """Return finite surrogates (draws, m) in the unit of `series.x`, m = n unless `piece` cuts off the ends."""
 
     def piece(self, series: Series) -> slice:
-        """Return the part of the series that surrogates are made of: the recording is compared on the same part."""
+        """Return the part of the series from which surrogates are made; the recording is tested on the same part."""
         return slice(0, series.n)
 
 
 class Denoiser(ABC):
-    """Removes measurement noise from a series without a model of it."""
+    """Removes measurement noise from a series without a model of the machine."""
 
     name: ClassVar[str]
     paper: ClassVar[str]
 
     @abstractmethod
     def clean(self, series: Series, *, noise: float, rng: np.random.Generator) -> Array:
-        """Return the cleaned series (n,); `noise` is the estimated standard deviation of the noise in it, as x."""
+        """Return the cleaned series (n,), finite, in the unit of `series.x`; `noise` is the noise level (sd) in it.
+
+        Do not change `series.x`. A moving average: `return np.convolve(series.x, np.ones(3) / 3.0, mode="same")`.
+        """
 
 
 class Engine(ABC):
-    """Filters, smooths and simulates a model with its terms at many parameter points at once; threads may call it.
+    """Filters, smooths and simulates a model with its terms at many parameter points in one call, thread-safe.
 
-    A point depends on neither the others nor their order. One that leaves all numbers is told by `reached`, no error.
+    The result of a point depends neither on the other points nor on their order. A point that diverges raises no
+    error: `Innovations.of(errors, variances, reached)` marks it. `lostmotion.likelihood.reference` is an example.
     """
 
     name: ClassVar[str]
@@ -355,19 +376,22 @@ class Engine(ABC):
 
     @abstractmethod
     def filter(self, dynamics: Dynamics, observation: Observation, points: Points) -> Innovations:
-        """Return one-step errors and their variances, (points, samples, sensors)."""
+        """Return one-step errors and their variances, each (points, samples, sensors), in SI units and their squares.
+
+        A missing reading (NaN) has the error 0 and the variance 1 / (2 pi), so that it adds nothing.
+        """
 
     @abstractmethod
     def smooth(self, dynamics: Dynamics, observation: Observation, points: Points) -> Smoothed:
-        """Return filtered and smoothed states of one point, and their covariances."""
+        """Return filtered and smoothed states (samples, n) of a single point, with covariances (samples, n, n)."""
 
     @abstractmethod
     def simulate(
         self, dynamics: Dynamics, points: Points, start: Array, steps: int, kicks: Array | None = None
     ) -> Array:
-        """Return the states (points, steps, n) of free runs from `start` (points, n), NaN behind the last finite one.
+        """Return states (points, steps, n) of free runs from `start` (points, n), NaN after the last finite one.
 
-        They begin at the samples `points.first` of their drives; `kicks` (points, steps, n) are added after the first.
+        A run begins at sample `points.first` of its drive; `kicks` (points, steps, n) are added after the first state.
         """
 
 

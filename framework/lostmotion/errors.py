@@ -1,13 +1,13 @@
-"""The errors a caller may meet; every one is a `LostMotionError`.
+"""The errors that callers may catch; each is a `LostMotionError`.
 
     LostMotionError
     ├── DataError       the recording cannot be used as it is
-    │   └── PlaceError  a place cannot be written, or its disk is full: the work is sound, and can be done again
-    ├── CaseError       the case file says something that cannot be meant
+    │   └── PlaceError  a file cannot be written, or its disk is full: the same work can be repeated elsewhere
+    ├── CaseError       the case file contains something that cannot be valid
     ├── ContractError   a plugin breaks the contract of its kind
     └── PluginError     a name is unknown, contested or could not be loaded
 
-A message says what was found, what was wanted and what to do.
+A message says what was found, what was expected and what to do.
 """
 
 from __future__ import annotations
@@ -16,12 +16,12 @@ import difflib
 from collections.abc import Iterable
 from itertools import islice
 
-MOST = 2000
-"""Known names among which the nearest one is sought: each costs a comparison."""
+COMPARED = 2000
+"""The number of known names that `nearest` compares; each costs a comparison of strings."""
 
 
 class LostMotionError(Exception):
-    """Base of all errors raised on purpose; the command line turns it into exit status 2."""
+    """Base of all intended errors; the command line prints its message and exits with status 2."""
 
 
 class DataError(LostMotionError):
@@ -29,15 +29,15 @@ class DataError(LostMotionError):
 
 
 class PlaceError(DataError):
-    """A file or folder cannot be written, for instance since its disk is full; nothing that stood there is touched."""
+    """A file or folder cannot be written, for instance because its disk is full; existing files are unchanged."""
 
 
 class CaseError(LostMotionError):
-    """The case file says something that cannot be meant."""
+    """The case file contains something that cannot be valid."""
 
 
 class ContractError(LostMotionError):
-    """A plugin breaks the contract of its kind; `plugin` is the name of the sinner, where it is known."""
+    """A plugin breaks the contract of its kind; `plugin` is its name, where that is known."""
 
     def __init__(self, says: str = "", plugin: str = "") -> None:
         super().__init__(says)
@@ -49,10 +49,10 @@ class PluginError(LostMotionError):
 
 
 class PluginWarning(UserWarning):
-    """A plugin was set aside, or is slow, and the rest goes on; the command line shows it as one sentence."""
+    """A plugin is not used, or is slow, and the run continues; the command line prints the warning as one sentence."""
 
 
 def nearest(word: str, known: Iterable[str]) -> str:
     """Return ` (did you mean 'x'?)` for the known name closest to `word`, or an empty string."""
-    close = difflib.get_close_matches(word[:200], list(islice(known, MOST)), n=1, cutoff=0.5)
+    close = difflib.get_close_matches(word[:200], list(islice(known, COMPARED)), n=1, cutoff=0.5)
     return f" (did you mean {close[0]!r}?)" if close else ""

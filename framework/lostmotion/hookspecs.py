@@ -1,4 +1,16 @@
-"""The hooks a plugin may answer: each returns names, not objects, so that listing plugins imports none of them."""
+"""The hooks that a plugin may implement. Each returns names and not objects, so that listing plugins imports none.
+
+A plugin with one term::
+
+    from lostmotion.hookspecs import hookimpl
+
+    @hookimpl
+    def lostmotion_terms():
+        return {"maxwell_element": "my_package.terms:MaxwellElement"}
+
+A package names the module that holds these functions in the entry-point group `lostmotion.v1`. `lostmotion plugins`
+lists a name that two packages offer as a clash, and a package that fails with the reason; neither can be used.
+"""
 
 from __future__ import annotations
 
@@ -15,47 +27,50 @@ hookimpl = pluggy.HookimplMarker(PROJECT)
 
 @hookspec
 def lostmotion_models() -> Mapping[str, str]:
-    """Return `{"name": "package.module:Class"}` for each `Model`."""
+    """Return `{"name": "package.module:Class"}` for each `Model`: a model, a machine as equations of motion."""
     raise NotImplementedError
 
 
 @hookspec
 def lostmotion_terms() -> Mapping[str, str]:
-    """Return `{"name": "package.module:Class"}` for each `Term`."""
+    """Return `{"name": "package.module:Class"}` for each `Term`: a force or another effect."""
     raise NotImplementedError
 
 
 @hookspec
 def lostmotion_embedders() -> Mapping[str, str]:
-    """Return `{"name": "package.module:Class"}` for each `Embedder`."""
+    """Return `{"name": "package.module:Class"}` for each `Embedder`: a method that chooses lag and dimension."""
     raise NotImplementedError
 
 
 @hookspec
 def lostmotion_quantifiers() -> Mapping[str, str]:
-    """Return `{"name": "package.module:Class"}` for each `Quantifier`."""
+    """Return `{"name": "package.module:Class"}` for each `Quantifier`: a method that estimates a number."""
     raise NotImplementedError
 
 
 @hookspec
 def lostmotion_surrogates() -> Mapping[str, str]:
-    """Return `{"name": "package.module:Class"}` for each `Surrogate`."""
+    """Return `{"name": "package.module:Class"}` for each `Surrogate`: a method that draws surrogate series."""
     raise NotImplementedError
 
 
 @hookspec
 def lostmotion_denoisers() -> Mapping[str, str]:
-    """Return `{"name": "package.module:Class"}` for each `Denoiser`."""
+    """Return `{"name": "package.module:Class"}` for each `Denoiser`: a method that removes measurement noise."""
     raise NotImplementedError
 
 
 @hookspec
 def lostmotion_engines() -> Mapping[str, str]:
-    """Return `{"name": "package.module:Class"}` for each `Engine`."""
+    """Return `{"name": "package.module:Class"}` for each `Engine`: an engine that filters, smooths and simulates."""
     raise NotImplementedError
 
 
 @hookspec
 def lostmotion_commands() -> Mapping[str, tuple[str, str]]:
-    """Return `{"name": ("package.module:command", "One line of help.")}` for each `click.Command`."""
+    """Return `{"name": ("package.module:command", "One line of help.")}` for each `click.Command`.
+
+    A name that the framework's own command line uses is refused.
+    """
     raise NotImplementedError

@@ -1,4 +1,4 @@
-"""What models and terms are made of: parameters, places at which forces act, and dimensionless numbers."""
+"""The parts of models and terms: parameters, places at which forces act, and dimensionless numbers."""
 
 from __future__ import annotations
 
@@ -13,18 +13,34 @@ from numpy.typing import NDArray
 from lostmotion.quantities import Dimension
 
 Array = NDArray[np.float64]
+PSEUDO_NEEDS = (
+    "step", "finest", "mobility", "inertia", "omega", "amplitude", "stiffness", "play", "contact", "acceleration",
+    "force_input", "shake_input",
+)  # fmt: skip
+"""Names that `Term.needs` may list although they are no parameters of the model.
+
+- `step`: the length (s) of the present integration step, which may change from step to step; `finest`: the shortest.
+- `mobility`: step / inertia, the velocity that a unit force gives the body in one step. A law that jumps at zero
+  velocity is written as a steep line of width `force * mobility`: it sticks, and the integration does not become stiff.
+- `inertia`: the mass or moment of inertia that a force at the place moves.
+- `omega`: the angular frequency of the drive (rad/s); `amplitude`: sqrt(2) times the rms of the drive.
+- `stiffness`, `play`: those of the spring at the place; `contact`: the stiffness of a contact with play there, else 0.
+- `acceleration`: the acceleration that all other forces give the body at the place.
+- `force_input`, `shake_input`: the index in `u` of the force on that body and of the base acceleration, -1 if none.
+"""
 
 
 @dataclass(frozen=True)
 class Param:
-    """A number that may be known or estimated: `low` and `high` are physical bounds, not a prior.
+    """A number that may be known or estimated. `low` and `high` are physical bounds (SI), not a prior.
 
-    Of a term: `null` is where all of it does nothing; `typical` the prior width in natural scales (drive force, rms
-    position and velocity; if `lasting`, the time is that of the whole recording); `choices` are tried in turn and held,
-    and `words` are what a sentence says in place of each; `far` lists multiples of `typical` tried as well. With
-    `scale="log"` it is positive, known by order of magnitude.
-    `scan` are the least and the largest multiple of `typical` between which a recording is searched for it; for an
-    amplitude that a response is far from linear in, too.
+    With `scale="log"` the number is positive and known by its order of magnitude. `aliases` are further names for it.
+    Of a term: `null` marks an amplitude, and is the value at which the whole term has no effect. `typical` is the width
+    of the prior in natural scales (drive force, rms position and velocity; time of the whole recording if `lasting`).
+    `choices` are values that are tried in turn and not fitted, `words` what a sentence says in place of each of them.
+    `far` lists multiples of `typical` that are tried as further starts. `scan` is the smallest and largest multiple of
+    `typical` between which a recording is searched for the number, for an amplitude too if the response is far from
+    linear in it. Example: `Param("coefficient", "viscous damping", DAMPING, low=0.0, null=0.0)`.
     """
 
     name: str
@@ -45,11 +61,13 @@ class Param:
 
 @dataclass(frozen=True)
 class Interface:
-    """A place where a force can act: `motion(y, u)` gives relative position and velocity there.
+    """A place where a force can act: `motion(y, u)` returns the relative position and velocity there (SI units).
 
-    The force over parameter `inertia` is added to `dydt[row]`, and taken off at `against`, row and inertia of a second
-    body, times the parameter `lever` (a gear ratio), whose value then goes to `motion(y, u, lever)` too. Terms that
-    need what a place `holds`, such as the gap, or its contact (`stiffness`, `play`), act nowhere else.
+    The force divided by the parameter `inertia` is added to `dydt[row]`. `against` is row and inertia of a second body,
+    which feels the opposite force, times the parameter `lever` where there is one (a gear ratio); `motion(y, u, lever)`
+    then takes its value too. `holds` names parameters of the model that belong to the place, such as the gap, and
+    `stiffness` and `play` those of its contact: terms that need them act nowhere else.
+    Example: `Interface("ground", row=1, inertia="m", motion=lambda y, u: (y[0], y[1]))`.
     """
 
     name: str
@@ -66,7 +84,8 @@ class Interface:
 class Group(NamedTuple):
     """A dimensionless number of a model: setting it sets the parameter `target` to `law(values, number)`.
 
-    `target` may also be "drive.amplitude"; `values` are the parameters in SI units, and "drive.omega" (rad/s).
+    `target` may also be "drive.amplitude". `values` holds the parameters in SI units, and "drive.omega" (rad/s).
+    Example: `Group("zeta", "damping ratio", "c / (2 sqrt(k m))", "c", lambda v, z: 2.0 * z * (v["k"] * v["m"]) ** 0.5)`
     """
 
     name: str

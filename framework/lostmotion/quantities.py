@@ -1,4 +1,4 @@
-"""Dimensions of parameters and units of recordings; pint is the only door to unit names."""
+"""Dimensions of parameters and units of recordings. This is the only module that uses pint."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ ANGULAR = {
     "torque": "N m",
 }
 ROTATES = dict.fromkeys(SI.values(), "translation") | dict.fromkeys(ANGULAR.values(), "rotation")
-"""What motion a unit of a channel or an input belongs to."""
+"""The kind of motion to which the unit of a channel or an input belongs."""
 _NAMED: dict[tuple[str, float, float, float, float], str] = {
     ("translation", 1, -1, 2, 0): "kg",
     ("rotation", 1, -1, 2, 0): "kg m^2",
@@ -42,21 +42,21 @@ _NAMED: dict[tuple[str, float, float, float, float], str] = {
 
 
 LONGEST = 60
-"""Characters of a unit."""
+"""The greatest number of characters of a unit."""
 _RAISED = re.compile(r"\*\*|\^")
 _POWER = re.compile(r"[^\W\d_]\s*(?:\*\*|\^)\s*\(?\s*[+-]?\d(?:\.\d+)?(?![\d.])")
-"""A unit to the power of one digit: pint would work out 9 ** 9 ** 9 as well, for hours."""
+"""A unit to a power of one digit. Other powers are refused: pint would compute 9 ** 9 ** 9 for hours."""
 
 
 QUANTITIES = ("position", "velocity", "acceleration", "force")
-"""What channels and inputs of a model can be."""
+"""The quantities of channels and inputs of a model."""
 
 
 def quantity_of(name: str) -> str:
-    """Return what a channel or an input is, by the last part of its name: "second_position" is a position.
+    """Return the quantity of a channel or an input from the last part of its name: "second_position" is a position.
 
-    Parts are divided by `_` or `.`, and a torque is the force of a rotation. A plain name such as "x2" is that of a
-    coordinate, which is a position; one that resembles a quantity raises `DataError`.
+    Parts are separated by `_` or `.`, and a torque counts as the force of a rotation. Another name, such as "x2", is a
+    coordinate and therefore a position; a name that is almost a quantity (a typing error) raises `DataError`.
     """
     last = re.split(r"[_.]", name)[-1]
     if names_quantity(name):
@@ -64,7 +64,7 @@ def quantity_of(name: str) -> str:
     if last.isidentifier() and not nearest(last, QUANTITIES):
         return "position"
     raise DataError(
-        f"{name!r} ends in none of {', '.join(QUANTITIES)}{nearest(last, QUANTITIES)}: name it so, for instance"
+        f"{name!r} ends in none of {', '.join(QUANTITIES)}{nearest(last, QUANTITIES)}: name it for instance"
         " 'second_position'"
     )
 
@@ -75,14 +75,14 @@ def names_quantity(name: str) -> bool:
 
 
 def unit_of(name: str, motion: str) -> str:
-    """Return the SI unit of a channel or an input in a kind of motion: "rad/s^2" of an acceleration in rotation."""
+    """Return the SI unit of a channel or an input: "rad/s^2" for an acceleration where `motion` is "rotation"."""
     return (SI if motion == "translation" else ANGULAR)[quantity_of(name)]
 
 
 class Dimension(NamedTuple):
     """Powers of generalised force, length and time: `Dimension(1, -1, 1)` is a damping coefficient.
 
-    In rotation, force is torque and length is angle; `metre` counts the length of a lever beside them.
+    In rotation, force means torque and length means angle; `metre` is the power of a length in m besides them.
     """
 
     force: float = 0
@@ -97,16 +97,16 @@ class Dimension(NamedTuple):
             return named
         symbols = ("N", "m", "s", "m") if motion == "translation" else ("N m", "rad", "s", "m")
         powers = list(zip(symbols, self, strict=True))
-        above = [_power(s, n) for s, n in powers if n > 0] or ["1"]
-        below = [_power(s, -n) for s, n in powers if n < 0]
+        above = [_format_power(s, n) for s, n in powers if n > 0] or ["1"]
+        below = [_format_power(s, -n) for s, n in powers if n < 0]
         return " ".join(above) + ("/" + "/".join(below) if below else "")
 
     def scale(self, force: float, length: float, time: float) -> float:
-        """Return the natural size of such a quantity from the natural sizes of force, length and time."""
+        """Return the natural size of a quantity of this dimension from the natural sizes of force, length and time."""
         return float(force**self.force * length**self.length * time**self.time)
 
 
-def _power(symbol: str, power: float) -> str:
+def _format_power(symbol: str, power: float) -> str:
     return symbol if power == 1 else f"{symbol}^{power:g}"
 
 
@@ -122,9 +122,9 @@ FREQUENCY = Dimension(0, 0, -1)
 
 
 _NEWTON_METRE = re.compile(r"(?<![^\W\d_])([kmM]?N)m(?!\w)")
-"""Torques as they are mostly written, Nm, where pint reads numbers of metres."""
+"""Units of torque such as Nm, which pint would not read as newton metre."""
 _GRAVITY = {"g": "g_0", "mg": "mg_0", "G": "g_0"}
-"""How accelerations are written by those who make accelerometers, where pint reads grams."""
+"""Units of acceleration on accelerometers: g is the acceleration of gravity, where pint would read gram."""
 
 
 @lru_cache(maxsize=1)
@@ -135,15 +135,15 @@ def _registry() -> Any:
 
 
 def unit_powers(unit: str, motion: str) -> tuple[float, float, float, float]:
-    """Return the powers of force, length, time and metre of a unit that is made of SI units without a factor.
+    """Return the powers of force, length, time and metre of a unit that consists of SI units without a factor.
 
-    In rotation no power of an angle is told, since a radian is a number. `DataError` for any other unit.
+    In rotation the power of the angle is zero, since a radian is a number. Any other unit raises `DataError`.
     """
     if len(unit) > LONGEST or len(_POWER.findall(unit)) < len(_RAISED.findall(unit)):
         raise DataError(f"{unit[:LONGEST]!r} is no unit: write for instance 'N/m'")
     try:
         base = _registry().Quantity(1.0, _NEWTON_METRE.sub(r"\1 m", unit)).to_base_units()
-    except Exception as err:  # pint fails in every way there is
+    except Exception as err:  # pint raises many types of error
         raise DataError(f"{unit!r} is not known as a unit: write for instance 'N/m'") from err
     powers = {name.strip("[]"): float(power) for name, power in base.dimensionality.items()}
     if strange := set(powers) - {"mass", "length", "time"}:
@@ -159,7 +159,7 @@ def unit_powers(unit: str, motion: str) -> tuple[float, float, float, float]:
 def si_factor(unit: str, quantity: str) -> tuple[float, str]:
     """Return the factor that turns `unit` into SI, and the SI unit, for a quantity such as "force" or "position".
 
-    A length or an angle is taken for a position, a force or a torque for a force; anything else raises `DataError`.
+    A position may have a unit of length or angle, a force a unit of force or torque; any other raises `DataError`.
     """
     if len(unit) > LONGEST or len(_POWER.findall(unit)) < len(_RAISED.findall(unit)):
         raise DataError(f"unit {unit[:LONGEST]!r} of the {quantity} is no unit: write for instance {SI[quantity]!r}")
@@ -172,25 +172,25 @@ def si_factor(unit: str, quantity: str) -> tuple[float, str]:
         unit = _GRAVITY.get(unit, unit)
     try:
         one = registry.Quantity(1.0, unit)
-    except Exception as err:  # pint fails in every way there is
+    except Exception as err:  # pint raises many types of error
         raise DataError(f"unit {unit!r} of the {quantity} is not known: write for instance {SI[quantity]!r}") from err
     for target in targets:
-        if one.is_compatible_with(target) and _angular(unit) == ("rad" in target):
-            return _positive(float(one.to(target).magnitude), unit, quantity), target
-    raise DataError(f"unit {unit!r} does not measure {quantity}: wanted one like {SI[quantity]!r}{_hint(unit)}")
+        if one.is_compatible_with(target) and _is_angular(unit) == ("rad" in target):
+            return _require_positive(float(one.to(target).magnitude), unit, quantity), target
+    raise DataError(f"unit {unit!r} does not measure {quantity}: wanted one like {SI[quantity]!r}{_unit_hint(unit)}")
 
 
-def _hint(unit: str) -> str:
+def _unit_hint(unit: str) -> str:
     return {
-        "V": "; volts need factor = (N, m, ... per volt) and the unit that comes of it",
+        "V": "; volts need factor = (N, m, ... per volt) and the unit that results",
     }.get(unit, "")
 
 
-def _positive(factor: float, unit: str, quantity: str) -> float:
+def _require_positive(factor: float, unit: str, quantity: str) -> float:
     if not 0 < factor < math.inf:
         raise DataError(f"unit {unit!r} of the {quantity} comes to a factor of {factor:g}: wanted a positive one")
     return factor
 
 
-def _angular(unit: str) -> bool:
+def _is_angular(unit: str) -> bool:
     return any(word in unit.lower() for word in ("rad", "deg", "rev", "turn", "rpm", "°", "arc"))

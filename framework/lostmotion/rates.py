@@ -1,4 +1,4 @@
-"""Exponents in the units in which people quote them."""
+"""Conversion of Lyapunov exponents between units."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ UNITS: Mapping[str, str] = {
     "1/period": "per period, of the natural logarithm",
     "bit/period": "per period, of the logarithm to base 2",
 }
-"""The units of an exponent, and what each says: a bit is a factor of 2, a bare 1 a factor of e."""
+"""The units of an exponent and their meaning: "bit" counts factors of 2, "1" factors of e."""
 
 
 def exponent_in(estimate: Estimate, unit: str, *, period: float | None = None) -> Estimate:
-    """Return an estimate in 1/s in another of `UNITS`, its curve and details untouched; `period` is in s.
+    """Return an estimate in 1/s converted to another of `UNITS`; `period` is in s; curve and details are unchanged.
 
     With `period` = 1 / omega_0 and "bit/period" it is the bit per normalised time of Tjahjowidodo, Al-Bender and
     Van Brussel (2007).

@@ -1,4 +1,4 @@
-"""Files that are whole or not there: tables as CSV or netCDF. The one door to xarray's writers."""
+"""Atomic writing of files: a file is complete or absent. This is the only module that uses xarray's writers."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from lostmotion.errors import DataError, LostMotionError, PlaceError
 
 try:
     import fcntl
-except ImportError:  # a system that is not of the family of Unix
+except ImportError:  # not a Unix system
     fcntl = None  # type: ignore[assignment]
 
 if TYPE_CHECKING:
@@ -31,86 +31,86 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 ENDINGS = (".csv", ".nc")
-"""The endings of a table, which tell its format."""
+"""The file name endings of a table, which select its format."""
 FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
-"""What the system calls a full disk, a used-up share of it, and a file that may not grow."""
+"""The system errors for a full disk, an exhausted quota and a file beyond the size limit."""
 
 
 def save_table(
     path: Path, columns: Mapping[str, NDArray[np.float64]], units: Mapping[str, str], attrs: Mapping[str, str]
 ) -> None:
-    """Write `columns`, each (rows,), to a .csv or .nc file that appears whole or not at all.
+    """Write `columns`, each (rows,), atomically to a .csv or .nc file.
 
-    A netCDF has the first column as its dimension, the `units` on each variable, and `attrs` on the file; a CSV has
-    one header line and the shortest text that gives each number back exactly.
+    A netCDF file has the first column as its dimension, `units` as attributes of the variables, and `attrs` as those
+    of the file. A CSV file has one header line, and for each number the shortest text that reproduces it exactly.
     """
     require_ending(path)
     if path.suffix == ".nc":
-        save_datasets(path, {None: _dataset(columns, units, attrs)})
+        save_datasets(path, {None: _make_dataset(columns, units, attrs)})
         return
-    with whole(path) as spare:
-        _write_csv(spare, columns)
+    with whole(path) as temporary:
+        _write_csv(temporary, columns)
 
 
 def require_ending(path: Path) -> None:
-    """Raise `DataError` unless the ending of `path` is one that a table can have."""
+    """Raise `DataError` unless `path` ends in .csv or .nc."""
     if path.suffix not in ENDINGS:
         raise DataError(f"{path.name} ends in {path.suffix or 'nothing'!r}: a table is written as .csv or .nc")
 
 
 @contextmanager
 def whole(path: Path) -> Iterator[Path]:
-    """Yield a spare file beside `path`, which takes its name once it is on the disk, or vanishes after an error.
+    """Yield a temporary file beside `path`, which replaces `path` once it is on the disk; an error removes it.
 
-    What stood there before stays as it was until then. Spare files of processes that were killed are removed.
+    An existing file stays unchanged until then. Temporary files of processes that were killed are removed.
     """
-    spare = path.with_name(f".{path.stem}.{os.getpid()}{path.suffix}")
+    temporary = path.with_name(f".{path.stem}.{os.getpid()}{path.suffix}")
     with writing(path):
-        _clear(path)
-        spare.unlink(missing_ok=True)  # a link that somebody laid there would be written through
+        _remove_stale(path)
+        temporary.unlink(missing_ok=True)  # otherwise a link at this place would be followed
         try:
-            yield spare
-            _settle(spare)
-            spare.replace(path)
-            _settle(path.parent)
+            yield temporary
+            _sync(temporary)
+            temporary.replace(path)
+            _sync(path.parent)
         finally:
-            spare.unlink(missing_ok=True)
+            temporary.unlink(missing_ok=True)
 
 
 @contextmanager
 def writing(path: Path) -> Iterator[None]:
-    """Turn what the system says while `path` is written into a `PlaceError`; a full disk is told as such."""
+    """Turn system errors while `path` is written into a `PlaceError`, with its own message for a full disk."""
     try:
         yield
     except (OSError, RuntimeError) as err:
-        number = _number_of(err)
+        number = _error_number(err)
         if isinstance(err, RuntimeError) and number is None:
             raise
         if number in FULL:
             raise PlaceError(
-                f"{path} cannot be written, for there is no room left on its disk ({os.strerror(number)}): make room "
-                "and run the same command again; what stood there before is as it was"
+                f"{path} cannot be written, because there is no space left on its disk ({os.strerror(number)}): free "
+                "some space and run the same command again; existing files are unchanged"
             ) from err
         said = os.strerror(number) if number else str(err).partition("\n")[0]
         raise PlaceError(f"{path} cannot be written ({said}): choose another place") from err
 
 
-def _number_of(err: OSError | RuntimeError) -> int | None:
-    """Return the number of a system error; HDF5 tells it in words when it closes a file."""
-    told = re.search(r"errno = (\d+)", str(err))
-    return getattr(err, "errno", None) or (int(told[1]) if told else None)
+def _error_number(err: OSError | RuntimeError) -> int | None:
+    """Return the number of a system error; HDF5 gives it only in its message when it closes a file."""
+    match = re.search(r"errno = (\d+)", str(err))
+    return getattr(err, "errno", None) or (int(match[1]) if match else None)
 
 
-def _clear(path: Path) -> None:
-    """Remove the spare files of processes that are no more."""
-    for spare in path.parent.glob(f".{glob.escape(path.stem)}.*{glob.escape(path.suffix)}"):
-        number = spare.name[len(path.stem) + 2 : len(spare.name) - len(path.suffix)]
-        if number.isdecimal() and not _alive(int(number)):
-            spare.unlink(missing_ok=True)
+def _remove_stale(path: Path) -> None:
+    """Remove the temporary files of processes that have ended."""
+    for temporary in path.parent.glob(f".{glob.escape(path.stem)}.*{glob.escape(path.suffix)}"):
+        number = temporary.name[len(path.stem) + 2 : len(temporary.name) - len(path.suffix)]
+        if number.isdecimal() and not _is_running(int(number)):
+            temporary.unlink(missing_ok=True)
 
 
-def _alive(process: int) -> bool:
-    if os.name == "nt":  # there a signal 0 is sent, and ends the process
+def _is_running(process: int) -> bool:
+    if os.name == "nt":  # on Windows os.kill with signal 0 would end the process
         return True
     try:
         os.kill(process, 0)
@@ -123,9 +123,9 @@ def _alive(process: int) -> bool:
 
 @contextmanager
 def held(place: Path) -> Iterator[None]:
-    """Hold a folder or file for this process; the hold ends with the process, however that ends.
+    """Lock a folder or file for this process; the lock ends with the process, however that ends.
 
-    `DataError` where another process has it. A system without such holds goes on without one.
+    `DataError` is raised where another process has the lock. On a system without `fcntl` nothing is locked.
     """
     if fcntl is None:
         yield
@@ -140,8 +140,8 @@ def held(place: Path) -> Iterator[None]:
         os.close(handle)
 
 
-def _settle(path: Path) -> None:
-    """Wait until a file or folder is on the disk; not every system can open a folder for that."""
+def _sync(path: Path) -> None:
+    """Write a file or folder through to the disk; Windows cannot do this for a folder."""
     if os.name == "nt" and path.is_dir():
         return
     handle = os.open(path, os.O_RDONLY)
@@ -158,7 +158,7 @@ def _write_csv(path: Path, columns: Mapping[str, NDArray[np.float64]]) -> None:
         stream.writelines(",".join(map(repr, row)) + "\n" for row in rows)
 
 
-def _dataset(
+def _make_dataset(
     columns: Mapping[str, NDArray[np.float64]], units: Mapping[str, str], attrs: Mapping[str, str]
 ) -> xr.Dataset:
     import xarray
@@ -170,9 +170,9 @@ def _dataset(
 
 
 def save_datasets(path: Path, groups: Mapping[str | None, xr.Dataset], attrs: Mapping[str, Any] | None = None) -> None:
-    """Write datasets to the groups of a netCDF file (None is its root) that appears whole or not at all.
+    """Write datasets atomically to the groups of a netCDF file (None is its root).
 
-    The file is made in memory: HDF5 that meets a full disk as it writes brings the process down when it ends.
+    The file is first made in memory: after a full disk during writing, HDF5 would crash the process at its end.
     """
     import h5netcdf
     from xarray.backends import H5NetCDFStore
@@ -186,15 +186,15 @@ def save_datasets(path: Path, groups: Mapping[str | None, xr.Dataset], attrs: Ma
 
 
 def save_json(path: Path, content: Mapping[str, object]) -> None:
-    """Write `content` as JSON that appears whole or not at all; what is not finite becomes null."""
-    with whole(path) as spare:
-        spare.write_text(
+    """Write `content` atomically as JSON; numbers that are not finite become null."""
+    with whole(path) as temporary:
+        temporary.write_text(
             json.dumps(finite(content), indent=2, ensure_ascii=False, allow_nan=False) + "\n", encoding="utf-8"
         )
 
 
 def finite(value: object) -> object:
-    """Return a nested value as JSON has it: what is not finite becomes None, and an array a list."""
+    """Return a nested value as plain JSON values: numbers that are not finite become None, arrays become lists."""
     if isinstance(value, np.ndarray):
         value = value.tolist()
     if isinstance(value, Mapping):
@@ -208,7 +208,7 @@ def finite(value: object) -> object:
 
 @dataclass(frozen=True)
 class StoredArray:
-    """An array to be stored: its dimensions, values, SI unit and what it is; what is empty is not written."""
+    """An array to be stored: dimensions, values, SI unit and description (`long_name`); empty texts are not written."""
 
     dims: tuple[str, ...]
     values: object
@@ -222,22 +222,22 @@ def dataset_of(
     """Return arrays with their dimensions and units as a dataset."""
     import xarray
 
-    def laid_out(table: Mapping[str, StoredArray]) -> dict[str, tuple[tuple[str, ...], object, dict[str, str]]]:
-        told = {k: {"units": c.unit, "long_name": c.long_name} for k, c in table.items()}
-        return {k: (c.dims, c.values, {a: v for a, v in told[k].items() if v}) for k, c in table.items()}
+    def as_variables(table: Mapping[str, StoredArray]) -> dict[str, tuple[tuple[str, ...], object, dict[str, str]]]:
+        texts = {k: {"units": c.unit, "long_name": c.long_name} for k, c in table.items()}
+        return {k: (c.dims, c.values, {a: v for a, v in texts[k].items() if v}) for k, c in table.items()}
 
-    return xarray.Dataset(laid_out(arrays), laid_out(coords), dict(attrs))
+    return xarray.Dataset(as_variables(arrays), as_variables(coords), dict(attrs))
 
 
 def save_arrays(
     path: Path, arrays: Mapping[str, StoredArray], coords: Mapping[str, StoredArray], attrs: Mapping[str, str]
 ) -> None:
-    """Write arrays with their dimensions and units to a netCDF file that appears whole or not at all."""
+    """Write arrays with their dimensions and units atomically to a netCDF file."""
     save_datasets(path, {None: dataset_of(arrays, coords, attrs)})
 
 
 def folder_for(path: Path) -> Path:
-    """Return the folder `path`, made if need be; a place that cannot be written is refused before the work begins."""
+    """Return the folder `path`, created where it is missing; raise `PlaceError` at once if it cannot be written."""
     with writing(path):
         path.mkdir(parents=True, exist_ok=True)
         probe = path / f".probe.{os.getpid()}"
@@ -247,28 +247,28 @@ def folder_for(path: Path) -> Path:
 
 
 def save_text(path: Path, text: str) -> Path:
-    """Return `path`, with the text in a file that appears whole or not at all."""
-    with whole(path) as spare:
-        spare.write_text(text, encoding="utf-8")
+    """Return `path` after writing the text to it atomically."""
+    with whole(path) as temporary:
+        temporary.write_text(text, encoding="utf-8")
     return path
 
 
 def save_bytes(path: Path, content: bytes) -> Path:
-    """Return `path`, with the bytes in a file that appears whole or not at all."""
-    with whole(path) as spare:
-        spare.write_bytes(content)
+    """Return `path` after writing the bytes to it atomically."""
+    with whole(path) as temporary:
+        temporary.write_bytes(content)
     return path
 
 
 def require_files(folder: Path, names: Iterable[str], command: str) -> None:
-    """Raise a `DataError` where a file of a folder is missing that the `command` writes."""
+    """Raise `DataError` where a folder lacks one of the files `names`, which the `command` writes."""
     missing = [name for name in names if not (folder / name).is_file()]
     if missing:
         raise DataError(f"no {missing[0]} in {folder}: run `{command} --out {folder}` first")
 
 
 def load_json(path: Path, wanted: str) -> dict[str, Any]:
-    """Return the table that a JSON file holds; `wanted` ends the sentence that refuses anything else."""
+    """Return the object in a JSON file; `wanted` ends the message of the `DataError` for anything else."""
     try:
         found = json.loads(path.read_text(encoding="utf-8"))
     except OSError as err:
@@ -281,7 +281,7 @@ def load_json(path: Path, wanted: str) -> dict[str, Any]:
 
 
 def load_result(kind: type[T], path: Path, wanted: str) -> T:
-    """Return the result of a `kind` that a JSON file holds; `wanted` ends the sentence that refuses anything else."""
+    """Return the result of type `kind` in a JSON file; `wanted` ends the message of the `DataError` otherwise."""
     plain = load_json(path, wanted)
     try:
         return from_plain(kind, plain, str(path))
@@ -290,7 +290,7 @@ def load_result(kind: type[T], path: Path, wanted: str) -> T:
 
 
 def load_arrays(path: Path, wanted: str, group: str | None = None) -> xr.Dataset:
-    """Return what a netCDF of ours holds, in memory; `wanted` ends the sentence that refuses a damaged one."""
+    """Return a netCDF result in memory; `wanted` ends the message of the `DataError` for a damaged file."""
     import xarray
 
     from lostmotion.recording.unpacked import RESULT, check_hdf5
@@ -300,6 +300,6 @@ def load_arrays(path: Path, wanted: str, group: str | None = None) -> xr.Dataset
         return xarray.load_dataset(path, group=group, engine="h5netcdf")
     except LostMotionError:
         raise
-    except Exception as err:  # HDF5 and what reads it fail in every way there is
+    except Exception as err:  # HDF5 and its readers raise many types of error
         said = str(err).partition("\n")[0][:120]
         raise DataError(f"{path} cannot be read, or is damaged ({said}): {wanted}") from err

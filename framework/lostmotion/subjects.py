@@ -1,4 +1,4 @@
-"""What a method is handed: a recorded series, or a model as a flow. Plugins import them from `lostmotion.contracts`."""
+"""The data that a method receives: a recorded series, or a model as a flow. Import them from `lostmotion.contracts`."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class Series:
-    """One recorded channel: `x` (n,) sampled every `dt` s, how it is embedded, and the period (s) of its drive.
+    """One recorded channel: `x` (n,) sampled every `dt` s, its `embedding`, and the `period` (s) of its drive.
 
-    `period` is None where nothing drives the machine, or nobody knows. The host has checked `x`: finite, not
-    constant, centred, double precision. Exact repeats do occur, as every encoder gives them.
+    `period` is None where nothing drives the machine or the period is unknown. The framework has checked that `x` is
+    finite, not constant, centred and in double precision. Exact repeats do occur, since encoders produce them.
     """
 
     x: Array
@@ -34,10 +34,10 @@ class Series:
 
 @dataclass(frozen=True, eq=False)
 class Orbit:
-    """A model followed for some periods: states (periods + 1, n), logarithms of tangent growth (periods, k).
+    """An orbit of a model over some periods: states (periods + 1, n) in SI units, and tangent growth (periods, k).
 
-    `growth` holds natural logarithms, the fastest direction first, one row to each period. `status` is "ok", or one
-    of `results.STATUSES`, and what lies behind the end of a diverged orbit is NaN.
+    A row of `growth` holds the natural logarithms of the growth factors in one period, the fastest direction first.
+    `status` is "ok" or another of `results.STATUSES`. The rows after a divergence are NaN.
     """
 
     states: Array
@@ -46,32 +46,34 @@ class Orbit:
 
 
 class Flow(Protocol):
-    """A model with fixed parameters under a periodic drive, as its stroboscopic map with tangent vectors.
+    """A model with fixed parameters under a periodic drive: its stroboscopic map with tangent vectors.
 
-    `period` is the time (s) between two looks: that of the drive, or for a machine without one the time to be told.
-    `states` names the entries of a state; `start` (n,) is where an orbit begins unless told otherwise. `driven` says
-    that the phase of a drive is one more direction of the flow, whose exponent is zero.
+    Without a drive, `period` is a time chosen by the caller. `driven` tells that the phase of a drive is one more
+    direction of the flow, with the exponent zero.
     """
 
     @property
     def period(self) -> float:
-        """The time (s) between two looks."""
+        """The time (s) between two stroboscopic samples: the period of the drive, or a chosen time without one."""
 
     @property
     def driven(self) -> bool:
-        """Whether a drive keeps the time."""
+        """Whether a periodic drive acts on the machine."""
 
     @property
     def states(self) -> tuple[str, ...]:
-        """The names of the states."""
+        """The names of the states, (n,)."""
 
     @property
     def start(self) -> Array:
-        """The state (n,) in which an orbit begins."""
+        """The state (n,) in which an orbit begins by default, in SI units."""
 
     def strobe(self, start: Array, *, periods: int, tangents: int) -> Orbit:
-        """Return the orbit from `start` (n,) at drive phase 0, with `tangents` tangent vectors kept orthogonal."""
+        """Return the orbit from `start` (n,) at drive phase 0, with `tangents` tangent vectors kept orthogonal.
+
+        Nothing is raised where the orbit diverges: `Orbit.status` tells it.
+        """
 
 
 Data = TypeVar("Data", Series, Flow)
-"""What a quantifier reads: a `Series`, or a `Flow`."""
+"""The data that a quantifier reads: a `Series`, or a `Flow`."""

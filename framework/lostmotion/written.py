@@ -1,6 +1,6 @@
-"""A model made of equations of motion: a class like any other, that is compiled, checked and fitted in the same way.
+"""Models from equations of motion as text. The result is a class that is compiled, checked and fitted like any other.
 
-Its text becomes functions of arithmetic on indexed numbers; no name of the text is ever looked up or called.
+The text is translated to arithmetic on indexed arrays; no name in the text is ever looked up or called.
 """
 
 from __future__ import annotations
@@ -24,13 +24,13 @@ _FUNCTIONS = {
     "min": "min({0}, {1})",
     "max": "max({0}, {1})",
 }
-"""What functions of an equation become that are none of `math`."""
+"""The Python text of the functions of an equation that are not in `math`."""
 SQUARES = 6
-"""Whole powers up to this one are products."""
+"""The largest integer power that is written as a product."""
 
 
 def is_equation(text: str) -> bool:
-    """Return whether a text is meant as an equation, and not as the name of a model."""
+    """Return whether a text is an equation and not the name of a model."""
     return bool(set("=*/+^('’′") & set(text))
 
 
@@ -43,15 +43,15 @@ def model_of(
 ) -> type[Model]:
     """Return the class of a model from its equations of motion, `m*x'' + c*x' + k*x = force`.
 
-    `units` (SI, by parameter) are needed where the equations leave them open; `params` are names that are parameters
-    although they look like an input. `CaseError` shows the place in the text that cannot be meant.
+    `units` (SI, by parameter) are needed where the equations do not determine them. `params` are names of parameters
+    that would otherwise be read as inputs. `CaseError` shows the place of an error in the text.
     """
     lines = (texts,) if isinstance(texts, str) else tuple(texts)
-    return _class_of(lines, tuple(sorted((units or {}).items())), motion, tuple(sorted(params)))
+    return _make_class(lines, tuple(sorted((units or {}).items())), motion, tuple(sorted(params)))
 
 
 @lru_cache(maxsize=64)
-def _class_of(
+def _make_class(
     texts: tuple[str, ...], units: tuple[tuple[str, str], ...], motion: Motion | None, params: tuple[str, ...]
 ) -> type[Model]:
     found = equations_of(texts, units=dict(units), motion=motion, params=params)
@@ -62,7 +62,7 @@ def _class_of(
         index[name] = f"u[{i}]"
         index[f"{name.removesuffix('force')}torque" if name.endswith("force") else name] = f"u[{i}]"
     index["base_position'"] = index.get("base_velocity", "")
-    space = _functions(found, index)
+    space = _compile_functions(found, index)
     members = {
         "__doc__": "; ".join(found.texts),
         "__module__": __name__,
@@ -74,11 +74,11 @@ def _class_of(
         "coordinates": found.coordinates,
         "motion": found.motions[0],
         "motions": found.motions,
-        "states": tuple(name for body in found.bodies for name in _states(body, found)),
+        "states": tuple(name for body in found.bodies for name in _state_names(body, found)),
         "inputs": found.inputs,
-        "channels": tuple(_channels(found)),
-        "params": tuple(_param(name, found) for name in found.params),
-        "interfaces": tuple(_places(found, space)),
+        "channels": tuple(_channel_names(found)),
+        "params": tuple(_make_param(name, found) for name in found.params),
+        "interfaces": tuple(_make_interfaces(found, space)),
         "groups": (),
         "rhs": staticmethod(space["rhs"]),
         "observe": staticmethod(space["observe"]),
@@ -88,37 +88,37 @@ def _class_of(
 
 
 class Written(Model):
-    """A model that was made of equations: `equations` are their texts, `coordinates` the names in their order."""
+    """A model made from equations: `equations` are their texts, `coordinates` their names in the same order."""
 
     equations: ClassVar[tuple[str, ...]]
     coordinates: ClassVar[tuple[str, ...]]
     origin: ClassVar[tuple[Any, ...]]
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _again, (self.origin, self.motion)
+        return _rebuild_model, (self.origin, self.motion)
 
 
-def _again(origin: tuple[Any, ...], motion: Motion) -> Model:
-    """Return a model made anew, in another process."""
-    cls: Any = _class_of(*origin)
+def _rebuild_model(origin: tuple[Any, ...], motion: Motion) -> Model:
+    """Return the model built again from its texts, after unpickling in another process."""
+    cls: Any = _make_class(*origin)
     made: Model = cls(motion=motion)
     return made
 
 
-def _states(body: BodyEquation, found: Equations) -> tuple[str, str]:
+def _state_names(body: BodyEquation, found: Equations) -> tuple[str, str]:
     if body is found.bodies[0]:
         return "position", "velocity"
     return body.name, f"{body.name}.velocity"
 
 
-def _channels(found: Equations) -> list[str]:
+def _channel_names(found: Equations) -> list[str]:
     names = ["position", "velocity", "acceleration"]
     for name in found.coordinates:
         names += [name, f"{name}.velocity", f"{name}.acceleration"]
     return names
 
 
-def _param(name: str, found: Equations) -> Param:
+def _make_param(name: str, found: Equations) -> Param:
     low = 0.0 if name in found.positive else -math.inf
     masses = {body.mass for body in found.bodies}
     scale: Literal["linear", "log"] = "log" if name in found.positive else "linear"
@@ -128,27 +128,27 @@ def _param(name: str, found: Equations) -> Param:
     return Param(name, meaning, found.params[name], low=low, scale=scale)
 
 
-def _places(found: Equations, space: Mapping[str, Callable[..., tuple[float, float]]]) -> list[Interface]:
-    """Return the places of forces: each body against the ground, and between two that appear as a difference."""
+def _make_interfaces(found: Equations, space: Mapping[str, Callable[..., tuple[float, float]]]) -> list[Interface]:
+    """Return the places of forces: each body against the ground, and pairs whose coordinates appear as a difference."""
     rows = {body.name: (2 * i + 1, body.mass) for i, body in enumerate(found.bodies)}
     places = []
     for i, name in enumerate(found.coordinates):
         row, mass = rows[name]
-        spring = _spring(found.springs, (name,))
-        places.append(_place("ground" if i == 0 else name, row, mass, space[f"place_{i}"], spring))
+        spring = _find_spring(found.springs, (name,))
+        places.append(_make_interface("ground" if i == 0 else name, row, mass, space[f"place_{i}"], spring))
     for k, (a, b) in enumerate(found.pairs):
-        spring = _spring(found.springs, (a, b))
-        places.append(_place(f"{a}-{b}", *rows[a], space[f"pair_{k}"], spring, rows[b]))
+        spring = _find_spring(found.springs, (a, b))
+        places.append(_make_interface(f"{a}-{b}", *rows[a], space[f"pair_{k}"], spring, rows[b]))
     return places
 
 
-def _spring(springs: Sequence[Spring], coordinates: tuple[str, ...]) -> Spring | None:
-    """Return the spring at a place: that with play, if there is one."""
+def _find_spring(springs: Sequence[Spring], coordinates: tuple[str, ...]) -> Spring | None:
+    """Return the spring at a place, preferably one with play; None where there is no spring."""
     here = [spring for spring in springs if spring.coordinates == coordinates]
     return next((spring for spring in here if spring.play), here[0] if here else None)
 
 
-def _place(
+def _make_interface(
     name: str,
     row: int,
     mass: str,
@@ -163,8 +163,8 @@ def _place(
     )
 
 
-def _functions(found: Equations, index: Mapping[str, str]) -> dict[str, Any]:
-    """Return `rhs`, `observe` and the motion at each place, made of text that holds indices and numbers alone."""
+def _compile_functions(found: Equations, index: Mapping[str, str]) -> dict[str, Any]:
+    """Return `rhs`, `observe` and the motion at each place, compiled from text of indices and numbers only."""
     places = {f"place_{i}": (2 * i, None) for i in range(len(found.bodies))}
     order = {name: 2 * i for i, name in enumerate(found.coordinates)}
     pairs = {f"pair_{k}": (order[a], order[b]) for k, (a, b) in enumerate(found.pairs)}
@@ -172,7 +172,7 @@ def _functions(found: Equations, index: Mapping[str, str]) -> dict[str, Any]:
     lines = ["def rhs(t, y, u, p, dydt):"]
     for i, body in enumerate(found.bodies):
         lines += [f"    dydt[{2 * i}] = y[{2 * i + 1}]"]
-        lines += [f"    dydt[{2 * i + 1}] = ({_emitted(body.force, index)}) / {index[body.mass]}"]
+        lines += [f"    dydt[{2 * i + 1}] = ({_format_node(body.force, index)}) / {index[body.mass]}"]
     lines.append("def observe(t, y, dydt, u, p, seen):")
     for k, i in enumerate((0, *range(len(found.bodies)))):
         shown = (f"y[{2 * i}]", f"y[{2 * i + 1}]", f"dydt[{2 * i + 1}]{base}")
@@ -182,17 +182,17 @@ def _functions(found: Equations, index: Mapping[str, str]) -> dict[str, Any]:
         velocity = f"y[{a + 1}]" if b is None else f"y[{a + 1}] - y[{b + 1}]"
         lines += [f"def {name}(y, u):", f"    return {position}, {velocity}"]
     space: dict[str, Any] = {"math": math}
-    exec(compile("\n".join(lines), "<equations>", "exec"), space)  # noqa: S102 - our own text of indices and numbers
+    exec(compile("\n".join(lines), "<equations>", "exec"), space)  # noqa: S102 - generated text of indices and numbers only
     return space
 
 
-def _emitted(node: Node, index: Mapping[str, str]) -> str:
-    """Return a node as Python: numbers, indexed arrays, arithmetic and the functions of this module and `math`."""
+def _format_node(node: Node, index: Mapping[str, str]) -> str:
+    """Return a node as Python text: numbers, indexed arrays, arithmetic, functions of this module and of `math`."""
     if node.kind == "number":
         return repr(node.value)
     if node.kind == "name":
         return index[node.plain]
-    parts = [_emitted(part, index) for part in node.args]
+    parts = [_format_node(part, index) for part in node.args]
     if node.kind == "negative":
         return f"(-{parts[0]})"
     if node.kind == "call":

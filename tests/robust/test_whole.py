@@ -51,7 +51,7 @@ def test_a_full_disk_leaves_the_previous_result(
     save(tmp_path / name, LONG[:10])
     before = (tmp_path / name).read_bytes()
     monkeypatch.setattr(os, "fsync", fails)
-    with pytest.raises(PlaceError, match=r"no room left on its disk .* what stood there before is as it was"):
+    with pytest.raises(PlaceError, match=r"no space left on its disk .* existing files are unchanged"):
         save(tmp_path / name, LONG)
     assert (tmp_path / name).read_bytes() == before
     assert [p.name for p in tmp_path.iterdir()] == [name]
@@ -73,7 +73,7 @@ def test_a_file_that_may_not_grow_is_a_sentence_and_status_2(tmp_path: Path, end
     )
     done = subprocess.run([sys.executable, "-B", "-c", code, *line], capture_output=True, text=True, check=False)
     assert done.returncode == 2, done.stderr
-    assert (done.stderr.count("\n"), "no room left on its disk" in done.stderr) == (1, True), done.stderr
+    assert (done.stderr.count("\n"), "no space left on its disk" in done.stderr) == (1, True), done.stderr
     assert out.read_bytes() == b"what stood there before"
     assert [p.name for p in tmp_path.iterdir()] == [out.name]
     assert resource.getrlimit(resource.RLIMIT_FSIZE)[0] == resource.RLIM_INFINITY
