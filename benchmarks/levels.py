@@ -37,10 +37,11 @@ from lostmotion.identification.reading import corrected, read_level
 from lostmotion.identification.rehearsal import Bench, rehearsed, rehearsed_levels
 from lostmotion.identification.sampling import identify
 from lostmotion.kernels.threads import cores
-from lostmotion.maps.cells import period_of
-from lostmotion.maps.inversion import TAIL, WEAK, Inversion, predicted
+from lostmotion.maps.cells import find_period
+from lostmotion.maps.inversion import ERROR_DOF, Inversion, predict_levels
 from lostmotion.registry import default
 from lostmotion.results import Estimate
+from lostmotion.settings import DEFAULT
 from lostmotion_trials.paper.joint import DAMPING, FREQUENCY, HALF, LEVELS, PAPER, RATIO
 
 OMEGA = 40.0
@@ -98,7 +99,7 @@ def truth(flow: Flow, rng: np.random.Generator, periods: int = LONG) -> tuple[Kn
     section = registry.make("quantifier", "section_dimension", periods=periods, transient=0).estimate(flow, rng=rng)
     states = flow.strobe(flow.start, periods=400, tangents=0).states
     sd = section.details.get("stderr", math.nan)
-    return (found.value, found.details.get("stderr", math.nan)), (section.value, sd), period_of(states)
+    return (found.value, found.details.get("stderr", math.nan)), (section.value, sd), find_period(states)
 
 
 def errors(machines: int, keep: Path | None, *, chaos: bool = False) -> None:
@@ -117,11 +118,15 @@ def errors(machines: int, keep: Path | None, *, chaos: bool = False) -> None:
 def told(rows: list[dict[str, Any]]) -> None:
     """Print the kinds that were seen, the errors of exponents and dimensions, and the times."""
     kinds = ("periodic", "chaotic", "undecided")
-    weak = [r for r in chaotic(rows) if r["lyapunov_true"] * r["beat"] < WEAK]
-    strong = [r for r in chaotic(rows) if r["lyapunov_true"] * r["beat"] >= WEAK]
+    weak = [r for r in chaotic(rows) if r["lyapunov_true"] * r["beat"] < DEFAULT.levels.weak]
+    strong = [r for r in chaotic(rows) if r["lyapunov_true"] * r["beat"] >= DEFAULT.levels.weak]
     print(f"{'truth, seen as':<28}" + "".join(f"{k:>12}" for k in kinds))
     for name in ("lin_backlash", "robot_joint"):
-        table = {"periodic": [r for r in rows if r["period"]], f"chaotic, below {WEAK:g}": weak, "chaotic": strong}
+        table = {
+            "periodic": [r for r in rows if r["period"]],
+            f"chaotic, below {DEFAULT.levels.weak:g}": weak,
+            "chaotic": strong,
+        }
         for label, kept in table.items():
             own = [r for r in kept if r["model"] == name]
             print(f"{name + ', ' + label:<36}" + "".join(f"{sum(r['motion'] == k for r in own):>12}" for k in kinds))
@@ -138,7 +143,7 @@ def told(rows: list[dict[str, Any]]) -> None:
         found = [corrected(key, Estimate(r[name], *(r[name] + s * 1.96 * r[f"{name}_sd"] for s in (-1, 1)), "ok"))
                  for key, r in zip(names, kept, strict=True)]  # fmt: skip
         left = np.array([(one.value - t) / one.sd for one, t in zip(found, size, strict=True)])
-        inside = np.abs(left) < student.ppf(0.975, TAIL)
+        inside = np.abs(left) < student.ppf(0.975, ERROR_DOF)
         print(f"  as corrected: mean {left.mean():+.2f}, rms {math.sqrt(np.mean(left**2)):.2f}; 95 % intervals hold "
               f"{inside.sum()} of {len(left)}")  # fmt: skip
         unit = np.array([r["beat"] if name == "lyapunov" else 1.0 for r in kept])
@@ -159,7 +164,9 @@ def fitted(seen: Array, claimed: Array, true: Array, parts: Array) -> tuple[list
     def cost(theta: Array) -> float:
         bias, sd = theta[2:][parts.astype(int)], np.hypot(math.exp(theta[0]) * claimed, math.exp(theta[1]) * true)
         z = (seen - (1.0 + bias) * true) / sd
-        return float(np.sum(np.log(sd) + 0.5 * (TAIL + 1.0) * np.log1p(z**2 / TAIL)) + 0.5 * theta[1] ** 2 / 25.0)
+        return float(
+            np.sum(np.log(sd) + 0.5 * (ERROR_DOF + 1.0) * np.log1p(z**2 / ERROR_DOF)) + 0.5 * theta[1] ** 2 / 25.0
+        )
 
     start = [-0.2, -3.0, *[0.0] * len(np.unique(parts))]
     best = minimize(cost, start, method="Nelder-Mead", options={"maxiter": 4000})
@@ -209,7 +216,7 @@ def sampled(case: CaseFile, truth: Mapping[str, float], folder: Path) -> None:
         print(f"  {key}: {median:.5g} {unit} [{low:.5g}, {high:.5g}], truth {truth[key]:.5g}")
     posterior = task.posterior
     assert isinstance(posterior, Inversion)
-    for one in predicted(posterior, found.draws[::10], rng):
+    for one in predict_levels(posterior, found.draws[::10], rng):
         seen, band = one.level.lyapunov, one.lyapunov
         told = f"{seen.value:.3g} +- {seen.sd:.2g} 1/s" if seen else ""
         expected = f"{band.median:.3g} [{band.low:.3g}, {band.high:.3g}] 1/s" if band else ""

@@ -15,11 +15,12 @@ from lostmotion.identification.levels import Survey, _free, derived, inversion_o
 from lostmotion.identification.result import drive_level
 from lostmotion.likelihood.space import FreeParameter
 from lostmotion.maps.atlas import CHAOTIC, PERIODIC, Atlas
-from lostmotion.maps.inversion import WEAK, Inversion, grouped, likelihood_of, predicted
-from lostmotion.maps.map import RING, Map
-from lostmotion.maps.numbers import NumberLaw, NumberPower, law_of
-from lostmotion.maps.run import How, Request, make_map, study_of
+from lostmotion.maps.inversion import Inversion, compute_likelihood, group_levels, predict_levels
+from lostmotion.maps.map import RING_WEIGHT, Map
+from lostmotion.maps.numbers import NumberLaw, NumberPower, make_law
+from lostmotion.maps.run import Request, RunOptions, make_map, make_study
 from lostmotion.registry import default
+from lostmotion.settings import DEFAULT
 
 ALPHA, ZETA = np.linspace(0.2, 2.0, 37), np.linspace(0.01, 0.1, 10)
 
@@ -97,8 +98,10 @@ def test_coexisting_attractors_leave_both_motions_possible():
     kind[:, 0] = PERIODIC
     mixed = Atlas(made.names, made.spacings, made.points, kind, *(getattr(made, k) for k in
                   ("exponent", "exponent_sd", "dimension", "dimension_sd")))  # fmt: skip
-    inside = np.flatnonzero((2.0 * math.pi * made.exponent > WEAK).all(axis=1))
-    seen = {motion: likelihood_of(Level("a", 1.0, 1.0, motion), mixed)[inside] for motion in ("periodic", "chaotic")}
+    inside = np.flatnonzero((2.0 * math.pi * made.exponent > DEFAULT.levels.weak).all(axis=1))
+    seen = {
+        motion: compute_likelihood(Level("a", 1.0, 1.0, motion), mixed)[inside] for motion in ("periodic", "chaotic")
+    }
     assert np.allclose(seen["periodic"] / seen["chaotic"], 1.0 / 3.0, atol=0.15)
 
 
@@ -117,17 +120,19 @@ def test_blending_is_linear_between_cells_and_mixes_in_the_ring():
     made = atlas(window)
     inverse, zeta = -made.points[0], made.points[1]
     table = (np.repeat(inverse[:, None], len(zeta), axis=1) + 10.0 * zeta).ravel()
-    at = made.places({"alpha": np.array([1.0 / 2.04]), "zeta": np.array([0.055])})
+    at = made.locate({"alpha": np.array([1.0 / 2.04]), "zeta": np.array([0.055])})
     # On a plane the mean of the ring is the middle of the square.
-    ring = made.around(table)
-    assert made.blended(table, ring, at)[0] == pytest.approx((1 - RING) * 2.59 + RING * (2.05 + 0.55), abs=1e-9)
+    ring = made.average_ring(table)
+    assert made.interpolate(table, ring, at)[0] == pytest.approx(
+        (1 - RING_WEIGHT) * 2.59 + RING_WEIGHT * (2.05 + 0.55), abs=1e-9
+    )
 
 
 def test_the_ring_leaves_the_square_out_at_the_edges_too():
     made = atlas(window)
     shape, rng = made.shape, np.random.default_rng(0)
     table = rng.random(shape)
-    ring = made.around(table.ravel()).reshape(shape)
+    ring = made.average_ring(table.ravel()).reshape(shape)
     for i, j in ((0, 0), (5, 3), (shape[0] - 2, shape[1] - 2), (0, 4)):
         cells = {(a, b) for a in range(i - 1, i + 3) for b in range(j - 1, j + 3)}
         inside = {c for c in cells if 0 <= c[0] < shape[0] and 0 <= c[1] < shape[1]}
@@ -137,7 +142,9 @@ def test_the_ring_leaves_the_square_out_at_the_edges_too():
 
 def test_predictions_are_those_of_the_map():
     level = Level("a", 0.5, 2.0, "chaotic")
-    found = predicted(inversion([level], atlas(window)), np.tile([1.0, 0.05], (200, 1)), np.random.default_rng(1))[0]
+    found = predict_levels(inversion([level], atlas(window)), np.tile([1.0, 0.05], (200, 1)), np.random.default_rng(1))[
+        0
+    ]
     assert found.chaotic_share == 1.0
     assert found.lyapunov.median == pytest.approx(2.0 * 0.15, rel=0.05)
     assert found.lyapunov.low <= found.lyapunov.median <= found.lyapunov.high
@@ -155,17 +162,19 @@ def test_powers_are_those_of_the_groups(name):
     truth = {"zeta": 0.15, "frequency_ratio": 0.4, "alpha": 0.4 if name == "lin_backlash" else 20.0}
     for group in model.groups:
         if group.name in truth:
-            law = law_of(NumberPower.of(group, model), values, ["x0"])
+            law = make_law(NumberPower.of(group, model), values, ["x0"])
             assert law(np.log([[0.2]]))[0] == pytest.approx(truth[group.name])
 
 
 def test_ends_of_a_number_over_a_box():
-    assert NumberLaw(0.0, (1.0, -2.0)).ends((0.0, 0.0), (math.log(2.0), math.log(3.0))) == pytest.approx((1 / 9, 2.0))
+    assert NumberLaw(0.0, (1.0, -2.0)).find_range((0.0, 0.0), (math.log(2.0), math.log(3.0))) == pytest.approx(
+        (1 / 9, 2.0)
+    )
 
 
 def test_levels_of_one_frequency_share_a_map():
     levels = [Level(str(k), 1.0, omega, "chaotic") for k, omega in enumerate((2.0, 1.0, 1.0005, 2.001))]
-    assert grouped(levels) == [[1, 2], [0, 3]]
+    assert group_levels(levels) == [[1, 2], [0, 3]]
 
 
 def test_priors_are_cut_where_a_map_must_end():
@@ -182,12 +191,12 @@ def test_a_parameter_that_is_neither_known_nor_free_is_named():
     model = default().make("model", "lin_backlash")
     power = next(NumberPower.of(group, model) for group in model.groups if group.name == "alpha")
     with pytest.raises(CaseError, match="alpha needs k0"):
-        law_of(power, {"x0": 1.0, "drive.amplitude": 2.0}, [])
+        make_law(power, {"x0": 1.0, "drive.amplitude": 2.0}, [])
 
 
 def test_a_map_without_dimensions_is_refused(tmp_path):
     request = Request("lin_backlash", ("alpha=0.3:0.6:2", "zeta=0.02:0.05:2"), 100, 20, 1)
-    make_map(study_of(request, default()), tmp_path / "map.nc", How(), lambda _done, _all: None)
+    make_map(make_study(request, default()), tmp_path / "map.nc", RunOptions(), lambda _done, _all: None)
     with pytest.raises(DataError, match="section_dimension"):
         Atlas.of(Map.open(tmp_path / "map.nc"))
 
@@ -202,7 +211,7 @@ def test_an_open_stiffness_adds_the_frequency_ratio_to_the_map(tmp_path):
     assert made.atlases[0].shape == (8, 2, 3)
     inside = made.log_likelihoods(np.array([[1.0, 0.04, 0.0], [0.8, 0.03, made.free[2].low]]))
     assert np.isfinite(inside).all()
-    assert set(made.numbers(np.array([[1.0, 0.04, 0.0]]))) == {"zeta"}
+    assert set(made.compute_numbers(np.array([[1.0, 0.04, 0.0]]))) == {"zeta"}
     again = inversion_of(case, levels, default(), tmp_path, Survey(maps=tuple(tmp_path.glob("*.nc"))))
     assert np.array_equal(again.log_likelihoods(np.array([[1.0, 0.04, 0.0]])), inside[:1])
     wide = replace(case, estimate={**estimate, "x0": Prior(low=0.5, high=1.3)})

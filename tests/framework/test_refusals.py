@@ -85,7 +85,7 @@ def test_a_term_that_cannot_be_compiled_is_told_in_a_sentence():
     system = oscillator(Misspelt)
     full = system.vector({**KNOWN, "misspelt.force": 1.0})
     with pytest.raises(ContractError, match=r"cannot be compiled .*nowhere.* and the math module only$") as told:
-        system.stiffness(full, ["misspelt"], np.zeros((2, 2)), np.zeros((2, 1)))
+        system.find_fastest_rate(full, ["misspelt"], np.zeros((2, 2)), np.zeros((2, 1)))
     assert "\n" not in str(told.value)
 
 

@@ -17,7 +17,7 @@ from lostmotion.identification.levels import Survey, inversion_of
 from lostmotion.identification.reading import read_level
 from lostmotion.identification.rehearsal import Bench, rehearsed, rehearsed_levels
 from lostmotion.identification.result import drive_level
-from lostmotion.maps.inversion import predicted
+from lostmotion.maps.inversion import predict_levels
 from lostmotion.registry import default
 
 REGISTRY = default()
@@ -136,7 +136,7 @@ def test_gap_of_a_machine_of_known_damping(tmp_path):
     low, high = interval(points[:, 0], weights)
     assert low < truth["x0"] < high
     assert high - low < 0.004
-    expected = predicted(inversion, points[np.random.default_rng(1).choice(2000, 400, p=weights)],
+    expected = predict_levels(inversion, points[np.random.default_rng(1).choice(2000, 400, p=weights)],
                          np.random.default_rng(2))  # fmt: skip
     for level, one in zip(levels, expected, strict=True):
         assert (one.chaotic_share > 0.5) == (level.motion == "chaotic")

@@ -19,18 +19,18 @@ from lostmotion.identification.reading import read_levels
 from lostmotion.identification.sampling import ShownCoordinate, Task, TMixture
 from lostmotion.likelihood.space import FreeParameter
 from lostmotion.likelihood.system import System
-from lostmotion.maps.atlas import RATIO, Atlas
-from lostmotion.maps.inversion import Inversion, grouped
-from lostmotion.maps.layout import origin_in, settings_in
+from lostmotion.maps.atlas import FREQUENCY_RATIO, Atlas
+from lostmotion.maps.inversion import Inversion, group_levels
+from lostmotion.maps.layout import read_map_settings, read_origin
 from lostmotion.maps.map import Map
-from lostmotion.maps.numbers import NumberLaw, NumberPower, law_of
-from lostmotion.maps.run import How, Request, make_map, study_of
-from lostmotion.maps.sweep import Crew
+from lostmotion.maps.numbers import NumberLaw, NumberPower, make_law
+from lostmotion.maps.run import Request, RunOptions, make_map, make_study
+from lostmotion.maps.sweep import Workers
 from lostmotion.preparation.vetting import sound
 from lostmotion.quantities import unit_of
 from lostmotion.registry import Registry
 
-SWEPT = ("alpha", "zeta", RATIO)
+SWEPT = ("alpha", "zeta", FREQUENCY_RATIO)
 """The dimensionless numbers that an inversion looks things up by; a third one only where the priors leave it open."""
 TAILS = 5e-4
 """Share of a prior that is cut off at either end, since a map has ends."""
@@ -64,7 +64,7 @@ class Survey:
 
     def points(self, name: str, several: bool) -> int:
         """Return the points of an axis; with a third axis there are half as many along the other two."""
-        if name == RATIO:
+        if name == FREQUENCY_RATIO:
             return self.ratios
         return max(2, {"alpha": self.alpha, "zeta": self.zeta}[name] // (2 if several else 1))
 
@@ -83,7 +83,7 @@ class LevelNumbers:
     def span(self, group: Sequence[int], name: str) -> tuple[float, float]:
         """Return the ends of a number over the levels of a group and over the bounds of what is free."""
         low, high = (tuple(_log(f, end) for f in self.free) for end in ("low", "high"))
-        ends = [self.laws[k][name].ends(low, high) for k in group]
+        ends = [self.laws[k][name].find_range(low, high) for k in group]
         return min(a for a, _ in ends), max(b for _, b in ends)
 
 
@@ -142,18 +142,18 @@ def wanted_of(case: CaseFile, levels: tuple[Level, ...], registry: Registry) -> 
     laws = []
     for level in levels:
         told = {**known, "drive.amplitude": level.amplitude, "drive.omega": level.omega}
-        laws.append({name: law_of(powers[name], told, names) for name in SWEPT})
-    wanted = LevelNumbers(model, levels, free, tuple(laws), _fixed(powers, known, free), grouped(levels))
+        laws.append({name: make_law(powers[name], told, names) for name in SWEPT})
+    wanted = LevelNumbers(model, levels, free, tuple(laws), _fixed(powers, known, free), group_levels(levels))
     return _bare(wanted)
 
 
 def _bare(wanted: LevelNumbers) -> LevelNumbers:
     """Return the same without a frequency ratio where nothing free moves it: it is fixed in each map then."""
-    if any(any(law[RATIO].powers) for law in wanted.laws):
+    if any(any(law[FREQUENCY_RATIO].powers) for law in wanted.laws):
         return wanted
-    return replace(wanted, laws=tuple({n: law for n, law in laws.items() if n != RATIO} for laws in wanted.laws),
-                   fixed={**wanted.fixed, **{f"{RATIO} {k}": math.exp(laws[RATIO].constant)
-                                             for k, laws in enumerate(wanted.laws)}})  # fmt: skip
+    laws = tuple({name: law for name, law in of.items() if name != FREQUENCY_RATIO} for of in wanted.laws)
+    ratios = {f"{FREQUENCY_RATIO} {k}": math.exp(of[FREQUENCY_RATIO].constant) for k, of in enumerate(wanted.laws)}
+    return replace(wanted, laws=laws, fixed={**wanted.fixed, **ratios})
 
 
 def _known(case: CaseFile, model: Model) -> dict[str, float]:
@@ -229,9 +229,9 @@ def _made(
 ) -> Map:  # fmt: skip
     """Return the map for the levels of one frequency, made in the folder `out` under a name that tells its settings."""
     request = request_for(wanted, group, survey)
-    study = study_of(request, registry)
+    study = make_study(request, registry)
     name = hashlib.sha256(repr(request).encode()).hexdigest()[:8]
-    return make_map(study, out / f"map-{name}.nc", How(Crew(survey.jobs)), say)
+    return make_map(study, out / f"map-{name}.nc", RunOptions(Workers(survey.jobs)), say)
 
 
 def request_for(wanted: LevelNumbers, group: Sequence[int], survey: Survey) -> Request:
@@ -245,10 +245,10 @@ def request_for(wanted: LevelNumbers, group: Sequence[int], survey: Survey) -> R
             continue
         spacing = ":inverse" if name == "alpha" else ""
         ends = f"{_outward(low, math.floor)!r}:{_outward(high, math.ceil)!r}"
-        axes.append(f"{name}={ends}:{survey.points(name, RATIO in names)}{spacing}")
+        axes.append(f"{name}={ends}:{survey.points(name, FREQUENCY_RATIO in names)}{spacing}")
     fixed = {key: value for key, value in wanted.fixed.items() if " " not in key and value}
-    if RATIO not in names:
-        fixed[RATIO] = float(f"{np.mean([wanted.fixed[f'{RATIO} {k}'] for k in group]):.5g}")
+    if FREQUENCY_RATIO not in names:
+        fixed[FREQUENCY_RATIO] = float(f"{np.mean([wanted.fixed[f'{FREQUENCY_RATIO} {k}'] for k in group]):.5g}")
     return Request(
         wanted.model.name, tuple(axes), survey.periods, survey.transient, survey.starts,
         sets=tuple(f"{key}={value!r}" for key, value in fixed.items()),
@@ -274,7 +274,7 @@ def _given(wanted: LevelNumbers, group: Sequence[int], survey: Survey) -> Map:
 
 def _unfit(found: Map, wanted: LevelNumbers, group: Sequence[int]) -> str:
     """Return why a map does not serve, or nothing."""
-    settings, names = settings_in(origin_in(found.dataset.attrs)), wanted.laws[group[0]]
+    settings, names = read_map_settings(read_origin(found.dataset.attrs)), wanted.laws[group[0]]
     if settings.model != wanted.model.name:
         return f"is of {settings.model}"
     if {*found.axes} != {*names}:
@@ -284,10 +284,10 @@ def _unfit(found: Map, wanted: LevelNumbers, group: Sequence[int]) -> str:
         ends = found.dataset[name].to_numpy()
         if not (ends[0] <= low * (1.0 + ALIKE) and ends[-1] * (1.0 + ALIKE) >= high):
             return f"goes from {name} = {ends[0]:.4g} to {ends[-1]:.4g}, and the priors ask for {low:.4g} to {high:.4g}"
-    if RATIO not in names:
-        ratio = wanted.fixed[f"{RATIO} {group[0]}"]
-        if not math.isclose(settings.fixed.get(RATIO, math.nan), ratio, rel_tol=ALIKE):
-            return f"has a frequency ratio of {settings.fixed.get(RATIO)}, and {ratio:.6g} is wanted"
+    if FREQUENCY_RATIO not in names:
+        ratio = wanted.fixed[f"{FREQUENCY_RATIO} {group[0]}"]
+        if not math.isclose(settings.fixed.get(FREQUENCY_RATIO, math.nan), ratio, rel_tol=ALIKE):
+            return f"has a frequency ratio of {settings.fixed.get(FREQUENCY_RATIO)}, and {ratio:.6g} is wanted"
     return ""
 
 
@@ -299,4 +299,4 @@ def digest_of(posterior: Inversion) -> str:
 
 def derived(posterior: Inversion, points: Array) -> dict[str, Array]:
     """Return dimensionless numbers (count,) that draws (count, parameters) imply and that are not free themselves."""
-    return {k: v for k, v in posterior.numbers(points).items() if k not in {f.key for f in posterior.free}}
+    return {k: v for k, v in posterior.compute_numbers(points).items() if k not in {f.key for f in posterior.free}}

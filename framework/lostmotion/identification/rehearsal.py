@@ -15,7 +15,7 @@ from lostmotion.case import CaseFile
 from lostmotion.contracts import Array, Model
 from lostmotion.flow import Harmonic, flow_of
 from lostmotion.identification.reading import Read, Signals, read_level
-from lostmotion.maps.rig import reach
+from lostmotion.maps.rig import measure_extent
 from lostmotion.preparation.vetting import sound
 from lostmotion.quantities import unit_of
 from lostmotion.registry import Registry
@@ -39,7 +39,7 @@ def rehearsed(
 ) -> tuple[Signals, Array]:
     """Return the recording of a machine under a harmonic drive from a random start, and its first state."""
     flow = flow_of(model, values, drive=beat)
-    box = WIDE * reach(flow, 40)
+    box = WIDE * measure_extent(flow, 40)
     begin = flow.strobe(rng.uniform(-box, box), periods=SETTLING, tangents=0).states[-1]
     seen = flow.sample(begin, periods=bench.periods, looks=bench.looks)[:-1, 0]  # type: ignore[attr-defined]
     dt = flow.period / bench.looks

@@ -26,7 +26,7 @@ from lostmotion.identification.sampling import SampledPosterior, SamplingPlan, T
 from lostmotion.identification.trajectory import best_fits, chosen_terms, task_for, warnings_of
 from lostmotion.inference.contacts import short_contacts
 from lostmotion.likelihood.space import FreeParameter
-from lostmotion.maps.inversion import Inversion, predicted
+from lostmotion.maps.inversion import Inversion, predict_levels
 from lostmotion.preparation.prepare import Prepared, case_of, prepared_of
 from lostmotion.preparation.vetting import within_numbers
 from lostmotion.provenance import origin_of
@@ -170,7 +170,7 @@ def _by_quantifiers(case: CaseFile, out: Path, registry: Registry, asked: Asked)
     def tell(found: SampledPosterior) -> Identification:
         points = coordinates(posterior.free, found.draws)
         some = points[:: max(1, len(points) // EXPECTED)]
-        expected = predicted(posterior, some, np.random.default_rng(order.seed))
+        expected = predict_levels(posterior, some, np.random.default_rng(order.seed))
         told = statement(found, "quantifiers", case, origin)
         return replace(
             told, levels=tuple(map(drive_level, expected)), derived=derived_intervals(posterior, points, found)

@@ -256,8 +256,8 @@ def map(
     many `starts`, followed over so many `periods`, of which a `transient` is left out; `refine` halves cells so often
     where neighbours differ.
     """
-    from lostmotion.maps.run import How, Request, make_map, study_of
-    from lostmotion.maps.sweep import Crew
+    from lostmotion.maps.run import Request, RunOptions, make_map, make_study
+    from lostmotion.maps.sweep import Workers
 
     request = Request(
         model,
@@ -273,8 +273,8 @@ def map(
         seed,
         motion,
     )
-    study = study_of(request, registry or default())
-    return make_map(study, Path(out), How(Crew(jobs), refine, fresh), lambda _done, _of: None).dataset
+    study = make_study(request, registry or default())
+    return make_map(study, Path(out), RunOptions(Workers(jobs), refine, fresh), lambda _done, _of: None).dataset
 
 
 def case_from(
