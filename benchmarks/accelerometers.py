@@ -221,11 +221,11 @@ def _stiffest(machine: Machine) -> float:
 
 def _more(d: Any, machine: Machine, states: Array, observation: Any) -> dict[str, Any]:
     """Return levels of noise over their truths, and how often the band of the position holds the true one."""
-    from lostmotion.inference.unseen import place_of_body
+    from lostmotion.inference.unseen import smooth_body_position
 
     problem, theta = d.after.problem, d.after.theta
     process, white = problem.noise(theta)
-    place = place_of_body(d.after, d.shown)
+    place = smooth_body_position(d.after, d.shown)
     true, highest = EXCITATION_NOISE * machine.peak, float(np.abs(states[:, 0]).max())
     return {
         "random_over_true": math.sqrt(process / machine.dt) / true,

@@ -8,7 +8,7 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 import numpy as np
 
-from lostmotion.inference.setup import problem_of, stepped
+from lostmotion.inference.setup import make_problem, choose_steps
 from lostmotion.likelihood.predict import filter_recording, simulate_run, observe_states
 from lostmotion.likelihood.problem import NOISE
 from lostmotion.likelihood.system import System
@@ -59,8 +59,8 @@ def measures():
         simulate(plan).save(Path(folder) / "recording.csv")
         (Path(folder) / "case.toml").write_text(CASE, encoding="utf-8")
         prepared = prepare(Path(folder) / "case.toml", registry)
-    problem = problem_of(System(prepared.model, ()), prepared.case, prepared.observations)
-    problem = stepped(problem, problem.start)
+    problem = make_problem(System(prepared.model, ()), prepared.case, prepared.observations)
+    problem = choose_steps(problem, problem.start)
     observation = prepared.observations[0]
     theta = problem.start.copy()
     gap, noise = problem.keys.index("x0"), problem.keys.index(NOISE)

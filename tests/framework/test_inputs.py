@@ -79,7 +79,7 @@ def test_a_harmonic_drive_moves_the_first_input_alone(model):
     problem = problem_of(model, moved(model))
     values = {slot.key: float(problem.known[i]) for i, slot in enumerate(problem.system.slots)}
     flow = make_stepped_flow(problem.system, values, drive=Harmonic(0.3, 6.0, 0.2), steps=100)
-    inputs = flow._inputs(4, flow.period / 4).reshape(4, 3, -1)[:, 0]
+    inputs = flow._make_inputs(4, flow.period / 4).reshape(4, 3, -1)[:, 0]
     angle = 2.0 * np.pi * np.arange(4) / 4 + 0.2
     np.testing.assert_allclose(inputs[:, 0], 0.3 * np.cos(angle), atol=1e-15)
     if model.inputs[0] == "base_position":

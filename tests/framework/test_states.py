@@ -240,7 +240,7 @@ def test_held_out_data_decide_between_a_term_and_a_smooth_force(monkeypatch, sco
         won=lambda visit: SimpleNamespace(fit=fits["smooth"], right=None),
         expansion=lambda visit: SimpleNamespace(worse=1.0),
     )
-    monkeypatch.setattr(confirming, "term_of", lambda problem, key: (SimpleNamespace(acts="motion"), ()))
+    monkeypatch.setattr(confirming, "find_term", lambda problem, key: (SimpleNamespace(acts="motion"), ()))
     monkeypatch.setattr(confirming, "_scored", lambda fit, pieces: scores[fit.key])
     monkeypatch.setattr(confirming, "pieces_of", lambda observations, held: ())
     d = SimpleNamespace(selection=selection, learned=None, held=(), settings=DEFAULT)

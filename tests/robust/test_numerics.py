@@ -14,7 +14,7 @@ from test_units import CASE
 
 from lostmotion.cli import main
 from lostmotion.flow import flow_of, make_stepped_flow
-from lostmotion.inference.fit import sensitivity
+from lostmotion.inference.fit import compute_sensitivity
 from lostmotion.likelihood.drive import Drive
 from lostmotion.likelihood.engine import Dynamics, Points
 from lostmotion.likelihood.lanes import Lanes
@@ -218,7 +218,7 @@ class Cliff:
 
 def test_derivatives_at_the_edge_of_a_runaway_are_taken_from_the_safe_side():
     for at in (0.0, 0.9999, 1.0):
-        slopes = sensitivity(Cliff(), np.array([at]), np.array([1e-3]))
+        slopes = compute_sensitivity(Cliff(), np.array([at]), np.array([1e-3]))
         assert slopes.gradient() == pytest.approx([-9.0 * at], abs=1e-9)
         assert slopes.information() == pytest.approx(np.array([[9.0]]))
 
@@ -233,8 +233,8 @@ def test_a_free_run_that_leaves_all_bounds_errs_by_the_most(monkeypatch):
     def observed(problem, theta, states, where=(0, 0), sensor=0):
         return np.array([0.0, 1e200, np.nan])
 
-    monkeypatch.setattr(predict, "_runs", lambda *args: np.zeros((1, 3, 2)))
-    monkeypatch.setattr(predict, "observed", observed)
+    monkeypatch.setattr(predict, "_simulate_runs", lambda *args: np.zeros((1, 3, 2)))
+    monkeypatch.setattr(predict, "observe_states", observed)
     (runs,) = predict_freely(Still(), np.zeros(1), np.zeros((4, 2)), np.array([0]), 3)
     assert isinstance(runs, FreeRuns)
     spread = float(np.std(Still.observations[0].response))

@@ -14,8 +14,8 @@ from scipy.stats import binom
 
 from lostmotion.diagnosis.notes import vague
 from lostmotion.inference.fit import maximise
-from lostmotion.inference.setup import problem_of, scales_of, search, split, stepped
-from lostmotion.inference.unseen import place_of_body
+from lostmotion.inference.setup import choose_steps, compute_scales, make_problem, search_maximum, split_heldout
+from lostmotion.inference.unseen import smooth_body_position
 from lostmotion.likelihood.levels import compute_usual_level
 from lostmotion.likelihood.observation import Observation, window_force
 from lostmotion.likelihood.problem import NOISE, RANDOM
@@ -41,7 +41,7 @@ def posed(number):
     """Return a machine, its problem on what is fitted, the coordinates of the truth, and the true states."""
     machine, observation, states = recorded(number)
     system = System(default().make("model", machine.model), ())
-    problem = problem_of(system, machines.case_of(machine), split([observation])[0])
+    problem = make_problem(system, machines.case_of(machine), split_heldout([observation])[0])
     levels = {
         RANDOM: math.log((machines.EXCITATION_NOISE * machine.peak) ** 2 * machine.dt),
         NOISE: math.log(machine.noise * states[:, 2].std()),
@@ -56,7 +56,7 @@ def test_the_size_of_a_motion_is_told_by_its_acceleration(number):
     """Spikes of hits are most of an acceleration, and none of the motion: taken for it they made it far too small."""
     machine, observation, states = recorded(number)
     system = System(default().make("model", machine.model), ())
-    scales = scales_of(system, (observation,), system.vector(machine.values))
+    scales = compute_scales(system, (observation,), system.vector(machine.values))
     assert scales.length == pytest.approx(math.sqrt(2.0) * states[:, 0].std(), rel=0.1)
     assert scales.velocity == pytest.approx(math.sqrt(2.0) * states[:, 1].std(), rel=0.1)
 
@@ -105,7 +105,7 @@ def test_what_edges_of_hits_do_between_samples_is_told_as_it_is():
 def test_the_engines_agree_on_a_recording_with_hits():
     _, problem, true, _, observation = posed(0)
     struck = int(np.argmax(observation.input_variance > 0.0))
-    short = stepped(problem.on((observation.part(max(struck - 300, 0), struck + 300),)), true)
+    short = choose_steps(problem.on((observation.part(max(struck - 300, 0), struck + 300),)), true)
     assert short.observations[0].input_variance.any()
     ours, plain = short.innovations(true), replace(short, engine=Reference()).innovations(true)
     np.testing.assert_allclose(plain.errors, ours.errors, rtol=0.0, atol=1e-9 * np.abs(ours.errors).max())
@@ -120,7 +120,7 @@ def test_a_search_with_an_accelerometer_reaches_the_truth(number):
     Where a body flies free from contact to contact (14), the likelihood still has maxima some tens below the highest.
     """
     machine, problem, true, states, _ = posed(number)
-    fit = search(problem, np.random.default_rng(0))
+    fit = search_maximum(problem, np.random.default_rng(0))
     assert fit.local.log_posterior > fit.problem.log_posterior(true) - 50.0
     assert abs(fit.theta[-2] - true[-2]) < 2.0
     mean, covariance = fit.problem.observations[0].begun
@@ -137,7 +137,7 @@ def test_the_likelihood_is_smooth_where_a_body_creeps_up_to_a_contact():
     known = problem.on((replace(problem.observations[0], begun=exact),))
     thetas = np.repeat(true[None], 16, axis=0)
     thetas[:, 0] += 1e-7 * np.arange(16)
-    assert np.ptp(stepped(known, true).log_posteriors(thetas)) < 0.05, machine
+    assert np.ptp(choose_steps(known, true).log_posteriors(thetas)) < 0.05, machine
 
 
 def test_a_part_of_a_recording_begins_where_it_does():
@@ -153,8 +153,8 @@ def test_a_position_that_no_sensor_shows_is_told_with_its_band():
     Over 100 machines the band holds the position in about 95 of 100 samples: `benchmarks/accelerometers.py`.
     """
     machine, problem, true, states, observation = posed(0)
-    fit = maximise(stepped(problem, true), true)
-    place = place_of_body(fit, observation)
+    fit = maximise(choose_steps(problem, true), true)
+    place = smooth_body_position(fit, observation)
     error = place.mean - states[:, 0]
     assert np.mean(np.abs(error) < 2.0 * place.sd) > 0.9
     assert np.std(error) > 0.3 * np.sqrt(np.mean(place.sd**2))

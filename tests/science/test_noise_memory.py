@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from lostmotion.inference.fit import maximise
-from lostmotion.inference.memory import believed, remembering
+from lostmotion.inference.memory import fit_noise_memory, is_memory_supported
 from lostmotion.inference.setup import noise_frees
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import Problem, Scales
@@ -112,7 +112,7 @@ def test_noise_with_a_memory_is_told_from_white_noise(seed):
     """
     for memory, wanted in ((0.1, True), (0.0, False)):
         fit = maximise(problem_of(recorded(3000, memory, seed)))
-        coloured = remembering(fit)
-        assert believed(fit, coloured) == wanted
+        coloured = fit_noise_memory(fit)
+        assert is_memory_supported(fit, coloured) == wanted
         if wanted:
             assert math.exp(coloured.values[AR1_MEMORY]) == pytest.approx(memory, rel=0.5)

@@ -11,7 +11,7 @@ from scipy.stats import ttest_1samp
 
 from lostmotion.contracts import Array
 from lostmotion.inference.fit import Fit
-from lostmotion.inference.locate import autocorrelation, whiteness
+from lostmotion.inference.locate import compute_autocorrelation, compute_whiteness
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.predict import (
     Filtered,
@@ -121,8 +121,8 @@ def predict(fit: Fit, pieces: Sequence[HeldOutStretch], horizon: Horizon, rates:
         valid_time=main.valid_time(own_motion(fit, pieces)),
         forecasts=forecasts,
         restarts=restarts,
-        acf=autocorrelation(*_taken(first, tail, 0)),
-        white=_white([whiteness(*_taken(first, tail, sensor)) for sensor in range(len(joint))]),
+        acf=compute_autocorrelation(*_taken(first, tail, 0)),
+        white=_white([compute_whiteness(*_taken(first, tail, sensor)) for sensor in range(len(joint))]),
         scores=np.concatenate([one.scores(slice(p.begin, None)) for one, p in zip(tracked, pieces, strict=True)]),
     )
 

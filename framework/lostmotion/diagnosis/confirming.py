@@ -19,7 +19,7 @@ from lostmotion.diagnosis.search import Diagnosed
 from lostmotion.inference.course import Selection, Visit
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.learned import OverTime
-from lostmotion.inference.natural import term_of
+from lostmotion.inference.natural import find_term
 from lostmotion.inference.rival import Righted
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.predict import filter_recording
@@ -117,7 +117,7 @@ def _unbeaten(selection: Selection, here: Visit, decisive: float) -> list[Visit]
 
     Flaws of channels are not among them: the usual ones are a part of what stands against a name.
     """
-    keys = [k for k in sorted(selection.unbeaten - here.terms) if term_of(here.fit.problem, k)[0].acts == "motion"]
+    keys = [k for k in sorted(selection.unbeaten - here.terms) if find_term(here.fit.problem, k)[0].acts == "motion"]
     more = [here.terms | {key} for key in keys]
     sets = [selection.visits[terms] for terms in more if terms in selection.visits]
     return [v for v in sets if v.fit.status != "diverged" and v.weight > here.weight + decisive]
@@ -171,7 +171,7 @@ def _right(d: Diagnosed, here: Visit) -> bool:
 
 def usual(d: Diagnosed, key: str) -> str:
     """Return a sentence on a delay that is no longer than acquisition systems have as a rule; empty where it is."""
-    term, slots = term_of(d.after.problem, key)
+    term, slots = find_term(d.after.problem, key)
     late = [s for s in slots if s.param.dimension == TIME and s.key in d.after.values]
     if term.acts == "motion" or not late:
         return ""

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from lostmotion.contracts import Array
 from lostmotion.diagnosis.search import Diagnosed
 from lostmotion.inference.fit import Fit
-from lostmotion.inference.natural import term_of
+from lostmotion.inference.natural import find_term
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.predict import observe_states, simulate_run
 from lostmotion.quantities import quantity_of, unit_of
@@ -171,7 +171,7 @@ def _named(d: Diagnosed, version: str) -> str:
         return "the model"
     if version == "before":
         return "the nominal model"
-    terms = [spoken(term_of(d.after.problem, key)[0].name) for key in d.named]
+    terms = [spoken(find_term(d.after.problem, key)[0].name) for key in d.named]
     terms += ["what was learned"] if d.learned else []
     return f"the model with {' and '.join([', '.join(terms[:-1]), terms[-1]] if len(terms) > 1 else terms)}"
 

@@ -24,7 +24,7 @@ from lostmotion.identification.report.page import write_identification
 from lostmotion.identification.result import derived_intervals, drive_level, mode_notes, statement
 from lostmotion.identification.sampling import SampledPosterior, SamplingPlan, Task, Watch, identify
 from lostmotion.identification.trajectory import best_fits, chosen_terms, task_for, warnings_of
-from lostmotion.inference.contacts import short_contacts
+from lostmotion.inference.contacts import list_short_contacts
 from lostmotion.likelihood.space import FreeParameter
 from lostmotion.maps.inversion import Inversion, predict_levels
 from lostmotion.preparation.prepare import Prepared, case_of, prepared_of
@@ -142,7 +142,7 @@ def _by_trajectory(prepared: Prepared, out: Path, registry: Registry, asked: Ask
     problem = fits[0].problem
     settings = {"terms": sorted(problem.active), "steps_between_samples": problem.nsub, "sensor": asdict(case.sensor)}
     origin = _origin(case, order, settings, prepared.inputs)
-    notes = (*prepared.notes, *mode_notes(len(fits)), *short_contacts(fits[0]), *warnings_of(fits[0]))
+    notes = (*prepared.notes, *mode_notes(len(fits)), *list_short_contacts(fits[0]), *warnings_of(fits[0]))
     model = " + ".join([case.model, *sorted(problem.active)])
 
     def tell(found: SampledPosterior) -> Identification:

@@ -7,7 +7,7 @@ import numpy as np
 from lostmotion.inference.fit import Fit
 
 
-def short_contacts(fit: Fit) -> list[str]:
+def list_short_contacts(fit: Fit) -> list[str]:
     """Return a note for each contact that is so stiff that a bounce falls between two samples."""
     problem, notes = fit.problem, []
     for place in problem.system.model.interfaces:

@@ -14,10 +14,10 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from lostmotion.contracts import Array, Interface, place_of
-from lostmotion.inference.fit import Fit, Sensitivity, maximise, restarted, robust_covariance, solved
-from lostmotion.inference.learned import Learned, spread
-from lostmotion.inference.natural import term_of
-from lostmotion.inference.surfaces import RICHER, OverHistory, Surface, curves_for
+from lostmotion.inference.fit import Fit, Sensitivity, compute_robust_covariance, maximise, restart, solve_scaled
+from lostmotion.inference.learned import LearnedCurve, compute_spread
+from lostmotion.inference.natural import find_term
+from lostmotion.inference.surfaces import RICHER, OverHistory, Surface, list_all_curves
 from lostmotion.likelihood.problem import FreeParameter, Problem
 from lostmotion.likelihood.system import System, key_of
 
@@ -45,7 +45,7 @@ NUDGE = 3e-4
 
 
 @dataclass(frozen=True)
-class Shape:
+class CurveTest:
     """What a score test says of a curve: the log evidence it promises, its prior widths and where to start (count,).
 
     A coefficient of which the data tell next to nothing beside its prior has width zero: it is left out. `known` are
@@ -59,21 +59,21 @@ class Shape:
     known: Mapping[str, float] = field(default_factory=dict)
 
 
-def transplanted(fit: Fit) -> Fit:
+def add_all_curves(fit: Fit) -> Fit:
     """Return a fit in a system that has every curve beside its terms, with the ranges that the motion visited.
 
     All terms stay, so that one kernel serves whatever is active. A system that has them is left as it is.
     """
     problem, old = fit.problem, fit.problem.system
-    if any(isinstance(term, Learned) for term in old.terms):
+    if any(isinstance(term, LearnedCurve) for term in old.terms):
         return fit
     driven = all(observation.harmonic.omega > 0.0 for observation in problem.observations)
-    curves = curves_for(old.model, driven=driven)
+    curves = list_all_curves(old.model, driven=driven)
     system = System(old.model, (*old.terms, *curves))
     known = system.vector({key: problem.known[old.index[key]] for key in system.index if key in old.index})
-    moved = motions_of(fit, [place_of(old.model, curve) for curve in curves])
+    moved = smooth_motions(fit, [place_of(old.model, curve) for curve in curves])
     for curve in curves:
-        for key, value in _ranges(fit, curve, moved).items():
+        for key, value in _find_ranges(fit, curve, moved).items():
             known[system.index[f"{key_of(curve)}.{key}"]] = value
     return replace(fit, problem=replace(problem, system=system, known=known))
 
@@ -82,7 +82,7 @@ Motions = dict[str, list[Array]]
 """Position and velocity (2, samples) in each recording, by the names of places of a model."""
 
 
-def motions_of(fit: Fit, places: Sequence[Interface]) -> Motions:
+def smooth_motions(fit: Fit, places: Sequence[Interface]) -> Motions:
     """Return the motion at places of the model as a fit sees it in each recording; each is smoothed once."""
     problem, distinct = fit.problem, {place.name: place for place in places}
     found: Motions = {name: [] for name in distinct}
@@ -94,20 +94,20 @@ def motions_of(fit: Fit, places: Sequence[Interface]) -> Motions:
     return found
 
 
-def _ranges(fit: Fit, curve: Learned, moved: Motions) -> dict[str, float]:
+def _find_ranges(fit: Fit, curve: LearnedCurve, moved: Motions) -> dict[str, float]:
     """Return middle and half width of the range of what a curve runs over, of a surface of both things."""
     time = fit.problem.scales.time
-    found = _middled(*_range(fit, curve, curve.over, moved, time))
+    found = _centre_range(*_find_range(fit, curve, curve.over, moved, time))
     if isinstance(curve, Surface):
-        found |= {f"{k}2": v for k, v in _middled(*_range(fit, curve, curve.beside, moved, time)).items()}
+        found |= {f"{k}2": v for k, v in _centre_range(*_find_range(fit, curve, curve.beside, moved, time)).items()}
     return found | ({"time": time} if isinstance(curve, OverHistory) else {})
 
 
-def _middled(low: float, high: float) -> dict[str, float]:
+def _centre_range(low: float, high: float) -> dict[str, float]:
     return {"middle": 0.5 * (low + high), "half": 0.5 * (high - low)}
 
 
-def _range(fit: Fit, curve: Learned, over: str, moved: Motions, time: float) -> tuple[float, float]:
+def _find_range(fit: Fit, curve: LearnedCurve, over: str, moved: Motions, time: float) -> tuple[float, float]:
     """Return the least and the greatest value of something that moves, in all recordings, with a narrow margin.
 
     A hidden state forgets in a `time` (s).
@@ -121,78 +121,78 @@ def _range(fit: Fit, curve: Learned, over: str, moved: Motions, time: float) -> 
         values = [OverHistory.followed(motion[1], observation.dt, time) for motion, observation in steps]
     else:
         values = [motion[int(over == "velocity")] for motion in seen]
-    ends = [_ends(value) for value in values]
+    ends = [_find_ends(value) for value in values]
     low, high = min(e[0] for e in ends), max(e[1] for e in ends)
     margin = (BEYOND if isinstance(curve, RICHER) else EDGE) * (high - low)
     return low - margin, high + margin
 
 
-def _ends(moved: Array) -> tuple[float, float]:
+def _find_ends(moved: Array) -> tuple[float, float]:
     low, high = np.quantile(moved[len(moved) // 50 :], [1e-3, 1.0 - 1e-3])
     return float(low), float(high)
 
 
-def size_of(term: Learned, problem: Problem) -> float:
+def compute_coefficient_size(term: LearnedCurve, problem: Problem) -> float:
     """Return the natural size of the coefficients of a curve: the drive, in the dimension they have."""
     scales = problem.scales
     return term.params[0].dimension.scale(scales.force, scales.length, scales.time)
 
 
-def shape_of(fit: Fit, slopes: Sensitivity, key: str) -> Shape:
+def run_curve_test(fit: Fit, slopes: Sensitivity, key: str) -> CurveTest:
     """Return what a curve promises; one with a memory is asked at each of some `TIMES`, for which it pays."""
-    problem, term = fit.problem, _learned(fit.problem, key)
+    problem, term = fit.problem, _find_curve(fit.problem, key)
     if not isinstance(term, OverHistory):
-        return _smoothest(fit, slopes, key)
-    moved, found = motions_of(fit, [place_of(problem.system.model, term)]), []
+        return _choose_smoothness(fit, slopes, key)
+    moved, found = smooth_motions(fit, [place_of(problem.system.model, term)]), []
     for share in TIMES:
         time = share * problem.scales.time
-        held = {"time": time, **_middled(*_range(fit, term, "history", moved, time))}
+        held = {"time": time, **_centre_range(*_find_range(fit, term, "history", moved, time))}
         known = {f"{key}.{name}": value for name, value in held.items()}
-        best = _smoothest(replace(fit, problem=problem.hold_values(known)), slopes, key)
+        best = _choose_smoothness(replace(fit, problem=problem.hold_values(known)), slopes, key)
         found.append(replace(best, gain=best.gain - math.log(len(TIMES)), known=known))
     return max(found, key=lambda shape: shape.gain)
 
 
-def _smoothest(fit: Fit, slopes: Sensitivity, key: str) -> Shape:
+def _choose_smoothness(fit: Fit, slopes: Sensitivity, key: str) -> CurveTest:
     """Return what a curve promises at its best smoothness, the free parameters of the fit moving along.
 
     With gradient g and information H of its coefficients, prior widths D: the evidence gains
     (g'D (I + D H D)^-1 D g - log det(I + D H D)) / 2.
     """
     problem = fit.problem
-    term = _learned(problem, key)
-    gradient, information = projected(fit, slopes, key)
+    term = _find_curve(problem, key)
+    gradient, information = project_score(fit, slopes, key)
     options = []
     for size, length in itertools.product(SIZES, LENGTHS):
-        widths = size * size_of(term, problem) * spread(term, length)
+        widths = size * compute_coefficient_size(term, problem) * compute_spread(term, length)
         inner = np.eye(term.count) + information * np.outer(widths, widths)
         pull = np.linalg.solve(inner, widths * gradient)
         gain = 0.5 * float(widths * gradient @ pull) - 0.5 * float(np.linalg.slogdet(inner)[1])
         told = widths**2 * np.diag(information) > TOLD
-        options.append(Shape(key, gain, np.where(told, widths, 0.0), np.where(told, widths * pull, 0.0)))
+        options.append(CurveTest(key, gain, np.where(told, widths, 0.0), np.where(told, widths * pull, 0.0)))
     return max(options, key=lambda s: s.gain)
 
 
-def _learned(problem: Problem, key: str) -> Learned:
-    term, _ = term_of(problem, key)
-    if not isinstance(term, Learned):
+def _find_curve(problem: Problem, key: str) -> LearnedCurve:
+    term, _ = find_term(problem, key)
+    if not isinstance(term, LearnedCurve):
         raise TypeError(f"{key} is no learned curve")
     return term
 
 
-def projected(fit: Fit, slopes: Sensitivity, key: str) -> tuple[Array, Array]:
+def project_score(fit: Fit, slopes: Sensitivity, key: str) -> tuple[Array, Array]:
     """Return gradient (count,) and information (count, count) of the coefficients of a curve at zero.
 
     What the free parameters of the fit explain as well is taken out.
     """
-    return projection(fit, joint_of(fit, slopes, key), len(slopes.theta))[:2]
+    return project_from(fit, join_curve(fit, slopes, key), len(slopes.theta))[:2]
 
 
-def joint_of(fit: Fit, slopes: Sensitivity, key: str) -> Sensitivity:
+def join_curve(fit: Fit, slopes: Sensitivity, key: str) -> Sensitivity:
     """Return the sensitivities of a fit with those of the coefficients of a curve at zero behind them."""
-    problem, term = fit.problem, _learned(fit.problem, key)
-    width = NUDGE * size_of(term, problem)
-    wider = with_curve(problem, key, np.full(term.count, math.inf), np.zeros(term.count))
+    problem, term = fit.problem, _find_curve(fit.problem, key)
+    width = NUDGE * compute_coefficient_size(term, problem)
+    wider = add_curve(problem, key, np.full(term.count, math.inf), np.zeros(term.count))
     zero = np.concatenate([slopes.theta, np.zeros(term.count)])
     seen = wider.filter_many(np.vstack([zero[None], zero + width * np.eye(len(zero))[len(slopes.theta) :]]))
     above = np.where(seen.finite[1:], np.arange(1, len(seen)), 0)
@@ -203,7 +203,7 @@ def joint_of(fit: Fit, slopes: Sensitivity, key: str) -> Sensitivity:
     )
 
 
-def projection(fit: Fit, joint: Sensitivity, k: int) -> tuple[Array, Array, Array]:
+def project_from(fit: Fit, joint: Sensitivity, k: int) -> tuple[Array, Array, Array]:
     """Return gradient, information, and what the first `k` parameters take of the score of each coefficient (k, count).
 
     They are those of `projected`, from the sensitivities of `joint_of`.
@@ -212,13 +212,13 @@ def projection(fit: Fit, joint: Sensitivity, k: int) -> tuple[Array, Array, Arra
     gradient, information = joint.gradient(), joint.information()
     pull = np.array([f.prior_information for f in problem.free])
     gradient[:k] -= pull * (joint.theta[:k] - np.array([f.mean for f in problem.free]))
-    pulled = solved(information[:k, :k] + np.diag(pull), information[:k, k:])
+    pulled = solve_scaled(information[:k, :k] + np.diag(pull), information[:k, k:])
     own = information[k:, k:]
-    told = _independent_part(gradient[k:] - pulled.T @ gradient[:k], own - information[k:, :k] @ pulled, own)
+    told = _keep_independent(gradient[k:] - pulled.T @ gradient[:k], own - information[k:, :k] @ pulled, own)
     return *told, pulled
 
 
-def _independent_part(gradient: Array, left: Array, own: Array) -> tuple[Array, Array]:
+def _keep_independent(gradient: Array, left: Array, own: Array) -> tuple[Array, Array]:
     """Return gradient and information without the directions that the free parameters of the fit cover already.
 
     Of the information `own` nothing is `left` there but errors of the differences, by which the rest of a gradient that
@@ -233,20 +233,20 @@ def _independent_part(gradient: Array, left: Array, own: Array) -> tuple[Array, 
     return turned @ (kept.T @ np.linalg.solve(root, gradient)), turned * shares[shares > COVERED] @ turned.T
 
 
-def with_curve(problem: Problem, key: str, widths: Array, start: Array) -> Problem:
+def add_curve(problem: Problem, key: str, widths: Array, start: Array) -> Problem:
     """Return a problem with one more curve: coefficients normal about zero with `widths` > 0, begun at `start`."""
-    term = _learned(problem, key)
-    reach = np.where(np.isfinite(widths), 30.0 * widths, 1e3 * size_of(term, problem))
+    term = _find_curve(problem, key)
+    reach = np.where(np.isfinite(widths), 30.0 * widths, 1e3 * compute_coefficient_size(term, problem))
     unit = term.params[0].dimension.unit(problem.system.model.motion)
     rows = [(int(i), *(float(row[i]) for row in (start, reach, widths))) for i in np.flatnonzero(widths > 0.0)]
     frees = [FreeParameter(f"{key}.v{i}", unit, at, -far, far, sd=wide, linear=True) for i, at, far, wide in rows]
     return problem.extend(frees, {key})
 
 
-def fit_curve(fit: Fit, shape: Shape) -> Fit:
+def fit_curve(fit: Fit, shape: CurveTest) -> Fit:
     """Return the fit with one more curve, begun where its score test points, or with less of it, and fitted again."""
-    base = restarted(fit).hold_values(shape.known)
-    problems = [with_curve(base, shape.key, shape.widths, f * shape.start) for f in (1.0, 0.5, 0.2)]
+    base = restart(fit).hold_values(shape.known)
+    problems = [add_curve(base, shape.key, shape.widths, f * shape.start) for f in (1.0, 0.5, 0.2)]
     log_densities = [p.log_posterior(p.clip(p.start)) for p in problems]
     return maximise(problems[int(np.argmax(log_densities))], rounds=ROUNDS, tolerance=0.3)
 
@@ -258,7 +258,7 @@ class Band:
     A surface is given on the grid of `at` and `beside`, of which the values (points of both) stand in rows.
     """
 
-    term: Learned
+    term: LearnedCurve
     at: Array
     mean: Array
     covariance: Array
@@ -270,24 +270,27 @@ class Band:
         return np.sqrt(np.maximum(np.diag(self.covariance), 0.0))
 
 
-def band_of(fit: Fit, key: str, points: int = 161) -> Band:
+def compute_band(fit: Fit, key: str, points: int = 161) -> Band:
     """Return a learned curve over the range of the data, with the robust covariance of its coefficients."""
-    problem, term = fit.problem, _learned(fit.problem, key)
+    problem, term = fit.problem, _find_curve(fit.problem, key)
     places = {name: i for i, name in enumerate(problem.keys)}
     used = [i for i in range(term.count) if f"{key}.v{i}" in places]
     columns = [places[f"{key}.v{i}"] for i in used]
     beside = None
     if isinstance(term, Surface):
-        (z, at), (w, beside) = _axis(problem, key, term.over, GRID[0]), _axis(problem, key, term.beside, GRID[1], "2")
+        (z, at), (w, beside) = (
+            _make_axis(problem, key, term.over, GRID[0]),
+            _make_axis(problem, key, term.beside, GRID[1], "2"),
+        )
         basis = term.grid(z, w).reshape(len(z) * len(w), -1)[:, used]
     else:
-        z, at = _axis(problem, key, term.over, points)
+        z, at = _make_axis(problem, key, term.over, points)
         basis = term.basis(z)[:, used]
-    covariance = robust_covariance(fit)[np.ix_(columns, columns)]
+    covariance = compute_robust_covariance(fit)[np.ix_(columns, columns)]
     return Band(term, at, basis @ fit.theta[columns], basis @ covariance @ basis.T, beside)
 
 
-def _axis(problem: Problem, key: str, over: str, points: int, which: str = "") -> tuple[Array, Array]:
+def _make_axis(problem: Problem, key: str, over: str, points: int, which: str = "") -> tuple[Array, Array]:
     """Return places (points,) in half widths (half periods) of a range, and what is there in its unit (periods)."""
     if over == "phase":
         z = np.linspace(0.0, 2.0, points)

@@ -16,7 +16,7 @@ HEAVY = 5.0
 WIDER = 1.2
 
 
-def checked(fit: Fit, rng: np.random.Generator, draws: int = 150) -> SampledEvidence:
+def sample_evidence(fit: Fit, rng: np.random.Generator, draws: int = 150) -> SampledEvidence:
     """Return the log evidence of a fit by importance sampling about its maximum.
 
     Geweke, Econometrica 57 (1989) 1317-1339. Coordinates that press against a bound are drawn beyond it as well; such
@@ -28,7 +28,7 @@ def checked(fit: Fit, rng: np.random.Generator, draws: int = 150) -> SampledEvid
     theta, covariance = fit.theta, fit.local.covariance
     sd = np.sqrt(np.maximum(np.diag(covariance), 1e-300))
     shape = covariance / np.outer(sd, sd) * WIDER**2 + 1e-10 * np.eye(len(sd))
-    raw, told = _drawn(shape, draws, rng)
+    raw, told = _draw_t(shape, draws, rng)
     points, log_densities = theta + raw * sd, told - float(np.sum(np.log(sd)))
     weights = fit.problem.log_posteriors(points) - log_densities
     if not np.isfinite(weights).any():
@@ -39,7 +39,7 @@ def checked(fit: Fit, rng: np.random.Generator, draws: int = 150) -> SampledEvid
     return SampledEvidence(fit.log_evidence, total - math.log(draws), error, 1.0 / crowd)
 
 
-def _drawn(shape: Array, draws: int, rng: np.random.Generator) -> tuple[Array, Array]:
+def _draw_t(shape: Array, draws: int, rng: np.random.Generator) -> tuple[Array, Array]:
     """Return draws (draws, n) of a t density about zero, and its logarithm (draws,) there.
 
     SciPy has both, in a module that takes longer to import than this takes to compute.

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from lostmotion.contracts import Array
-from lostmotion.inference.fit import Fit, Sensitivity, maximise, restarted
+from lostmotion.inference.fit import Fit, Sensitivity, maximise, restart
 from lostmotion.inference.standing import standing
 from lostmotion.likelihood.problem import FreeParameter, Problem
 from lostmotion.likelihood.system import ALWAYS, onset_key
@@ -25,30 +25,30 @@ PRICE = math.log(TIMES)
 """The log price of an onset that was chosen."""
 
 
-def can_be_late(problem: Problem, key: str) -> bool:
+def can_have_onset(problem: Problem, key: str) -> bool:
     """Return whether an onset of a term can be told: of one recording, and not of a sensor."""
     return len(problem.observations) == 1 and onset_key(key) in problem.system.index
 
 
-def onset(problem: Problem, key: str) -> float:
+def find_onset(problem: Problem, key: str) -> float:
     """Return since when (s) a term acts by what is known, `ALWAYS` if from the beginning."""
     return problem.system.onset(problem.known, key)
 
 
-def times_of(problem: Problem) -> Array:
+def list_onsets(problem: Problem) -> Array:
     """Return the onsets (TIMES,) that are tried, in s."""
     observation = problem.observations[0]
     duration = observation.samples * observation.dt
     return np.asarray(observation.time[0] + duration * np.linspace(FIRST, LAST, TIMES), dtype=float)
 
 
-def cut(problem: Problem, joint: Sensitivity, k: int) -> Iterator[tuple[float, Array, Array]]:
+def cut_at_onsets(problem: Problem, joint: Sensitivity, k: int) -> Iterator[tuple[float, Array, Array]]:
     """Yield each onset (s) with gradient and information where the last `k` coordinates act from it on alone.
 
     What came before is forgotten by a filter within a few cycles, so that the sensitivity behind an onset is that of a
     term which was always there: sums over its part of the samples.
     """
-    observation, times = problem.observations[0], times_of(problem)
+    observation, times = problem.observations[0], list_onsets(problem)
     width = len(observation.sensors)
     edges = np.searchsorted(observation.time, times) * width
     gradient, information, scores = joint.gradient(), joint.information(), joint.scores()[-k:]
@@ -62,49 +62,49 @@ def cut(problem: Problem, joint: Sensitivity, k: int) -> Iterator[tuple[float, A
         yield time, g, h
 
 
-def at_any_time(problem: Problem, key: str, start: float) -> FreeParameter:
+def make_onset_parameter(problem: Problem, key: str, start: float) -> FreeParameter:
     """Return the onset of a term as a free parameter, uniform over the recording."""
     observation = problem.observations[0]
     begin = float(observation.time[0])
     return FreeParameter(onset_key(key), "s", start, begin, begin + observation.samples * observation.dt)
 
 
-def refined(fit: Fit, key: str) -> Fit:
+def refine_onset(fit: Fit, key: str) -> Fit:
     """Return the fit with the onset of a term held where the likelihood is highest nearby; as it is without one."""
-    if not onset(fit.problem, key) > ALWAYS:
+    if not find_onset(fit.problem, key) > ALWAYS:
         return fit
-    wider = restarted(fit).extend((at_any_time(fit.problem, key, onset(fit.problem, key)),), ())
-    found = maximise(wider, np.append(fit.theta, onset(fit.problem, key)))
-    held = restarted(fit).hold_values({onset_key(key): float(found.theta[-1])})
+    wider = restart(fit).extend((make_onset_parameter(fit.problem, key, find_onset(fit.problem, key)),), ())
+    found = maximise(wider, np.append(fit.theta, find_onset(fit.problem, key)))
+    held = restart(fit).hold_values({onset_key(key): float(found.theta[-1])})
     late = maximise(held, found.theta[:-1])
     return late if late.local.log_posterior > fit.local.log_posterior else fit
 
 
-def believed(fit: Fit) -> Fit:
+def drop_weak_onsets(fit: Fit) -> Fit:
     """Return a fit in which only those onsets are left that are believed; all other terms act from the beginning.
 
     Few machines change while they are recorded; and where what is left over has a memory, a change wins more than
     independent samples would let it, by the square of how much wider errors are than usual.
     """
     for key in sorted(fit.problem.active):
-        if onset(fit.problem, key) > ALWAYS and fit.status != "diverged":
-            ever = maximise(restarted(fit).hold_values({onset_key(key): ALWAYS}), fit.theta)
+        if find_onset(fit.problem, key) > ALWAYS and fit.status != "diverged":
+            ever = maximise(restart(fit).hold_values({onset_key(key): ALWAYS}), fit.theta)
             needed = (PRICE + fit.problem.settings.select.onset) * standing(fit)[1] ** 2
             if ever.status != "diverged" and not fit.log_evidence - ever.log_evidence > needed:
                 fit = ever
     return fit
 
 
-def since(fit: Fit, key: str) -> Interval | None:
+def estimate_onset(fit: Fit, key: str) -> Interval | None:
     """Return median and central 95 % interval of the onset of a term, all else as it is; None where it has none.
 
     A likelihood over onsets has kinks, and is flat where the term does nothing, so it is summed over a grid: first over
     a part of the recording about the onset, then over where it is high.
     """
-    problem, at = fit.problem, onset(fit.problem, key)
+    problem, at = fit.problem, find_onset(fit.problem, key)
     if not at > ALWAYS:
         return None
-    free = at_any_time(problem, key, at)
+    free = make_onset_parameter(problem, key, at)
     wider, reach = problem.extend((free,), ()), AROUND * (free.high - free.low)
     low, high = max(at - reach, free.low), min(at + reach, free.high)
     grid, heights = np.zeros(0), np.zeros(0)
@@ -120,6 +120,6 @@ def since(fit: Fit, key: str) -> Interval | None:
     return Interval(median, low, high, "s")
 
 
-def price_of_onsets(problem: Problem) -> float:
+def compute_onset_price(problem: Problem) -> float:
     """Return the log price of the onsets of the terms at work."""
-    return PRICE * sum(onset(problem, key) > ALWAYS for key in problem.active)
+    return PRICE * sum(find_onset(problem, key) > ALWAYS for key in problem.active)

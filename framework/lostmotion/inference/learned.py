@@ -27,14 +27,14 @@ POSITION, VELOCITY, TIME_PASSED, PHASE = range(4)
 ONE, AGAINST_MOTION, DRAG = range(3)
 
 
-def params_of(count: int, dimension: Dimension, over: Dimension) -> tuple[Param, ...]:
+def make_params(count: int, dimension: Dimension, over: Dimension) -> tuple[Param, ...]:
     """Return the parameters of a curve: its coefficients, then the middle and the half width of what was visited."""
     weights = tuple(Param(f"v{i}", "coefficient of a learned curve", dimension, null=0.0) for i in range(count))
     middle = Param("middle", "middle of the range of a learned curve", over)
     return (*weights, middle, Param("half", "half width of the range", over, low=0.0, scale="log"))
 
 
-def looked_up(p: Values, z: float, cells: int) -> float:
+def look_up(p: Values, z: float, cells: int) -> float:
     """Return a curve at `z`, in cells from its begin: a cubic from node to node of the table behind `p[2]`."""
     z = min(z, cells) if z > 0.0 else 0.0
     cell = min(int(z), cells - 1)
@@ -44,14 +44,14 @@ def looked_up(p: Values, z: float, cells: int) -> float:
     return low + z * (first + z * (high - low - first - bent + z * bent))
 
 
-def spread_of(waves: Array, length: float) -> Array:
+def compute_spectrum(waves: Array, length: float) -> Array:
     """Return the standard deviation of each coefficient of functions with these `waves` (rad per half width)."""
     power = (5.0 / length**2 + waves**2) ** -3.0
     return np.asarray(np.sqrt(2.0 * power / power.sum()))
 
 
 @dataclass(frozen=True)
-class Learned(Term):
+class LearnedCurve(Term):
     """A force that is learned as a curve: a sum of `count` sines of what it runs over.
 
     `depends` names the covariates on which the force depends, `times` what the curve is multiplied with. The kernel
@@ -75,7 +75,7 @@ class Learned(Term):
 
         `length` is the correlation length in half widths of the range, of a Matern process of order 5/2.
         """
-        return spread_of(cls.waves(), length)
+        return compute_spectrum(cls.waves(), length)
 
     @classmethod
     def waves(cls) -> Array:
@@ -116,7 +116,7 @@ class Learned(Term):
         z = (seen - p[0]) * p[1]
         if self.source == PHASE:
             z -= self.cells * math.floor(z / self.cells)
-        size = looked_up(p, z, self.cells)
+        size = look_up(p, z, self.cells)
         if self.factor == DRAG:
             return -size * v
         if self.factor == AGAINST_MOTION:
@@ -128,7 +128,7 @@ class Learned(Term):
 
 
 @dataclass(frozen=True)
-class OverPosition(Learned):
+class OverPosition(LearnedCurve):
     """A force that depends on the position."""
 
     cells: int = 2 * CELLS
@@ -137,11 +137,11 @@ class OverPosition(Learned):
     count: ClassVar[int] = FINE
     over: ClassVar[str] = "position"
     depends: ClassVar[tuple[str, ...]] = ("position",)
-    params = params_of(FINE, FORCE, LENGTH)
+    params = make_params(FINE, FORCE, LENGTH)
 
 
 @dataclass(frozen=True)
-class OverVelocity(Learned):
+class OverVelocity(LearnedCurve):
     """A force that depends on the velocity."""
 
     source: int = VELOCITY
@@ -149,11 +149,11 @@ class OverVelocity(Learned):
     formula: ClassVar[str] = "f(v)"
     over: ClassVar[str] = "velocity"
     depends: ClassVar[tuple[str, ...]] = ("velocity",)
-    params = params_of(COARSE, FORCE, SPEED)
+    params = make_params(COARSE, FORCE, SPEED)
 
 
 @dataclass(frozen=True)
-class FrictionOverPosition(Learned):
+class FrictionOverPosition(LearnedCurve):
     """Friction of a size that depends on the position; it sticks as `coulomb_friction` does."""
 
     factor: int = AGAINST_MOTION
@@ -162,12 +162,12 @@ class FrictionOverPosition(Learned):
     over: ClassVar[str] = "position"
     depends: ClassVar[tuple[str, ...]] = ("position", "sign of velocity")
     times: ClassVar[str] = "-sign(v)"
-    params = params_of(COARSE, FORCE, LENGTH)
+    params = make_params(COARSE, FORCE, LENGTH)
     needs = ("mobility",)
 
 
 @dataclass(frozen=True)
-class DragOverPosition(Learned):
+class DragOverPosition(LearnedCurve):
     """A viscous drag of which the coefficient depends on the position."""
 
     factor: int = DRAG
@@ -176,11 +176,11 @@ class DragOverPosition(Learned):
     over: ClassVar[str] = "position"
     depends: ClassVar[tuple[str, ...]] = ("position", "velocity")
     times: ClassVar[str] = "-v"
-    params = params_of(COARSE, DAMPING, LENGTH)
+    params = make_params(COARSE, DAMPING, LENGTH)
 
 
 @dataclass(frozen=True)
-class OverTime(Learned):
+class OverTime(LearnedCurve):
     """A force that changes slowly in the course of a recording; after its end it stays what it is there."""
 
     source: int = TIME_PASSED
@@ -188,11 +188,11 @@ class OverTime(Learned):
     formula: ClassVar[str] = "f(t)"
     over: ClassVar[str] = "time"
     depends: ClassVar[tuple[str, ...]] = ("time",)
-    params = params_of(COARSE, FORCE, TIME)
+    params = make_params(COARSE, FORCE, TIME)
 
 
 @dataclass(frozen=True)
-class OverPhase(Learned):
+class OverPhase(LearnedCurve):
     """A force that repeats with each period of the drive; `middle` and `half` have no part in it."""
 
     source: int = PHASE
@@ -201,7 +201,7 @@ class OverPhase(Learned):
     count: ClassVar[int] = 2 * HARMONICS
     over: ClassVar[str] = "phase"
     depends: ClassVar[tuple[str, ...]] = ("phase",)
-    params = params_of(2 * HARMONICS, FORCE, TIME)
+    params = make_params(2 * HARMONICS, FORCE, TIME)
     needs = ("omega",)
 
     @classmethod
@@ -212,29 +212,29 @@ class OverPhase(Learned):
     @classmethod
     def basis(cls, z: Array) -> Array:
         """Return the functions (points, count) at places `z` (points,), in half periods from the start."""
-        return np.asarray(np.sin(np.outer(z, cls.waves()) + _turned(cls.count)), dtype=float)
+        return np.asarray(np.sin(np.outer(z, cls.waves()) + _make_phases(cls.count)), dtype=float)
 
     @classmethod
     def slopes(cls, z: Array) -> Array:
         """Return the derivatives (points, count) of the functions."""
-        return np.asarray(cls.waves() * np.cos(np.outer(z, cls.waves()) + _turned(cls.count)), dtype=float)
+        return np.asarray(cls.waves() * np.cos(np.outer(z, cls.waves()) + _make_phases(cls.count)), dtype=float)
 
 
-def _turned(count: int) -> Array:
+def _make_phases(count: int) -> Array:
     """Return phases (count,) that make every other sine a cosine."""
     return np.asarray(np.tile([0.5 * math.pi, 0.0], count // 2), dtype=float)
 
 
-def spread(term: Learned | type[Learned], length: float) -> Array:
+def compute_spread(term: LearnedCurve | type[LearnedCurve], length: float) -> Array:
     """Return the prior standard deviation (count,) of each coefficient of a curve, for a force of unit deviation."""
     return term.spread(length)
 
 
-def names_of(terms: Sequence[Learned]) -> list[str]:
+def list_covariates(terms: Sequence[LearnedCurve]) -> list[str]:
     """Return the covariates on which the sum of some curves depends, each once."""
-    return list(dict.fromkeys(_placed(name, term) for term in terms for name in term.depends))
+    return list(dict.fromkeys(_name_at_place(name, term) for term in terms for name in term.depends))
 
 
-def _placed(name: str, term: Learned) -> str:
+def _name_at_place(name: str, term: LearnedCurve) -> str:
     moving = name not in ("time", "phase") and term.at != "ground"
     return f"{name} at {term.at}" if moving else name

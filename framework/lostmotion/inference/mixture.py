@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from lostmotion.contracts import Array
-from lostmotion.inference.fit import Fit, Local, maximise, robust_covariance
+from lostmotion.inference.fit import Expansion, Fit, compute_robust_covariance, maximise
 from lostmotion.likelihood.problem import RANDOM
 
 STRIDE = 0.8
@@ -29,29 +29,29 @@ MANY = 24
 class MixtureNode:
     """The posterior at one level of the random force: its expansion there and its log weight."""
 
-    local: Local
+    local: Expansion
     weight: float
 
 
-def draws(fit: Fit, rng: np.random.Generator, count: int) -> Array:
+def draw_posterior(fit: Fit, rng: np.random.Generator, count: int) -> Array:
     """Return draws (count, free parameters) of the coordinates from the posterior about a fit.
 
     Spreads are those of the robust covariance where that is wider, so that leftovers with a memory widen them.
     Where each recording has a random force of its own, all are drawn from the normal approximation at the maximum.
     """
-    nodes = nodes_of(fit)
+    nodes = compute_nodes(fit)
     weights = np.exp([n.weight - max(m.weight for m in nodes) for n in nodes])
     which = rng.choice(len(nodes), size=count, p=weights / weights.sum())
-    wider = np.sqrt(np.diag(robust_covariance(fit)) / np.maximum(np.diag(fit.local.covariance), 1e-300))
+    wider = np.sqrt(np.diag(compute_robust_covariance(fit)) / np.maximum(np.diag(fit.local.covariance), 1e-300))
     noise = rng.standard_normal((count, len(fit.theta)))
-    roots = [root_of(node.local) for node in nodes]
+    roots = [compute_root(node.local) for node in nodes]
     theta = np.array([nodes[k].local.theta + wider * (roots[k] @ z) for k, z in zip(which, noise, strict=True)])
     if len(nodes) > 1:
         theta[:, fit.problem.keys.index(RANDOM)] += STRIDE * (rng.random(count) - 0.5)
     return fit.problem.clip(theta)
 
 
-def root_of(local: Local) -> Array:
+def compute_root(local: Expansion) -> Array:
     """Return a square root of the covariance of an expansion, each coordinate scaled to unit spread first."""
     covariance = local.covariance
     sd = np.sqrt(np.maximum(np.diag(covariance), 1e-300))
@@ -59,13 +59,13 @@ def root_of(local: Local) -> Array:
     return np.asarray(sd[:, None] * vectors * np.sqrt(np.maximum(values, 0.0)))
 
 
-def nodes_of(fit: Fit) -> list[MixtureNode]:
+def compute_nodes(fit: Fit) -> list[MixtureNode]:
     """Return the nodes from the maximum outwards, each started from its neighbour."""
     if RANDOM not in fit.problem.keys or len(fit.theta) > MANY:
         return [MixtureNode(fit.local, 0.0)]
     at = fit.problem.keys.index(RANDOM)
     free = fit.problem.free[at]
-    centre = _node(fit, fit.theta, at)
+    centre = _compute_node(fit, fit.theta, at)
     nodes = [centre]
     for direction in (1.0, -1.0):
         near = centre
@@ -74,7 +74,7 @@ def nodes_of(fit: Fit) -> list[MixtureNode]:
             theta[at] += direction * STRIDE
             if not free.low <= theta[at] <= free.high:
                 break
-            near = _node(fit, theta, at)
+            near = _compute_node(fit, theta, at)
             if not near.weight > max(n.weight for n in nodes) - FAINT:
                 break
             nodes.append(near)
@@ -82,7 +82,7 @@ def nodes_of(fit: Fit) -> list[MixtureNode]:
     return heavy or [MixtureNode(fit.local, 0.0)]
 
 
-def _node(fit: Fit, theta: Array, at: int) -> MixtureNode:
+def _compute_node(fit: Fit, theta: Array, at: int) -> MixtureNode:
     """Return the node at the random force of `theta`, all else at its best there."""
     frees = list(fit.problem.free)
     frees[at] = replace(frees[at], start=theta[at], low=theta[at], high=theta[at])

@@ -19,13 +19,13 @@ LOOKS = 9
 NEIGHBOURS = 4
 
 
-def one_hill(a: Fit, b: Fit) -> bool:
+def is_same_mode(a: Fit, b: Fit) -> bool:
     """Return whether two maxima belong to one hill: close by, or no dip on the straight line between them.
 
     A filter through a kink leaves a posterior rough, so that fits stop at several places of one hill; a dip that
     roughness makes is shallower than one between modes.
     """
-    width = np.maximum(_sd(a), _sd(b))
+    width = np.maximum(_list_sd(a), _list_sd(b))
     if np.all(np.abs(a.theta - b.theta) < NEAR * width):
         return True
     problem = max(a.problem, b.problem, key=lambda p: p.nsub)
@@ -34,24 +34,24 @@ def one_hill(a: Fit, b: Fit) -> bool:
     return bool(np.min(log_densities[1:-1]) > min(log_densities[0], log_densities[-1]) - DIP)
 
 
-def _sd(fit: Fit) -> Array:
+def _list_sd(fit: Fit) -> Array:
     return np.array(list(fit.sd.values()))
 
 
-def distinct(fits: Iterable[Fit], within: float) -> list[Fit]:
+def select_modes(fits: Iterable[Fit], within: float) -> list[Fit]:
     """Return one fit of each hill, best first by log posterior, down to `within` below the best."""
     ranked = sorted((f for f in fits if math.isfinite(f.local.log_posterior)), key=lambda f: -f.local.log_posterior)
     kept: list[Fit] = []
     for fit in ranked:
         if fit.local.log_posterior < ranked[0].local.log_posterior - within:
             break
-        if not any(one_hill(fit, other) for other in kept):
+        if not any(is_same_mode(fit, other) for other in kept):
             kept.append(fit)
     return kept
 
 
 @dataclass(frozen=True)
-class Tried:
+class StartingPoints:
     """Starting points: their places `unit` (points, parameters) in the unit cube, coordinates, and scores (points,)."""
 
     unit: Array

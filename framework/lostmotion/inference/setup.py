@@ -11,10 +11,10 @@ import numpy as np
 from lostmotion.case import CaseFile, Prior, SensorSpec
 from lostmotion.contracts import Array
 from lostmotion.errors import CaseError, ContractError
-from lostmotion.inference.candidates import CREEP, steps_for_sticking
-from lostmotion.inference.fit import Fit, maximise, restarted, warmed
-from lostmotion.inference.modes import Tried, distinct
-from lostmotion.inference.unseen import with_less_random_force
+from lostmotion.inference.candidates import CREEP, count_steps_for_sticking
+from lostmotion.inference.fit import Fit, maximise, raise_random_force, restart
+from lostmotion.inference.modes import StartingPoints, select_modes
+from lostmotion.inference.unseen import refit_without_position
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.drive import count_substeps
 from lostmotion.likelihood.levels import (
@@ -55,7 +55,7 @@ COARSE, FINE = 0.06, 0.015
 """Final estimates take steps a quarter as long as those of the search: a kink makes RK4 first order."""
 
 
-def split(
+def split_heldout(
     observations: Sequence[Observation], share: float = DEFAULT.heldout.share
 ) -> tuple[tuple[Observation, ...], tuple[Observation, ...]]:
     """Return what is fitted and what is held out: the last `share` of one recording, or of several.
@@ -63,19 +63,19 @@ def split(
     Of a motion that dies away, that share of what stands out of the noise begin what is held out.
     """
     if len(observations) == 1:
-        cut = round((1.0 - share) * lasting(observations[0], share))
+        cut = round((1.0 - share) * count_lasting_samples(observations[0], share))
         return (observations[0].part(0, cut),), (observations[0].part(cut, observations[0].samples),)
     kept = max(1, len(observations) - max(1, round(share * len(observations))))
     return tuple(observations[:kept]), tuple(observations[kept:])
 
 
-def lasting(observation: Observation, share: float = DEFAULT.heldout.share) -> int:
+def count_lasting_samples(observation: Observation, share: float = DEFAULT.heldout.share) -> int:
     """Return how many samples of a recording there are until its motion has died away, or all of them.
 
     A block of readings lives where its deviation is more than `ALIVE` times the noise, and the motion has died where
     as much of the recording as would be held out does not, or more: nothing could be predicted there.
     """
-    sensor = telling(observation)
+    sensor = choose_main_sensor(observation)
     blocks = np.array_split(filled(observation.readings[:, sensor]), BLOCKS)
     alive = np.array([float(np.std(block)) for block in blocks]) > ALIVE * observation.noises[sensor]
     last = int(np.flatnonzero(alive)[-1]) + 1 if alive.any() else BLOCKS
@@ -84,32 +84,32 @@ def lasting(observation: Observation, share: float = DEFAULT.heldout.share) -> i
     return sum(len(block) for block in blocks[:last])
 
 
-def scales_of(system: System, observations: Sequence[Observation], known: Array) -> Scales:
+def compute_scales(system: System, observations: Sequence[Observation], known: Array) -> Scales:
     """Return the natural sizes of force, length and time of the recorded motion."""
-    return replace(_sizes(system, observations, known), span=max(t.samples * t.dt for t in observations))
+    return replace(_compute_sizes(system, observations, known), span=max(t.samples * t.dt for t in observations))
 
 
-def _sizes(system: System, observations: Sequence[Observation], known: Array) -> Scales:
-    sensor = telling(observations[0])
-    rates, lengths = zip(*(_motion(t, sensor) for t in observations), strict=True)
+def _compute_sizes(system: System, observations: Sequence[Observation], known: Array) -> Scales:
+    sensor = choose_main_sensor(observations[0])
+    rates, lengths = zip(*(_measure_motion(t, sensor) for t in observations), strict=True)
     rate, length = float(np.median(rates)), float(np.median(lengths))
     if quantity_of(observations[0].sensors[sensor].channel) == "force":
         return Scales(length, float(np.median([t.travel for t in observations])), 1.0 / rate)
     inertia = known[system.index[system.model.interfaces[0].inertia]]
-    pushes = [_push(system, t, inertia) for t in observations]
+    pushes = [_measure_push(system, t, inertia) for t in observations]
     force = float(np.sqrt(np.mean(np.square([varying for varying, _ in pushes]))))
     force = force or float(np.mean([peak for _, peak in pushes])) or inertia * length * rate**2
     return Scales(force, length, 1.0 / rate)
 
 
-def telling(observation: Observation) -> int:
+def choose_main_sensor(observation: Observation) -> int:
     """Return the number of the sensor that tells the size of the motion: a position, else the next best there is."""
     order = (*ORDERS, "force")
     kinds = [order.index(quantity_of(sensor.channel)) for sensor in observation.sensors]
     return int(np.argmin(kinds))
 
 
-def _push(system: System, observation: Observation, inertia: float) -> tuple[float, float]:
+def _measure_push(system: System, observation: Observation, inertia: float) -> tuple[float, float]:
     """Return the amplitude (sqrt(2) times the standard deviation) of all forces that drive a machine, and their peak.
 
     A base that is shaken pushes by its acceleration; one that moves through a joint pushes by an unknown force: zero.
@@ -122,7 +122,7 @@ def _push(system: System, observation: Observation, inertia: float) -> tuple[flo
     return math.sqrt(squares), peak
 
 
-def _motion(observation: Observation, sensor: int) -> tuple[float, float]:
+def _measure_motion(observation: Observation, sensor: int) -> tuple[float, float]:
     """Return the rms angular frequency (rad/s) of the motion a sensor shows, and its amplitude as a position.
 
     Velocity and acceleration are integrated as spectra, where these stand far above their noise: noise at low
@@ -145,19 +145,19 @@ def _motion(observation: Observation, sensor: int) -> tuple[float, float]:
     return rate, amplitude * share
 
 
-def free_of(slot: Slot, prior: Prior) -> FreeParameter:
+def make_free_parameter(slot: Slot, prior: Prior) -> FreeParameter:
     """Return the free parameter of a case's prior, where all recordings share it."""
-    return _free(slot.key, slot.unit, prior, (slot.param.low, slot.param.high))
+    return _make_free(slot.key, slot.unit, prior, (slot.param.low, slot.param.high))
 
 
-def frees_for(slot: Slot, prior: Prior, recordings: Sequence[str]) -> tuple[FreeParameter, ...]:
+def make_case_parameters(slot: Slot, prior: Prior, recordings: Sequence[str]) -> tuple[FreeParameter, ...]:
     """Return the free parameters of a case's prior: one, or with `each` one for each of the named recordings."""
-    shared = free_of(slot, prior)
+    shared = make_free_parameter(slot, prior)
     keys = list_keys(slot.key, recordings) if prior.each else (slot.key,)
     return tuple(replace(shared, key=key) for key in keys)
 
 
-def _free(key: str, unit: str, prior: Prior, bounds: tuple[float, float]) -> FreeParameter:
+def _make_free(key: str, unit: str, prior: Prior, bounds: tuple[float, float]) -> FreeParameter:
     """Return the free parameter with a prior, cut at the bounds (value) and 12 standard deviations from its middle."""
     log = prior.kind in ("log-uniform", "log-normal")
     if prior.bell is None:
@@ -172,7 +172,7 @@ def _free(key: str, unit: str, prior: Prior, bounds: tuple[float, float]) -> Fre
     return FreeParameter(key, unit, min(max(start, low), high), low, high, log=log, mean=mean, sd=sd)
 
 
-def known_of(system: System, case: CaseFile) -> Array:
+def make_known(system: System, case: CaseFile) -> Array:
     """Return the full parameter vector of what a case says is known; the rest stands at the middle of its prior."""
     try:
         values = {system.slot(name).key: value for name, value in case.known.items()}
@@ -207,7 +207,7 @@ def _check_bounds(system: System, name: str, low: float, high: float) -> None:
         raise CaseError(f"{name} ({param.meaning}) is {found}, wanted {wanted}: correct it in the case")
 
 
-def problem_of(
+def make_problem(
     system: System,
     case: CaseFile,
     observations: tuple[Observation, ...],
@@ -216,17 +216,17 @@ def problem_of(
     settings: Settings = DEFAULT,
 ) -> Problem:
     """Return the problem of a case on the given recordings, with no term active, noise levels shared."""
-    known = known_of(system, case)
-    scales = scales_of(system, observations, known)
+    known = make_known(system, case)
+    scales = compute_scales(system, observations, known)
     names = [observation.name for observation in observations]
-    frees = [f for name, prior in case.estimate.items() for f in frees_for(system.slot(name), prior, names)]
+    frees = [f for name, prior in case.estimate.items() for f in make_case_parameters(system.slot(name), prior, names)]
     problem = Problem(system, observations, scales, known, tuple(frees), jobs=jobs, settings=settings)
-    scales = replace(scales, usual=compute_usual_level(problem, rate_of(problem, problem.start)))
+    scales = replace(scales, usual=compute_usual_level(problem, find_fastest_rate(problem, problem.start)))
     problem = replace(problem, scales=scales, free=(*frees, *make_noise_levels(observations, scales)))
-    return stepped(problem, problem.start)
+    return choose_steps(problem, problem.start)
 
 
-def rate_of(problem: Problem, theta: Array) -> float:
+def find_fastest_rate(problem: Problem, theta: Array) -> float:
     """Return the fastest rate (1/s) of the linearised motion over the region that the recording covers."""
     system, scales, observation = problem.system, problem.scales, problem.observations[0]
     grid = np.linspace(-1.5, 1.5, 7)
@@ -239,41 +239,41 @@ def rate_of(problem: Problem, theta: Array) -> float:
     return max(1.0 / scales.time, *(system.find_fastest_rate(full, problem.active, states, middle) for full in fulls))
 
 
-def stepped(problem: Problem, theta: Array, *, accuracy: float = COARSE) -> Problem:
+def choose_steps(problem: Problem, theta: Array, *, accuracy: float = COARSE) -> Problem:
     """Return the problem with as many steps between samples as the stiffness along the recorded motion asks for."""
-    rate = rate_of(problem, theta)
+    rate = find_fastest_rate(problem, theta)
     steps = count_substeps(rate, max(t.dt for t in problem.observations), accuracy=accuracy)
-    return replace(problem, nsub=max(steps, steps_for_sticking(problem, theta, creep=CREEP * accuracy / COARSE)))
+    return replace(problem, nsub=max(steps, count_steps_for_sticking(problem, theta, creep=CREEP * accuracy / COARSE)))
 
 
-def search(problem: Problem, rng: np.random.Generator, *, points: int = 48, finalists: int = 4) -> Fit:
+def search_maximum(problem: Problem, rng: np.random.Generator, *, points: int = 48, finalists: int = 4) -> Fit:
     """Return the best fit of several starts: a Latin hypercube on the beginnings of the recordings, then all of it."""
-    beginning = beginnings(problem)
-    tried = _tried(problem, beginning, rng, points)
+    beginning = cut_beginnings(problem)
+    tried = _draw_starts(problem, beginning, rng, points)
     single = replace(beginning, jobs=1)
     fits = each(
-        lambda i: with_less_random_force(maximise(single, tried.starts[i])), tried.best(finalists), problem.jobs
+        lambda i: refit_without_position(maximise(single, tried.starts[i])), tried.best(finalists), problem.jobs
     )
     ranked = sorted(fits, key=lambda f: -f.local.log_posterior)
-    chosen = _distinct(ranked)
-    return max((_lengthened(problem, f) for f in chosen), key=lambda f: f.local.log_posterior)
+    chosen = _select_finalists(ranked)
+    return max((_extend_to_whole(problem, f) for f in chosen), key=lambda f: f.local.log_posterior)
 
 
-def _lengthened(problem: Problem, short: Fit, hopeless: float = -math.inf) -> Fit:
+def _extend_to_whole(problem: Problem, short: Fit, hopeless: float = -math.inf) -> Fit:
     """Return the fit of whole recordings that begins at one of their beginnings."""
     begun = zip(problem.observations, short.problem.observations, strict=True)
-    whole = stepped(problem.on(tuple(replace(t, begun=b.begun) for t, b in begun)), short.theta)
-    return with_less_random_force(maximise(whole, warmed(whole, short.theta, 3.0), hopeless=hopeless))
+    whole = choose_steps(problem.on(tuple(replace(t, begun=b.begun) for t, b in begun)), short.theta)
+    return refit_without_position(maximise(whole, raise_random_force(whole, short.theta, 3.0), hopeless=hopeless))
 
 
-def beginnings(problem: Problem) -> Problem:
+def cut_beginnings(problem: Problem) -> Problem:
     """Return the problem on the beginnings of its recordings, about `BEGINNING` samples of one or twice that of all."""
     several = len(problem.observations) > 1
     samples = max(2 * BEGINNING // len(problem.observations), FEWEST) if several else BEGINNING
     return problem.on(tuple(t.part(0, min(t.samples, samples)) for t in problem.observations))
 
 
-def _tried(problem: Problem, beginning: Problem, rng: np.random.Generator, points: int) -> Tried:
+def _draw_starts(problem: Problem, beginning: Problem, rng: np.random.Generator, points: int) -> StartingPoints:
     """Return a Latin hypercube over the priors, scored with the best of three random forces.
 
     A parameter that each recording has for itself starts at the same value in all of them.
@@ -293,10 +293,10 @@ def _tried(problem: Problem, beginning: Problem, rng: np.random.Generator, point
         starts[:, random] = compute_random_level(problem.observations, problem.scales, share)
         scores = np.maximum(scores, beginning.log_likelihoods(problem.clip(starts)))
     starts[:, random] = problem.start[random]
-    return Tried(cube, starts, scores)
+    return StartingPoints(cube, starts, scores)
 
 
-def _distinct(fits: list[Fit]) -> list[Fit]:
+def _select_finalists(fits: list[Fit]) -> list[Fit]:
     """Return the best fit, and the next one if it is another mode of about the same height."""
     best = fits[0]
     for other in fits[1:]:
@@ -306,7 +306,7 @@ def _distinct(fits: list[Fit]) -> list[Fit]:
     return [best]
 
 
-def modes(
+def find_modes(
     problem: Problem, rng: np.random.Generator, *, points: int = 96, finalists: int = 8, sensor: SensorSpec = SHARED
 ) -> list[Fit]:
     """Return the distinct maxima of the posterior on all recordings, best first by log evidence.
@@ -316,37 +316,37 @@ def modes(
     steps between samples as the stiffest of them asks for. What the `sensor` has of its own in each recording is split
     before the hills are compared: a noise that fits none of the recordings says little of how far hills are apart.
     """
-    beginning = beginnings(problem)
-    tried = _tried(problem, beginning, rng, points)
+    beginning = cut_beginnings(problem)
+    tried = _draw_starts(problem, beginning, rng, points)
     single = replace(beginning, jobs=1)
     peaks = each(
-        lambda i: with_less_random_force(maximise(single, tried.starts[i])), tried.peaks(finalists), problem.jobs
+        lambda i: refit_without_position(maximise(single, tried.starts[i])), tried.peaks(finalists), problem.jobs
     )
-    short = distinct(peaks, SLACK)
+    short = select_modes(peaks, SLACK)
     whole: list[Fit] = []
     for fit in short:
         hopeless = max((f.local.log_posterior for f in whole), default=-math.inf) - 2.0 * SLACK
-        whole.append(_lengthened(problem, fit, hopeless))
-    hills = distinct([separated(fit, sensor) for fit in whole], SLACK) or [maximise(problem)]
-    return _together(hills, max((f.problem for f in hills), key=lambda p: p.nsub))
+        whole.append(_extend_to_whole(problem, fit, hopeless))
+    hills = select_modes([separate_levels(fit, sensor) for fit in whole], SLACK) or [maximise(problem)]
+    return _unify_modes(hills, max((f.problem for f in hills), key=lambda p: p.nsub))
 
 
-def _together(fits: list[Fit], problem: Problem) -> list[Fit]:
+def _unify_modes(fits: list[Fit], problem: Problem) -> list[Fit]:
     """Return the maxima of `problem` that begin at those of the fits, each hill once, best first."""
     again = [f if f.problem.nsub == problem.nsub else maximise(problem, f.theta) for f in fits]
-    hills = [replace(f, problem=problem) for f in distinct(again, SLACK)] or again
+    hills = [replace(f, problem=problem) for f in select_modes(again, SLACK)] or again
     top = max(f.log_evidence for f in hills)
     return sorted((f for f in hills if f.log_evidence >= top - WITHIN), key=lambda f: -f.log_evidence)
 
 
-def separated(fit: Fit, sensor: SensorSpec) -> Fit:
+def separate_levels(fit: Fit, sensor: SensorSpec) -> Fit:
     """Return the fit with what a case says of the sensor: noise levels of each recording's own, and its zero.
 
     It begins at the fit with shared levels. Where nothing is to be split, or all is split already, it is that fit.
     """
-    problem = restarted(fit)
+    problem = restart(fit)
     own = sensor.noise == "each" and len(problem.observations) > 1 and RANDOM in problem.keys
-    zeros = () if any(f.level == OFFSET for f in problem.free) else _offsets(problem, sensor.offset)
+    zeros = () if any(f.level == OFFSET for f in problem.free) else _make_offsets(problem, sensor.offset)
     if not own and not zeros:
         return fit
     kept = tuple(f for f in problem.free if f.level not in (RANDOM, NOISE))
@@ -357,26 +357,28 @@ def separated(fit: Fit, sensor: SensorSpec) -> Fit:
     return maximise(apart, apart.start)
 
 
-def _offsets(problem: Problem, prior: Prior | None) -> tuple[FreeParameter, ...]:
+def _make_offsets(problem: Problem, prior: Prior | None) -> tuple[FreeParameter, ...]:
     """Return the zero of each sensor in each recording; none where it is known."""
     if prior is None:
         return ()
     motion, first = problem.system.model.motion, problem.observations[0]
     names = [observation.name for observation in problem.observations]
     return tuple(
-        _free(key, unit_of(sensor.channel, motion), prior, (-math.inf, math.inf))
+        _make_free(key, unit_of(sensor.channel, motion), prior, (-math.inf, math.inf))
         for i, sensor in enumerate(first.sensors)
         for key in list_keys(first.level(OFFSET, i), names)
     )
 
 
-def polish(fit: Fit) -> Fit:
+def polish_fit(fit: Fit) -> Fit:
     """Return the fit with finer integration steps."""
-    problem = stepped(fit.problem, fit.theta, accuracy=FINE)
+    problem = choose_steps(fit.problem, fit.theta, accuracy=FINE)
     finer = maximise(problem, fit.theta)
     return finer if finer.status in ("converged", "rough") else fit
 
 
-def polished(fits: list[Fit]) -> list[Fit]:
+def polish_modes(fits: list[Fit]) -> list[Fit]:
     """Return the modes with finer integration steps, all of one problem, best first by log evidence."""
-    return _together(fits, max((stepped(f.problem, f.theta, accuracy=FINE) for f in fits), key=lambda p: p.nsub))
+    return _unify_modes(
+        fits, max((choose_steps(f.problem, f.theta, accuracy=FINE) for f in fits), key=lambda p: p.nsub)
+    )

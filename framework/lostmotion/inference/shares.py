@@ -64,7 +64,7 @@ class Covariate:
     classes: bool = False
 
 
-def phase_randomised(force: Array, draws: int, rng: np.random.Generator) -> Array:
+def randomise_phases(force: Array, draws: int, rng: np.random.Generator) -> Array:
     """Return noise (draws, samples) with the spectrum of a force (samples,), lines smoothed out of it."""
     n = len(force)
     power = np.abs(np.fft.rfft(force - np.mean(force))) ** 2
@@ -76,24 +76,24 @@ def phase_randomised(force: Array, draws: int, rng: np.random.Generator) -> Arra
     return np.asarray(np.fft.irfft(coefficients, n, axis=1))
 
 
-def shares_of(
+def compute_shares(
     table: Mapping[str, Covariate], force: Array, rng: np.random.Generator | None, *, draws: int = SURROGATES
 ) -> dict[str, Share]:
     """Return what each covariate predicts of a force (samples,); p is NaN without an `rng` for the surrogates."""
     if not np.any(force - np.mean(force)):
         return {name: Share(0.0, 0.0, 1.0) for name in table}
-    surrogates = np.empty((0, len(force))) if rng is None else phase_randomised(force, draws, rng)
+    surrogates = np.empty((0, len(force))) if rng is None else randomise_phases(force, draws, rng)
     step = -(-len(force) // ENOUGH)
     folded = _Folded.of(np.vstack([force, surrogates])[:, ::step].T)
-    told = [_predicted(covariate, folded, step) for covariate in table.values()]
+    told = [_predict_share(covariate, folded, step) for covariate in table.values()]
     values = np.array([value for value, _ in told])
-    excess, p = adjusted(values) if rng is not None else (np.full(len(told), math.nan),) * 2
+    excess, p = adjust_p_values(values) if rng is not None else (np.full(len(told), math.nan),) * 2
     shares = zip(values[:, 0], [error for _, error in told], p, excess, strict=True)
     rows = [Share(round(max(float(v), 0.0), 4), round(e, 4), float(one), round(float(z), 3)) for v, e, one, z in shares]
     return dict(zip(table, rows, strict=True))
 
 
-def adjusted(values: Array) -> tuple[Array, Array]:
+def adjust_p_values(values: Array) -> tuple[Array, Array]:
     """Return the excess (tests,) of a statistic over its surrogates, in their standard deviations, and its p-value.
 
     `values` (tests, 1 + surrogates) begin with what was observed. Mean and standard deviation are those of all columns,
@@ -108,7 +108,7 @@ def adjusted(values: Array) -> tuple[Array, Array]:
     return excess[:, 0], p
 
 
-def significant(found: Mapping[str, Share], level: float = DEFAULT.locate.level) -> list[str]:
+def list_significant(found: Mapping[str, Share], level: float = DEFAULT.locate.level) -> list[str]:
     """Return the covariates whose shares noise would not reach, largest first; p is adjusted for all of them."""
     names = [name for name, share in found.items() if share.p <= level and share.value > 0.0]
     return sorted(names, key=lambda name: -found[name].value)
@@ -151,27 +151,27 @@ class _Folded:
         return errors
 
 
-def _predicted(covariate: Covariate, folded: _Folded, step: int) -> tuple[Array, float]:
+def _predict_share(covariate: Covariate, folded: _Folded, step: int) -> tuple[Array, float]:
     """Return the cross-validated share (forces,) of each force, and the standard error of the first."""
     columns = [c[::step] for c in covariate.columns]
     if covariate.classes:
-        options = [folded.errors(_classes(columns[-1]))]
+        options = [folded.errors(_make_classes(columns[-1]))]
     else:
-        options = [folded.errors(_side_by_side(columns, k)) for k in PIECES]
+        options = [folded.errors(_stack_bases(columns, k)) for k in PIECES]
     without = total = folded.total
     if len(columns) > 1:
-        without = np.min([folded.errors(_side_by_side(columns[:-1], k)) for k in PIECES], axis=0)
+        without = np.min([folded.errors(_stack_bases(columns[:-1], k)) for k in PIECES], axis=0)
     gained = np.array([(without - option).sum(axis=0) / total.sum(axis=0) for option in options])
     best = int(np.argmax(gained[:, 0]))
     folds = (without - options[best])[:, 0] / np.maximum(total[:, 0], 1e-300)
     return gained.max(axis=0), float(np.std(folds, ddof=1) / math.sqrt(FOLDS))
 
 
-def _side_by_side(columns: Sequence[Array], pieces: int) -> Basis:
-    return sparse.csr_array(sparse.hstack([_hats(c, pieces) for c in columns]))
+def _stack_bases(columns: Sequence[Array], pieces: int) -> Basis:
+    return sparse.csr_array(sparse.hstack([_make_hats(c, pieces) for c in columns]))
 
 
-def _hats(values: Array, pieces: int) -> Basis:
+def _make_hats(values: Array, pieces: int) -> Basis:
     """Return hat functions (samples, pieces + 1) of even spacing over the middle 99 % of the values."""
     low, high = np.quantile(values, [0.005, 0.995])
     at = np.clip((values - low) / max(high - low, 1e-300), 0.0, 1.0) * pieces
@@ -182,6 +182,6 @@ def _hats(values: Array, pieces: int) -> Basis:
     return sparse.csr_array((heights, places), shape=(len(values), pieces + 1))
 
 
-def _classes(values: Array) -> Basis:
+def _make_classes(values: Array) -> Basis:
     """Return one column (samples, classes) for each value that occurs."""
     return sparse.csr_array(np.asarray(values[:, None] == np.unique(values)[None, :], dtype=float))

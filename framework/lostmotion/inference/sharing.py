@@ -20,9 +20,9 @@ from scipy.special import chdtrc
 
 from lostmotion.case import SensorSpec
 from lostmotion.contracts import Array
-from lostmotion.inference.fit import MANY, Fit, maximise, restarted, sensitivity, warmed
-from lostmotion.inference.learned import Learned
-from lostmotion.inference.setup import separated
+from lostmotion.inference.fit import MANY, Fit, compute_sensitivity, maximise, raise_random_force, restart
+from lostmotion.inference.learned import LearnedCurve
+from lostmotion.inference.setup import separate_levels
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import Problem
@@ -128,7 +128,7 @@ class SeparateFit:
     given: bool
 
 
-def sharing_of(fit: Fit) -> SharedValues | None:
+def compare_recordings(fit: Fit) -> SharedValues | None:
     """Return what the recordings of a fit share; None where there is one recording.
 
     Each recording has noise levels of its own. Learned curves are one for all, and move along; values are also compared
@@ -136,29 +136,31 @@ def sharing_of(fit: Fit) -> SharedValues | None:
     """
     if len(fit.problem.observations) < 2:
         return None
-    compared = _compared(fit)
-    courses = [_course(separated(compared, SensorSpec()))]
-    if curves := curves_of(fit.problem):
+    compared = _fit_beginnings(fit)
+    courses = [_release_parameters(separate_levels(compared, SensorSpec()))]
+    if curves := list_curves(fit.problem):
         plain = compared.problem
         for key in curves:
             plain = plain.remove_term(key, fit.values)
-        bare, evidence = _course(separated(maximise(plain, warmed(plain, plain.start, RAISED)), SensorSpec()))
+        bare, evidence = _release_parameters(
+            separate_levels(maximise(plain, raise_random_force(plain, plain.start, RAISED)), SensorSpec())
+        )
         courses.append((replace(bare, dropped=curves), evidence))
     return max(courses, key=lambda course: course[1])[0]
 
 
-def _course(shared: Fit) -> tuple[SharedValues, float]:
+def _release_parameters(shared: Fit) -> tuple[SharedValues, float]:
     """Return what recordings share, and the log evidence of the fit in which what differs is released."""
     base = shared
-    observations, tested = base.problem.observations, _tested(base.problem)
-    levels = levels_of(observations)
+    observations, tested = base.problem.observations, _list_tested(base.problem)
+    levels = measure_levels(observations)
     found: dict[str, ComparedParameter] = {}
     released: list[str] = []
     for turn in range(MOST_OWN + 1):
         rest = [key for key in tested if key not in found]
-        apart = {one.key: one for one in _each_apart(base, rest)}
-        tests = _tests(apart, levels, base.problem.settings.shared)
-        own = _best(apart, tests)
+        apart = {one.key: one for one in _fit_each_separately(base, rest)}
+        tests = _test_parameters(apart, levels, base.problem.settings.shared)
+        own = _select_best(apart, tests)
         if turn == MOST_OWN or own is None:
             found |= tests
             break
@@ -172,15 +174,15 @@ def _course(shared: Fit) -> tuple[SharedValues, float]:
     return SharedValues(names, levels, values, tuple(released), failed, gain=gain), base.log_evidence
 
 
-def curves_of(problem: Problem) -> tuple[str, ...]:
+def list_curves(problem: Problem) -> tuple[str, ...]:
     """Return the keys of the learned curves that act in a problem."""
     terms = zip(problem.system.keys, problem.system.terms, strict=True)
-    return tuple(key for key, term in terms if isinstance(term, Learned) and key in problem.active)
+    return tuple(key for key, term in terms if isinstance(term, LearnedCurve) and key in problem.active)
 
 
-def _compared(fit: Fit) -> Fit:
+def _fit_beginnings(fit: Fit) -> Fit:
     """Return the fit on the beginnings of its recordings, as a problem that starts where it is highest."""
-    problem = restarted(fit)
+    problem = restart(fit)
     samples = SAMPLES if len(problem.free) <= MANY else FEWER
     most = max(samples // len(problem.observations), 1)
     if all(o.samples <= most for o in problem.observations):
@@ -188,14 +190,14 @@ def _compared(fit: Fit) -> Fit:
     return maximise(problem.on(tuple(o.part(0, min(o.samples, most)) for o in problem.observations)), rounds=ROUNDS)
 
 
-def _tested(problem: Problem) -> tuple[str, ...]:
+def _list_tested(problem: Problem) -> tuple[str, ...]:
     """Return the names of the parameters that are compared: no noise levels, no coefficients of learned curves."""
-    curves = curves_of(problem)
+    curves = list_curves(problem)
     names = [f.parameter for f in problem.free if f.level not in LEVELS]
     return tuple(dict.fromkeys(name for name in names if name.rpartition(".")[0] not in curves))
 
 
-def levels_of(observations: Sequence[Observation]) -> Levels:
+def measure_levels(observations: Sequence[Observation]) -> Levels:
     """Return how strongly the machine moved in each recording; by the drive, where that differs from one to another."""
     first = observations[0]
     if not any(observation.free for observation in observations):
@@ -205,19 +207,19 @@ def levels_of(observations: Sequence[Observation]) -> Levels:
     return Levels("response", first.channel, tuple(float(np.nanstd(o.response)) for o in observations))
 
 
-def _each_apart(base: Fit, keys: Sequence[str]) -> list[SeparateFit]:
+def _fit_each_separately(base: Fit, keys: Sequence[str]) -> list[SeparateFit]:
     """Return the fits in which one parameter after the other has values of each recording's own."""
     single, jobs = replace(base, problem=replace(base.problem, jobs=1)), base.problem.jobs
-    found = each(lambda key: apart_in(single, key), keys, jobs)
+    found = each(lambda key: fit_separately(single, key), keys, jobs)
     return [one for one in found if one is not None]
 
 
-def apart_in(base: Fit, key: str) -> SeparateFit | None:
+def fit_separately(base: Fit, key: str) -> SeparateFit | None:
     """Return the fit in which a parameter has values of each recording's own, from a base where all else is shared.
 
     None where it diverges. Where the case gives each recording its own already, it is the base itself.
     """
-    problem = restarted(base)
+    problem = restart(base)
     index = next(i for i, f in enumerate(problem.free) if f.parameter == key)
     free, names = problem.free[index], [observation.name for observation in problem.observations]
     fit = base
@@ -229,23 +231,28 @@ def apart_in(base: Fit, key: str) -> SeparateFit | None:
             return None
     columns = [fit.problem.keys.index(name) for name in list_keys(key, names)]
     return SeparateFit(
-        key, fit, replace(free, key=key), fit.theta[columns], covariance_of(fit, columns), free.recording is not None
+        key,
+        fit,
+        replace(free, key=key),
+        fit.theta[columns],
+        compute_covariance(fit, columns),
+        free.recording is not None,
     )
 
 
-def covariance_of(fit: Fit, columns: Sequence[int]) -> Array:
+def compute_covariance(fit: Fit, columns: Sequence[int]) -> Array:
     """Return the robust covariance (columns, columns) of some coordinates of a fit of several recordings.
 
     It is the sandwich, with scores added up over blocks of each recording, and in no direction less than the usual one.
     """
-    slopes = sensitivity(fit.problem, fit.theta, fit.local.steps)
+    slopes = compute_sensitivity(fit.problem, fit.theta, fit.local.steps)
     usual = fit.local.covariance
-    sandwich = usual @ _scatter(slopes.scores(), fit.problem.observations) @ usual
+    sandwich = usual @ _compute_scatter(slopes.scores(), fit.problem.observations) @ usual
     kept = np.ix_(columns, columns)
-    return widened(usual[kept], sandwich[kept])
+    return widen_covariance(usual[kept], sandwich[kept])
 
 
-def _scatter(scores: Array, observations: Sequence[Observation]) -> Array:
+def _compute_scatter(scores: Array, observations: Sequence[Observation]) -> Array:
     """Return the covariance (n, n) of the sum of scores (n, readings), from blocks about the mean of each recording."""
     scatter, begin = np.zeros((len(scores), len(scores))), 0
     for observation in observations:
@@ -259,7 +266,7 @@ def _scatter(scores: Array, observations: Sequence[Observation]) -> Array:
     return scatter
 
 
-def widened(usual: Array, sandwich: Array) -> Array:
+def widen_covariance(usual: Array, sandwich: Array) -> Array:
     """Return a covariance (n, n) that is the `sandwich`, but in no direction less than the `usual` one."""
     sd = np.sqrt(np.maximum(np.diag(usual), 1e-300))
     values, vectors = np.linalg.eigh(usual / np.outer(sd, sd))
@@ -270,7 +277,7 @@ def widened(usual: Array, sandwich: Array) -> Array:
     return np.asarray(np.outer(sd, sd) * (wide @ wide.T))
 
 
-def homogeneity(values: Array, covariance: Array) -> float:
+def compute_homogeneity(values: Array, covariance: Array) -> float:
     """Return the chi-square (n - 1 degrees of freedom) of values (n,) about their best common value."""
     left, ones = np.asarray(values, dtype=float), np.ones(len(values))
     weights = np.linalg.solve(covariance, ones)
@@ -278,7 +285,7 @@ def homogeneity(values: Array, covariance: Array) -> float:
     return float(left @ np.linalg.solve(covariance, left))
 
 
-def holm(p: Sequence[float]) -> list[float]:
+def adjust_by_holm(p: Sequence[float]) -> list[float]:
     """Return p-values corrected for their number, by Holm's method."""
     order, adjusted, largest = np.argsort(p), [0.0] * len(p), 0.0
     for rank, i in enumerate(order):
@@ -287,7 +294,7 @@ def holm(p: Sequence[float]) -> list[float]:
     return adjusted
 
 
-def power_of(values: Array, covariance: Array, levels: Array) -> PowerOfLevel | None:
+def fit_power(values: Array, covariance: Array, levels: Array) -> PowerOfLevel | None:
     """Return how logarithms of values (n,) go with those of the levels (n,): a straight line, where one describes them.
 
     None for fewer than three values, equal levels, or a line that leaves something over.
@@ -304,73 +311,82 @@ def power_of(values: Array, covariance: Array, levels: Array) -> PowerOfLevel | 
     return PowerOfLevel(exponent, error, p) if p > FITS and KNOWN * error < abs(exponent) <= STEEPEST else None
 
 
-def odd_one(values: Array, covariance: Array) -> int | None:
+def find_odd_recording(values: Array, covariance: Array) -> int | None:
     """Return the number of the only recording that differs, where the others agree; None where it is not one alone."""
     if len(values) < 3:
         return None
     rest = [np.delete(np.arange(len(values)), i) for i in range(len(values))]
-    chi2 = [homogeneity(values[kept], covariance[np.ix_(kept, kept)]) for kept in rest]
+    chi2 = [compute_homogeneity(values[kept], covariance[np.ix_(kept, kept)]) for kept in rest]
     good = [i for i, value in enumerate(chi2) if chdtrc(len(values) - 2, value) > FITS]
     return good[0] if len(good) == 1 else None
 
 
-def _tests(apart: Mapping[str, SeparateFit], levels: Levels, limits: SharedLimits) -> dict[str, ComparedParameter]:
+def _test_parameters(
+    apart: Mapping[str, SeparateFit], levels: Levels, limits: SharedLimits
+) -> dict[str, ComparedParameter]:
     """Return the test of each parameter, with p-values corrected for the number of them."""
-    loose = {key: one.covariance + _tolerance(one, limits.alike) for key, one in apart.items()}
-    chi2 = {key: homogeneity(one.at, loose[key]) for key, one in apart.items()}
-    p = holm([float(chdtrc(len(apart[key].at) - 1, max(value, 0.0))) for key, value in chi2.items()])
+    loose = {key: one.covariance + _make_tolerance(one, limits.alike) for key, one in apart.items()}
+    chi2 = {key: compute_homogeneity(one.at, loose[key]) for key, one in apart.items()}
+    p = adjust_by_holm([float(chdtrc(len(apart[key].at) - 1, max(value, 0.0))) for key, value in chi2.items()])
     gains = {key: one.fit.log_likelihood for key, one in apart.items()}
     found = {}
     for (key, one), chance in zip(apart.items(), p, strict=True):
         shared = ComparedParameter(
-            key, _values(one), _common(one), chi2[key], len(one.at) - 1, chance, given=one.given, level=limits.level
+            key,
+            _list_intervals(one),
+            _compute_common(one),
+            chi2[key],
+            len(one.at) - 1,
+            chance,
+            given=one.given,
+            level=limits.level,
         )
         if not shared.holds:
             rivals = [k for k, q in zip(apart, p, strict=True) if k != key and q <= limits.level]
             near = tuple(k for k in rivals if gains[k] > gains[key] - NEAR)
-            power = _power(one, one.covariance + _tolerance(one, VAGUE), levels)
-            odd = odd_one(one.at, loose[key]) if power is None else None
+            power = _fit_power_of_level(one, one.covariance + _make_tolerance(one, VAGUE), levels)
+            odd = find_odd_recording(one.at, loose[key]) if power is None else None
             shared = replace(shared, power=power, odd=odd, instead=near)
         found[key] = shared
     return found
 
 
-def _tolerance(one: SeparateFit, share: float) -> Array:
+def _make_tolerance(one: SeparateFit, share: float) -> Array:
     """Return the covariance (recordings, recordings) of a scatter of this share of the values."""
     size = 1.0 if one.free.log else float(np.max(np.abs(one.at)))
     return np.asarray((share * size) ** 2 * np.eye(len(one.at)))
 
 
-def _power(one: SeparateFit, covariance: Array, levels: Levels) -> PowerOfLevel | None:
+def _fit_power_of_level(one: SeparateFit, covariance: Array, levels: Levels) -> PowerOfLevel | None:
     """Return how the values of a parameter go with the level; only where each is known to be other than zero."""
     if one.free.log:
-        return power_of(one.at, covariance, np.array(levels.values))
+        return fit_power(one.at, covariance, np.array(levels.values))
     sd = np.sqrt(np.diag(covariance))
     if not (np.all(one.at > 2.0 * sd) or np.all(one.at < -2.0 * sd)):
         return None
-    return power_of(np.log(np.abs(one.at)), covariance / np.outer(one.at, one.at), np.array(levels.values))
+    return fit_power(np.log(np.abs(one.at)), covariance / np.outer(one.at, one.at), np.array(levels.values))
 
 
-def _values(one: SeparateFit) -> tuple[Interval, ...]:
+def _list_intervals(one: SeparateFit) -> tuple[Interval, ...]:
     """Return the value of a parameter in each recording with its 95 % interval."""
     sd = np.sqrt(np.diag(one.covariance))
-    return tuple(_interval(one.free, at, wide) for at, wide in zip(one.at.tolist(), sd.tolist(), strict=True))
+    return tuple(_make_interval(one.free, at, wide) for at, wide in zip(one.at.tolist(), sd.tolist(), strict=True))
 
 
-def _common(one: SeparateFit) -> Interval:
+def _compute_common(one: SeparateFit) -> Interval:
     """Return the best common value of a parameter with its 95 % interval."""
     weights = np.linalg.solve(one.covariance, np.ones(len(one.at)))
     total = float(np.sum(weights))
-    return _interval(one.free, float(weights @ one.at) / total, 1.0 / math.sqrt(total))
+    return _make_interval(one.free, float(weights @ one.at) / total, 1.0 / math.sqrt(total))
 
 
-def _interval(free: FreeParameter, at: float, sd: float) -> Interval:
+def _make_interval(free: FreeParameter, at: float, sd: float) -> Interval:
     """Return the interval of a parameter about a coordinate, within its bounds."""
     median, low, high = (free.value(min(max(at + z * sd, free.low), free.high)) for z in (0.0, -1.96, 1.96))
     return Interval(float(median), float(low), float(high), free.unit)
 
 
-def _best(apart: Mapping[str, SeparateFit], tests: Mapping[str, ComparedParameter]) -> SeparateFit | None:
+def _select_best(apart: Mapping[str, SeparateFit], tests: Mapping[str, ComparedParameter]) -> SeparateFit | None:
     """Return the fit that explains most among those whose values differ; None where one value holds for all."""
     differ = [one for key, one in apart.items() if not tests[key].holds and not one.given]
     return max(differ, key=lambda one: one.fit.log_likelihood, default=None)

@@ -9,12 +9,12 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
-from lostmotion.inference.candidates import slopes_of
-from lostmotion.inference.curves import CHOICES, ROUNDS, fit_curve, shape_of, transplanted
+from lostmotion.inference.candidates import compute_slopes
+from lostmotion.inference.curves import CHOICES, ROUNDS, add_all_curves, fit_curve, run_curve_test
 from lostmotion.inference.fit import Fit, maximise
-from lostmotion.inference.learned import Learned
+from lostmotion.inference.learned import LearnedCurve
 from lostmotion.inference.leftovers import significant_random_force
-from lostmotion.inference.natural import term_of
+from lostmotion.inference.natural import find_term
 from lostmotion.inference.prices import price_of
 from lostmotion.inference.surfaces import RICHER
 from lostmotion.likelihood.problem import RANDOM, Problem
@@ -47,10 +47,10 @@ class UnknownForce:
         return 1.0 / (1.0 + math.exp(-min(self.gain, 500.0)))
 
     @property
-    def terms(self) -> tuple[Learned, ...]:
+    def terms(self) -> tuple[LearnedCurve, ...]:
         """The learned terms, in the order in which they were taken."""
-        terms = [term_of(self.fit.problem, key)[0] for key in self.keys]
-        return tuple(term for term in terms if isinstance(term, Learned))
+        terms = [find_term(self.fit.problem, key)[0] for key in self.keys]
+        return tuple(term for term in terms if isinstance(term, LearnedCurve))
 
 
 @dataclass
@@ -72,8 +72,8 @@ class Search:
 
     def price(self, problem: Problem, key: str) -> float:
         """Return the log price of a term, as in the selection, or of a curve, for the smoothness that was chosen."""
-        term, _ = term_of(problem, key)
-        if isinstance(term, Learned):
+        term, _ = find_term(problem, key)
+        if isinstance(term, LearnedCurve):
             return math.log(max(self.many, 1)) + 1.0 + CHOICES
         return price_of(term, self.many, problem.settings)
 
@@ -86,13 +86,13 @@ class Search:
         if (fit.problem.active, richer) in self.learned:
             return
         self.learned.add((fit.problem.active, richer))
-        slopes = slopes_of(fit)
+        slopes = compute_slopes(fit)
         shapes = []
         for key, term in zip(fit.problem.system.keys, fit.problem.system.terms, strict=True):
-            own = isinstance(term, Learned) and isinstance(term, RICHER) == richer
+            own = isinstance(term, LearnedCurve) and isinstance(term, RICHER) == richer
             if own and key not in fit.problem.active:
                 self.say(f"score test of {key}")
-                shapes.append(shape_of(fit, slopes, key))
+                shapes.append(run_curve_test(fit, slopes, key))
         short = max(weight for _, weight in self.visits.values()) - self.visits[fit.problem.active][1]
         settings = fit.problem.settings
         price = math.log(self.many) + 1.0 + CHOICES + settings.select.decisive
@@ -107,8 +107,8 @@ class Search:
 
         Laws that had stood in for a force over two things, or with a memory, are not needed any more.
         """
-        curves = _curves(fit.problem)
-        if not any(isinstance(term_of(fit.problem, key)[0], RICHER) for key in curves):
+        curves = _list_curves(fit.problem)
+        if not any(isinstance(find_term(fit.problem, key)[0], RICHER) for key in curves):
             return fit
         for key in sorted(fit.problem.active - set(curves)):
             self.say(f"learned curves without {key}")
@@ -134,8 +134,8 @@ class CurveSearch:
         for fit, before, search in self.kept:
             if fit is nominal:
                 return before, search
-        before = _shortened(transplanted(nominal))
-        learned = sum(isinstance(term, Learned) for term in before.problem.system.terms)
+        before = _shorten_fit(add_all_curves(nominal))
+        learned = sum(isinstance(term, LearnedCurve) for term in before.problem.system.terms)
         search = Search(self.many + learned, self.say)
         search.visit(before)
         self.kept.append((nominal, before, search))
@@ -155,38 +155,42 @@ class CurveSearch:
         these are dropped, and else the names are kept.
         """
         before, search = self._begun(nominal)
-        after = _shortened(transplanted(chosen)) if chosen.problem.active else before
+        after = _shorten_fit(add_all_curves(chosen)) if chosen.problem.active else before
         bar = max(search.visits[before.problem.active][1], search.visit(after))
         search.learn(after)
         if chosen.problem.active:
             search.learn(before, 1)
-        plain = _best(search)
+        plain = _select_best(search)
         if plain is None or significant_random_force(plain) > 0.0:
             search.learn(after, richer=True)
             search.learn(before, 1, richer=True)
-        best = _best(search)
-        if best is not None and _takes_over(best, after):
+        best = _select_best(search)
+        if best is not None and _changes_named_law(best, after):
             best = search.bare(best)
-        if best is None or _takes_over(best, after):
+        if best is None or _changes_named_law(best, after):
             return None
-        while len(_curves(best.problem)) < MOST_CURVES and significant_random_force(best) > 0.0:
+        while len(_list_curves(best.problem)) < MOST_CURVES and significant_random_force(best) > 0.0:
             search.learn(best, 1)
-            further = _best(search, best.problem.active) or best
+            further = _select_best(search, best.problem.active) or best
             if further.problem.active == best.problem.active:
                 break
             best = further
         gain = search.visits[best.problem.active][1] - bar
-        if gain < best.problem.settings.select.decisive or not _worth(best, after) or _takes_over(best, after):
+        if (
+            gain < best.problem.settings.select.decisive
+            or not _reduces_random_force(best, after)
+            or _changes_named_law(best, after)
+        ):
             return None
-        alone = bool(chosen.problem.active) and best.problem.active == frozenset(_curves(best.problem))
+        alone = bool(chosen.problem.active) and best.problem.active == frozenset(_list_curves(best.problem))
         if chosen.problem.samples > best.problem.samples:
             self.say("learned curves on all of the recording")
             whole = best.problem.on(chosen.problem.observations)
             best = maximise(whole, best.theta, rounds=ROUNDS, tolerance=0.3)
-        return UnknownForce(best, _curves(best.problem), gain, alone)
+        return UnknownForce(best, _list_curves(best.problem), gain, alone)
 
 
-def fewer(unknown: UnknownForce, key: str) -> UnknownForce | None:
+def drop_curve(unknown: UnknownForce, key: str) -> UnknownForce | None:
     """Return the learned curves without one of them, fitted anew; None where the rest explains nothing decisive."""
     keys = tuple(k for k in unknown.keys if k != key)
     if not keys:
@@ -196,7 +200,7 @@ def fewer(unknown: UnknownForce, key: str) -> UnknownForce | None:
     return replace(unknown, fit=fit, keys=keys, gain=gain) if gain > fit.problem.settings.select.decisive else None
 
 
-def _shortened(fit: Fit) -> Fit:
+def _shorten_fit(fit: Fit) -> Fit:
     """Return the fit on the beginnings of its recordings where they are long: curves have dozens of coefficients."""
     observations, share = fit.problem.observations, MOST_SAMPLES / fit.problem.samples
     if share >= 1.0:
@@ -205,28 +209,28 @@ def _shortened(fit: Fit) -> Fit:
     return maximise(fit.problem.on(parts), fit.theta, rounds=ROUNDS)
 
 
-def _curves(problem: Problem) -> tuple[str, ...]:
+def _list_curves(problem: Problem) -> tuple[str, ...]:
     pairs = zip(problem.system.keys, problem.system.terms, strict=True)
-    active = {key for key, term in pairs if isinstance(term, Learned) and key in problem.active}
+    active = {key for key, term in pairs if isinstance(term, LearnedCurve) and key in problem.active}
     seen = dict.fromkeys(f.key.rpartition(".")[0] for f in problem.free)
     return tuple(key for key in seen if key in active)
 
 
-def _best(search: Search, beyond: frozenset[str] = frozenset()) -> Fit | None:
+def _select_best(search: Search, beyond: frozenset[str] = frozenset()) -> Fit | None:
     """Return the best fit with curves, and with all terms that it is to go `beyond`; None without any.
 
     One with a curve more has to be decisively better than the one without.
     """
-    fits = [(f, w) for active, (f, w) in search.visits.items() if active >= beyond and _curves(f.problem)]
-    return max(fits, key=_less_curves)[0] if fits else None
+    fits = [(f, w) for active, (f, w) in search.visits.items() if active >= beyond and _list_curves(f.problem)]
+    return max(fits, key=_penalise_curves)[0] if fits else None
 
 
-def _less_curves(pair: tuple[Fit, float]) -> float:
+def _penalise_curves(pair: tuple[Fit, float]) -> float:
     fit, weight = pair
-    return weight - fit.problem.settings.select.decisive * len(_curves(fit.problem))
+    return weight - fit.problem.settings.select.decisive * len(_list_curves(fit.problem))
 
 
-def _takes_over(fit: Fit, without: Fit) -> bool:
+def _changes_named_law(fit: Fit, without: Fit) -> bool:
     """Return whether curves change the size of a named law by much: then they are its shape, and no more.
 
     A curve over velocity can be a part of dry friction; where the law is named, its size is to be that of the law.
@@ -238,7 +242,7 @@ def _takes_over(fit: Fit, without: Fit) -> bool:
     return any(abs(new[key] - old[key]) > kept * abs(old[key]) for key in amplitudes)
 
 
-def _worth(fit: Fit, without: Fit) -> bool:
+def _reduces_random_force(fit: Fit, without: Fit) -> bool:
     """Return whether curves take enough off a random force that was beyond the usual."""
     at, then = (f.theta[f.problem.keys.index(RANDOM)] for f in (fit, without))
     cap = without.problem.free[without.problem.keys.index(RANDOM)].mean + 2.0 * math.log(3.0)

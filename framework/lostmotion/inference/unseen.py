@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from lostmotion.contracts import Array
-from lostmotion.inference.fit import Fit, Local, maximise
-from lostmotion.inference.mixture import nodes_of, root_of
+from lostmotion.inference.fit import Expansion, Fit, maximise
+from lostmotion.inference.mixture import compute_nodes, compute_root
 from lostmotion.likelihood.initial import shows_place
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import RANDOM, Problem
@@ -32,14 +32,14 @@ class BodyPosition:
     sd: Array
 
 
-def place_of_body(fit: Fit, observation: Observation) -> BodyPosition:
+def smooth_body_position(fit: Fit, observation: Observation) -> BodyPosition:
     """Return where the body was during a recording, by smoothing over the posterior about a fit.
 
     The level of the random force, which lets a position drift, is integrated on a grid; how the other parameters move
     the position is taken for straight within their deviations. Infinite deviations where no smoother gets through.
     """
     problem = fit.problem.on((observation,))
-    nodes = nodes_of(fit)
+    nodes = compute_nodes(fit)
     means, variances, weights = [], [], []
     for node in nodes:
         seen = problem.smooth(node.local.theta)
@@ -53,38 +53,41 @@ def place_of_body(fit: Fit, observation: Observation) -> BodyPosition:
     mean = share @ np.array(means)
     variance = share @ (np.array(variances) + (np.array(means) - mean) ** 2)
     return BodyPosition(
-        mean, np.sqrt(variance + _shifted(problem, nodes[int(np.argmax([n.weight for n in nodes]))].local))
+        mean,
+        np.sqrt(
+            variance + _compute_parameter_variance(problem, nodes[int(np.argmax([n.weight for n in nodes]))].local)
+        ),
     )
 
 
-def _shifted(problem: Problem, local: Local) -> Array:
+def _compute_parameter_variance(problem: Problem, local: Expansion) -> Array:
     """Return the variance (samples,) that unknown parameters add to the position at one level of the random force."""
     at = problem.smooth(local.theta).states[:, 0]
     total = np.zeros_like(at)
     held = np.array([key == RANDOM for key in problem.keys])
-    for way in root_of(local).T:
+    for way in compute_root(local).T:
         seen = problem.smooth(problem.clip(local.theta + np.where(held, 0.0, way)))
         if seen.innovations.finite.all():
             total += (seen.states[:, 0] - at) ** 2
     return total
 
 
-def blind(problem: Problem) -> bool:
+def lacks_position(problem: Problem) -> bool:
     """Return whether there is a recording of which no sensor shows a position."""
     return not all(shows_place(observation) for observation in problem.observations)
 
 
-def with_less_random_force(fit: Fit) -> Fit:
+def refit_without_position(fit: Fit) -> Fit:
     """Return the fit where no sensor shows the position: begun where the recording says, and with less random force.
 
     Other fits are returned as they are.
     """
-    if not blind(fit.problem) or fit.status == "diverged":
+    if not lacks_position(fit.problem) or fit.status == "diverged":
         return fit
-    return cooled(begun(cooled(begun(fit))))
+    return reduce_random_force(refit_start(reduce_random_force(refit_start(fit))))
 
 
-def begun(fit: Fit) -> Fit:
+def refit_start(fit: Fit) -> Fit:
     """Return the fit from where the recording says that its motion began, found by smoothing, again until it stands.
 
     Position and velocity at the first sample are anywhere in the motion. Spread so wide, a filter through a gap or a
@@ -92,12 +95,12 @@ def begun(fit: Fit) -> Fit:
     smoothed back to its first sample, and the filter begins there (an iterated smoother: Bell, SIAM J. Optimization 4
     (1994) 626-636).
     """
-    if not blind(fit.problem):
+    if not lacks_position(fit.problem):
         return fit
     for _ in range(AGAIN):
         observations, far = [], 0.0
         for i, observation in enumerate(fit.problem.observations):
-            found, moved = _begun(fit, observation, i)
+            found, moved = _smooth_start(fit, observation, i)
             observations.append(found)
             far = max(far, moved)
         problem = fit.problem.on(tuple(observations))
@@ -110,7 +113,7 @@ def begun(fit: Fit) -> Fit:
     return fit
 
 
-def _begun(fit: Fit, observation: Observation, index: int) -> tuple[Observation, float]:
+def _smooth_start(fit: Fit, observation: Observation, index: int) -> tuple[Observation, float]:
     """Return an observation with what is known of its first states, and how many deviations these have moved."""
     if shows_place(observation):
         return observation, 0.0
@@ -124,15 +127,17 @@ def _begun(fit: Fit, observation: Observation, index: int) -> tuple[Observation,
     sd = np.sqrt(np.maximum(np.diag(covariance), 1e-300))
     prior = wide.covariance[0, :n, :n]
     unit = np.sqrt(np.diag(prior))
-    shared = np.linalg.inv(np.eye(n) + np.linalg.inv(_scaled(covariance, unit) * WIDER**2 + 1e-12 * np.eye(n)))
+    shared = np.linalg.inv(
+        np.eye(n) + np.linalg.inv(_scale_covariance(covariance, unit) * WIDER**2 + 1e-12 * np.eye(n))
+    )
     return replace(observation, begun=(mean, shared * np.outer(unit, unit))), float(np.max(np.abs(mean - before) / sd))
 
 
-def _scaled(covariance: Array, unit: Array) -> Array:
+def _scale_covariance(covariance: Array, unit: Array) -> Array:
     return covariance / np.outer(unit, unit)
 
 
-def cooled(fit: Fit) -> Fit:
+def reduce_random_force(fit: Fit) -> Fit:
     """Return the best of fits that begin at this one with less random force, again as long as that gains.
 
     An accelerometer sees the random force of the moment. So one that is large explains whatever it shows, at any

@@ -17,7 +17,7 @@ import numpy as np
 
 from lostmotion.contracts import Array, Term
 from lostmotion.errors import ContractError, DataError, LostMotionError, PluginWarning
-from lostmotion.inference.candidates import called_with
+from lostmotion.inference.candidates import list_calls
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.system import key_of
 from lostmotion.registry import Registry
@@ -90,7 +90,7 @@ def raising(terms: Iterable[Term], observations: Sequence[Observation]) -> set[s
 def _raises(term: Term, observation: Observation) -> bool:
     """Return whether the force of a term, of size one, raises at one of many points of a recording."""
     try:
-        for told in called_with(term, observation, LOOKS):
+        for told in list_calls(term, observation, LOOKS):
             term.force(*told)
     except Exception:
         return True

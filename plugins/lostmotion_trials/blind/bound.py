@@ -13,11 +13,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from lostmotion.diagnosis.compare import pieces_of, predict, rates_of
-from lostmotion.inference.candidates import joined
-from lostmotion.inference.fit import Fit, maximise, restarted, warmed
+from lostmotion.inference.candidates import join_term
+from lostmotion.inference.fit import Fit, maximise, raise_random_force, restart
 from lostmotion.inference.leftovers import significant_random_force
-from lostmotion.inference.natural import term_of
-from lostmotion.inference.setup import polish, problem_of, split, stepped
+from lostmotion.inference.natural import find_term
+from lostmotion.inference.setup import choose_steps, make_problem, polish_fit, split_heldout
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.predict import Horizon
 from lostmotion.likelihood.problem import NOISE, RANDOM, Problem
@@ -66,9 +66,9 @@ def yardstick(
     prepared: Prepared, machine: SealedMachine, effects: Sequence[Effect], said: Diagnosis | None
 ) -> Yardstick:
     """Return what the true model of a case reaches, over the horizon of a diagnosis if there is one."""
-    train, held = split(prepared.observations)
+    train, held = split_heldout(prepared.observations)
     system = System(prepared.model, prepared.terms)
-    problem = _begun(problem_of(system, prepared.case, train, jobs=1), machine)
+    problem = _begun(make_problem(system, prepared.case, train, jobs=1), machine)
     effects = [with_names(effect, machine) for effect in effects]
     keys = [key_for(system, effect.mechanism, effect.at) for effect in effects]
     status = [_status(effect, key) for effect, key in zip(effects, keys, strict=True)]
@@ -84,7 +84,7 @@ def yardstick(
     if said is None or not known:
         return Yardstick(tuple(gains), tuple(status))
     margin = _margin(full, problem, said.found) if acting else math.nan
-    error = _held_out(polish(full), prepared, held, said.fit)
+    error = _held_out(polish_fit(full), prepared, held, said.fit)
     return Yardstick(tuple(gains), tuple(status), error, margin)
 
 
@@ -158,7 +158,7 @@ def _begun(problem: Problem, machine: SealedMachine) -> Problem:
         else:
             free.append(replace(f, start=f.coordinate(machine.values[f.parameter])))
     begun = replace(problem, free=tuple(free))
-    return stepped(begun, begun.start)
+    return choose_steps(begun, begun.start)
 
 
 def _within(value: float, low: float, high: float) -> float:
@@ -169,16 +169,16 @@ def _fitted(problem: Problem, acting: Mapping[str, Mapping[str, float]]) -> Fit:
     """Return the best fit with these terms, begun at the truth with several random forces."""
     for key, parameters in acting.items():
         problem = _with(problem, key, parameters)
-    fits = [maximise(problem, warmed(problem, problem.start, by)) for by in WARM]
+    fits = [maximise(problem, raise_random_force(problem, problem.start, by)) for by in WARM]
     best = max(fits, key=lambda f: f.local.log_posterior)
-    again = maximise(restarted(best), warmed(problem, best.theta, 1.0))
+    again = maximise(restart(best), raise_random_force(problem, best.theta, 1.0))
     return max((best, again), key=lambda f: f.local.log_posterior)
 
 
 def _with(problem: Problem, key: str, truth: Mapping[str, float]) -> Problem:
     """Return the problem with one more term, begun at its true parameters where it has them."""
-    _, slots = term_of(problem, key)
-    return joined(problem, key, {s.key: truth[s.param.name] for s in slots if s.param.name in truth})
+    _, slots = find_term(problem, key)
+    return join_term(problem, key, {s.key: truth[s.param.name] for s in slots if s.param.name in truth})
 
 
 def _held_out(fit: Fit, prepared: Prepared, held: Sequence[Observation], said: HeldOutScores) -> float:
