@@ -88,8 +88,8 @@ def _slots(monkeypatch):
         system = problem.system
         return system.terms[system.keys.index(key)], system.own[key]
 
-    monkeypatch.setattr("lostmotion.diagnosis.states.term_of", term_of)
-    monkeypatch.setattr("lostmotion.diagnosis.confirming.term_of", term_of)
+    monkeypatch.setattr("lostmotion.diagnosis.states.find_term", term_of)
+    monkeypatch.setattr("lostmotion.diagnosis.confirming.find_term", term_of)
 
 
 @pytest.mark.parametrize(("gain", "sure"), [(29.0, False), (31.0, True)])

@@ -18,7 +18,7 @@ from lostmotion.inference.late import (
     find_onset,
     list_onsets,
     refine_onset,
-    since_of,
+    onset_key,
 )
 from lostmotion.inference.likeness import find_likeness
 from lostmotion.inference.selection import Selector
@@ -150,7 +150,7 @@ def test_cut_sensitivities_are_those_of_a_term_that_sets_in(tmp_path):
     found = np.array([g[-1] for _, g, _ in cut_at_onsets(fit.problem, joint, 1)])
     twin = []
     for time in list_onsets(fit.problem):
-        late = wider.hold_values({since_of("linear_stiffness"): float(time)})
+        late = wider.hold_values({onset_key("linear_stiffness"): float(time)})
         low, high = late.log_likelihoods(np.array([zero, one]))
         twin.append((high - low) / small)
     assert len(twin) == TIMES

@@ -8,7 +8,7 @@ import numpy as np
 from independent import Machine, recording
 
 from lostmotion.case import CaseFile, Prior
-from lostmotion.inference.setup import make_problem, noise_frees
+from lostmotion.inference.setup import make_problem, make_noise_levels
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.system import System
 from lostmotion.preparation.candidates import candidates_of
@@ -42,7 +42,7 @@ def system_of(name="lin_backlash"):
 def problem_for(observation, unknown, *, noise=0.01):
     """Return the problem of a recording with its unknown parameters and noise levels started near the truth."""
     problem = make_problem(system_of(), case_of(unknown), (observation,))
-    levels = noise_frees((observation,), problem.scales)
+    levels = make_noise_levels((observation,), problem.scales)
     start = {k: np.log(TRUE[k]) for k in unknown}
     start |= {levels[0].key: levels[0].mean, levels[1].key: np.log(noise * np.std(observation.response))}
     return problem, np.array([start[k] for k in problem.keys])
