@@ -11,15 +11,23 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass, field, fields, replace
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from lostmotion.errors import CaseError, nearest
+from lostmotion.thresholds import (
+    ChainSettings,
+    LevelSettings,
+    ModeSettings,
+    MotionSettings,
+    SharedSettings,
+    UnknownSettings,
+)
+from lostmotion.thresholds import make_field as _number
 
-
-def _number(value: float, why: str, source: str = "", least: float = 0.0, most: float = math.inf) -> Any:
-    """Return a dataclass field with its default, its reason, its source and its allowed range."""
-    metadata = {"default": value, "why": why, "source": source, "least": least, "most": most}
-    return field(default=value, metadata=metadata)
+__all__ = [
+    "DEFAULT", "ChainSettings", "HeldOutSettings", "LevelSettings", "LocateSettings", "ModeSettings", "MotionSettings",
+    "NameSettings", "RivalSettings", "SelectSettings", "Setting", "Settings", "SharedSettings", "UnknownSettings", "read",
+]  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -51,6 +59,15 @@ class LocateSettings:
             "The sign of the velocity is reported in place of the velocity when it explains at least this share of "
             "what the velocity explains."
         ),
+        most=1.0,
+    )
+    parity: float = _number(
+        0.8,
+        (
+            "A missing force is called odd or even in a covariate when that part has more than this share of the mean "
+            "square of both."
+        ),
+        least=0.5,
         most=1.0,
     )
     quantisation: float = _number(
@@ -97,6 +114,27 @@ class SelectSettings:
     )
     commoner: float = _number(
         6.0, "A more common law is reported in place of a found one whose log evidence is higher by no more than this."
+    )
+    far: float = _number(
+        8.0,
+        "A value of an amplitude beyond the reach of a score test is tried when it gains this much in log-likelihood.",
+    )
+    late: float = _number(
+        3.0, "A term is tried as one that begins later when this predicts so much more gain, in addition to its price."
+    )
+    onset_first: float = _number(
+        0.04, "An onset before this share of a recording is not considered: the term acts from the beginning.", most=1.0
+    )
+    onset_last: float = _number(0.9, "An onset after this share of a recording is not considered.", most=1.0)
+    shape_steady: float = _number(
+        3.0,
+        "A shape of a law is tested when its correlation with the gradient is this many standard errors from zero.",
+    )
+    shape_gain: float = _number(
+        8.0, "A shape that a scan finds is tried when its score test predicts this gain in log-likelihood."
+    )
+    noise_memory_tried: float = _number(
+        4.0, "AR(1) noise of a sensor is tried when a random force gains this much in log-likelihood."
     )
     noise_memory: float = _number(
         8.0,
@@ -145,30 +183,18 @@ class RivalSettings:
 
 
 @dataclass(frozen=True)
-class UnknownSettings:
-    """Learning an unexplained force as a curve, and describing it."""
-
-    hope: float = _number(
-        0.3, "Curves are tried that predict at least this share of the gain of the best set of terms.", most=1.0
-    )
-    kept: float = _number(
-        0.2, "A curve that changes the size of a named law by more than this share belongs to that law.", most=1.0
-    )
-    alike: float = _number(0.8, "A curve resembles a law that explains at least this share of its variance.", most=1.0)
-    alike_two: float = _number(
-        0.9, "A curve resembles two laws that together explain at least this share of its variance.", most=1.0
-    )
-    formula: float = _number(
-        0.8, "A formula is proposed when it explains at least this share of the variance of a curve.", most=1.0
-    )
-
-
-@dataclass(frozen=True)
 class HeldOutSettings:
     """Comparing models on held-out data."""
 
     share: float = _number(
         0.3, "The share of a recording, or of the recordings, that is held out.", least=0.05, most=0.7
+    )
+    alive: float = _number(
+        4.0, "A motion has decayed when its standard deviation is less than this many times the noise of the sensor."
+    )
+    valid: float = _number(
+        0.4,
+        "A free prediction is valid until its error exceeds this share of the standard deviation of the response.",
     )
     rise: float = _number(0.01, "An error of free runs that rises by a smaller share than this counts as unchanged.")
     missing: float = _number(
@@ -265,91 +291,6 @@ class NameSettings:
     )
 
 
-@dataclass(frozen=True)
-class SharedSettings:
-    """Comparing a parameter between several recordings."""
-
-    level: float = _number(0.01, "The significance level for calling parameters different.", most=1.0)
-    alike: float = _number(
-        0.01, "Values that differ by less than this share count as equal in engineering terms.", most=1.0
-    )
-
-
-@dataclass(frozen=True)
-class ChainSettings:
-    """Convergence of a Markov chain."""
-
-    long: float = _number(
-        50.0,
-        "The least length of a chain in autocorrelation times: from shorter chains that time cannot be estimated.",
-        "Foreman-Mackey et al., PASP 125 (2013) 306",
-    )
-    steady: float = _number(
-        0.02,
-        "The longest autocorrelation time has converged when it grows by less than this share between checks.",
-        most=1.0,
-    )
-    agreed: float = _number(
-        1.01, "The largest accepted R-hat.", "Vehtari et al., Bayesian Analysis 16 (2021) 667-718", least=1.0
-    )
-
-
-@dataclass(frozen=True)
-class LevelSettings:
-    """Which motions count as chaotic when parameters are identified from exponents and dimensions."""
-
-    chaotic: float = _number(
-        2.0, "A motion is chaotic when its exponent exceeds zero by more than this many standard errors."
-    )
-    weak: float = _number(
-        0.5,
-        "Chaos is weak when the exponent is below this, in nat per drive period: a recording may show nothing of it.",
-        "`benchmarks/levels.py errors`: 6 of 10 recordings of weak chaos were classified correctly",
-    )
-    harmonic: float = _number(
-        0.1,
-        "A drive is harmonic when this share of its standard deviation, or less, is not a sine of one frequency: its"
-        " noise and small harmonics.",
-        most=1.0,
-    )
-
-
-@dataclass(frozen=True)
-class MotionSettings:
-    """Classifying a recorded motion as periodic, quasiperiodic, chaotic or noise."""
-
-    level: float = _number(
-        0.05, "The significance level of each surrogate test.", "Theiler et al., Physica D 58 (1992) 77-94", most=1.0
-    )
-    efolds: float = _number(
-        0.8,
-        (
-            "Growth over fewer e-foldings is no evidence: noise with a long memory shows up to 0.65 "
-            "(`benchmarks/verdicts.py`)."
-        ),
-    )
-    turns: float = _number(
-        1.0, "Growth over fewer cycles of the motion is no evidence: distances rise and fall within a cycle."
-    )
-    flat: float = _number(
-        1.5, "A dimension whose interval ends below this belongs to a closed curve: a chaotic flow has more than 2."
-    )
-    still: float = _number(0.05, "An entropy of fewer e-foldings per cycle cannot be distinguished from zero.")
-    left: float = _number(
-        0.5,
-        "The greatest share of the variance that does not repeat in a motion called periodic with fluctuations.",
-        most=1.0,
-    )
-    uneven: float = _number(
-        2.0,
-        "From this ratio of the standard deviations of its two halves on, a recording is not stationary.",
-        least=1.0,
-    )
-    measured: float = _number(
-        2.0, "How many of exponent, dimension and entropy must indicate chaos.", least=1.0, most=3.0
-    )
-
-
 class Setting(NamedTuple):
     """One threshold: its key `stage.name`, value and default, the reason for it, its source and its range."""
 
@@ -373,6 +314,7 @@ class Settings:
     heldout: HeldOutSettings = field(default_factory=HeldOutSettings)
     name: NameSettings = field(default_factory=NameSettings)
     shared: SharedSettings = field(default_factory=SharedSettings)
+    mode: ModeSettings = field(default_factory=ModeSettings)
     chain: ChainSettings = field(default_factory=ChainSettings)
     levels: LevelSettings = field(default_factory=LevelSettings)
     motion: MotionSettings = field(default_factory=MotionSettings)

@@ -13,7 +13,7 @@ from scipy.linalg import expm
 
 from lostmotion.case import CaseFile, Prior, SensorSpec
 from lostmotion.inference.modes import StartingPoints, is_same_mode, select_modes
-from lostmotion.inference.setup import WITHIN, find_modes, make_problem, polish_modes, search_maximum
+from lostmotion.inference.setup import find_modes, make_problem, polish_modes, search_maximum
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import FreeParameter
 from lostmotion.likelihood.system import System
@@ -109,7 +109,7 @@ class Hills:
 def test_a_dip_makes_two_hills_and_roughness_does_not(hills: Hills, ends: tuple[float, float], one: bool) -> None:
     a, b = (hills.fit(x, sd=0.5) for x in ends)
     assert is_same_mode(a, b) == is_same_mode(b, a) == one
-    assert len(select_modes([a, b], WITHIN)) == 2 - one
+    assert len(select_modes([a, b], 20.0)) == 2 - one
 
 
 def test_low_hills_and_fits_that_came_to_nothing_are_left_out() -> None:

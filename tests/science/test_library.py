@@ -17,8 +17,8 @@ from lostmotion.inference.late import (
     estimate_onset,
     find_onset,
     list_onsets,
-    refine_onset,
     onset_key,
+    refine_onset,
 )
 from lostmotion.inference.likeness import find_likeness
 from lostmotion.inference.selection import Selector

@@ -8,7 +8,7 @@ import numpy as np
 from independent import Machine, recording
 
 from lostmotion.case import CaseFile, Prior
-from lostmotion.inference.setup import make_problem, make_noise_levels
+from lostmotion.inference.setup import make_noise_levels, make_problem
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.system import System
 from lostmotion.preparation.candidates import candidates_of

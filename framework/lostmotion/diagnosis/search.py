@@ -160,7 +160,7 @@ def diagnose(
     settings: Settings = DEFAULT,
 ) -> Diagnosed:
     """Return the diagnosis of a case; `system` holds the model and every term that is to be tried."""
-    train, held = split_heldout(observations, settings.heldout.share)
+    train, held = split_heldout(observations, settings.heldout)
     _check_moving(held)
     say("fit of the nominal model")
     nominal = search_maximum(make_problem(system, case, train, jobs=jobs, settings=settings), rng)

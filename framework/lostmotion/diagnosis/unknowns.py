@@ -209,7 +209,7 @@ def _formula(d: Diagnosed, band: Band) -> tuple[str, float] | None:
     if band.beside is not None or band.term.over == "history":
         return None
     axis = Axis(*OVER[band.term.over], band.term.params[0].dimension, d.after.problem.system.model.motion)
-    found = propose_formula(band.at, band.mean, band.covariance, axis, d.settings.unknown.formula)
+    found = propose_formula(band.at, band.mean, band.covariance, axis, d.settings.unknown)
     if found is None:
         return None
     return (f"{band.term.times} ({found.text})" if band.term.times else found.text), found.share

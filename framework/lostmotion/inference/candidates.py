@@ -35,14 +35,12 @@ from lostmotion.likelihood.system import ALWAYS, Slot, onset_key
 from lostmotion.quantities import FORCE, TIME
 
 CREEP, FINEST = 0.02, 32
-SHORT, CLEAR = 1500, 8.0
-"""Values far off are tried on so many samples, and count when the log-likelihood gains so much there."""
+SHORT = 1500
+"""Samples on which values far from the null are tried."""
 SHARES = (1.0, 0.3, 0.01)
 """Fits begin with these shares of what a score test promises."""
 CALM, LARGE = 0.05, 0.7
 """Noise of a calm start in amplitudes of the response, and a large force in amplitudes of the measured one."""
-ONSET = PRICE + 3.0
-"""A term is taken for late when that promises so much more gain."""
 LOOKS = 200
 """Places of a recording at which a force is looked at, when a filter with it does not get through."""
 SPREAD = (0.003, 0.01, 0.03, 0.1, 0.3, 1.0, 3.0)
@@ -110,11 +108,11 @@ def run_score_tests(
 
 def _test_onsets(fit: Fit, key: str, amplitudes: Sequence[Slot], always: ScoreTest, joint: Sensitivity) -> ScoreTest:
     """Return what a term promises that acts from some time on, if that is decisively more than what it `always` did."""
-    best = always
+    best, least = always, PRICE + fit.problem.settings.select.late
     shape = {name: value for name, value in always.start.items() if name not in {a.key for a in amplitudes}}
     for time, gradient, information in cut_at_onsets(fit.problem, joint, len(amplitudes)):
         hint = _solve_from_gradient(fit, key, amplitudes, shape, gradient, information)
-        if hint.gain > best.gain + (ONSET if best is always else 0.0):
+        if hint.gain > best.gain + (least if best is always else 0.0):
             best = replace(hint, start={**hint.start, onset_key(key): time})
     return best
 
@@ -137,7 +135,7 @@ def _try_far_values(fit: Fit, slot: Slot, key: str, distinct: float) -> ScoreTes
         found = maximise(replace(trial, active=trial.active | {key}), bottom.theta, rounds=3, tolerance=1.0)
         if found.log_likelihood - bottom.log_likelihood > gain:
             best, gain = value, found.log_likelihood - bottom.log_likelihood
-    return ScoreTest(key, gain if gain > CLEAR else 0.0, {slot.key: best}, distinct)
+    return ScoreTest(key, gain if gain > fit.problem.settings.select.far else 0.0, {slot.key: best}, distinct)
 
 
 def _test_secants(fit: Fit, slopes: Sensitivity, key: str, slot: Slot) -> list[ScoreTest]:

@@ -16,8 +16,6 @@ from lostmotion.results import Interval
 
 TIMES = 24
 """So many onsets are tried, evenly over a recording."""
-FIRST, LAST = 0.04, 0.9
-"""Shares of a recording between which an onset is told: before, a term was there from the beginning."""
 AROUND, GRID, DEPTH = 0.1, 96, 12.0
 """An interval of an onset is sought over this share of a recording to either side, at so many places at once, and among
 those whose log-likelihood is this much lower at the most."""
@@ -37,9 +35,10 @@ def find_onset(problem: Problem, key: str) -> float:
 
 def list_onsets(problem: Problem) -> Array:
     """Return the onsets (TIMES,) that are tried, in s."""
-    observation = problem.observations[0]
+    observation, limits = problem.observations[0], problem.settings.select
     duration = observation.samples * observation.dt
-    return np.asarray(observation.time[0] + duration * np.linspace(FIRST, LAST, TIMES), dtype=float)
+    shares = np.linspace(limits.onset_first, limits.onset_last, TIMES)
+    return np.asarray(observation.time[0] + duration * shares, dtype=float)
 
 
 def cut_at_onsets(problem: Problem, joint: Sensitivity, k: int) -> Iterator[tuple[float, Array, Array]]:

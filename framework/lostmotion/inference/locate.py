@@ -63,7 +63,7 @@ def average_curve(values: Array, force: Array, edges: Array | None = None) -> Cu
     return Curve(*rows)
 
 
-def classify_parity(found: Curve) -> str:
+def classify_parity(found: Curve, least: float = DEFAULT.locate.parity) -> str:
     """Return "odd", "even" or "neither": how a curve changes when position or velocity is reversed."""
     good = np.isfinite(found.center) & np.isfinite(found.mean)
     if good.sum() < 6:
@@ -77,7 +77,7 @@ def classify_parity(found: Curve) -> str:
     right, left = np.interp(grid, x, f), np.interp(-grid, x, f)
     odd, even = np.mean((right - left) ** 2), np.mean((right + left) ** 2)
     share = odd / (odd + even) if odd + even > 0 else 0.5
-    return "odd" if share > 0.8 else ("even" if share < 0.2 else "neither")
+    return "odd" if share > least else ("even" if share < 1.0 - least else "neither")
 
 
 def list_further_covariates(
@@ -130,7 +130,7 @@ def describe_location(
     tied = [k for k in known[1:] if odds and odds[known[0]].log - odds[k].log < limits.tied]
     name = known[0] if odds else _prefer_sign(known[0], found, limits.signed)
     bent = name in table and name.startswith(("position", "velocity"))
-    kind = classify_parity(average_curve(table[name], force)) if bent else "neither"
+    kind = classify_parity(average_curve(table[name], force), limits.parity) if bent else "neither"
     how = "a function of" if kind == "neither" else f"{kind} in"
     others = [k for k in known if k != name and k not in tied and found[k].value >= least]
     more = [_format_share(k, found) for k in others if odds or _are_unrelated(k, name)]

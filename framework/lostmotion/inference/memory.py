@@ -23,8 +23,6 @@ from lostmotion.likelihood.problem import Problem
 from lostmotion.likelihood.space import AR1_LEVEL, AR1_MEMORY, NOISE, RANDOM
 
 STARTS = (1.5, 5.0)
-NOTICED = 4.0
-"""A random force that gains this much is reason enough to look for a memory."""
 
 
 def select_with_noise_memory(
@@ -37,7 +35,8 @@ def select_with_noise_memory(
     keys = tuple(candidates)
     course = Selector(nominal, keys, say, shapes, promise).run()
     chosen = course.chosen
-    if not chosen.problem.active and significant_random_force(chosen) < NOTICED:
+    least = chosen.problem.settings.select.noise_memory_tried
+    if not chosen.problem.active and significant_random_force(chosen) < least:
         return course
     say("measurement noise with a memory")
     coloured = fit_noise_memory(chosen)

@@ -11,10 +11,6 @@ import numpy as np
 from lostmotion.contracts import Array
 from lostmotion.inference.fit import Fit
 
-NEAR = 3.0
-"""Maxima that are closer than this many standard deviations in each coordinate are one."""
-DIP = 3.0
-"""Between two modes the log posterior falls by more than this: two normal hills five deviations apart leave 3.1."""
 LOOKS = 9
 NEIGHBOURS = 4
 
@@ -25,13 +21,13 @@ def is_same_mode(a: Fit, b: Fit) -> bool:
     A filter through a kink leaves a posterior rough, so that fits stop at several places of one hill; a dip that
     roughness makes is shallower than one between modes.
     """
-    width = np.maximum(_list_sd(a), _list_sd(b))
-    if np.all(np.abs(a.theta - b.theta) < NEAR * width):
+    width, limits = np.maximum(_list_sd(a), _list_sd(b)), a.problem.settings.mode
+    if np.all(np.abs(a.theta - b.theta) < limits.near * width):
         return True
     problem = max(a.problem, b.problem, key=lambda p: p.nsub)
     along = np.linspace(0.0, 1.0, LOOKS)[:, None]
     log_densities = problem.log_posteriors(problem.clip(a.theta + along * (b.theta - a.theta)))
-    return bool(np.min(log_densities[1:-1]) > min(log_densities[0], log_densities[-1]) - DIP)
+    return bool(np.min(log_densities[1:-1]) > min(log_densities[0], log_densities[-1]) - limits.dip)
 
 
 def _list_sd(fit: Fit) -> Array:

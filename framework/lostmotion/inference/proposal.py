@@ -12,19 +12,14 @@ import numpy as np
 
 from lostmotion.contracts import Array
 from lostmotion.quantities import Dimension
-from lostmotion.settings import DEFAULT
+from lostmotion.settings import DEFAULT, UnknownSettings
 
-MOST = 3
 RIDGE = 0.02
 """A curve is smooth, so its covariance is close to singular: this share of its mean variance is added."""
 TURNS = np.arange(1.0, 20.01, 0.1)
 """Spatial frequencies that are tried, in periods over the range of the curve."""
 MIDDLES = np.linspace(-0.9, 0.9, 73)
 WIDTHS = (0.06, 0.08, 0.1, 0.15, 0.25, 0.4)
-ENOUGH = 0.98
-"""Once a formula tells so much of a curve, nothing is added."""
-MORE = 6.0
-"""A further piece has to better Akaike's criterion by this."""
 
 
 class Axis(NamedTuple):
@@ -54,7 +49,7 @@ class Formula:
 
 
 def propose_formula(
-    at: Array, mean: Array, covariance: Array, over: Axis, least: float = DEFAULT.unknown.formula
+    at: Array, mean: Array, covariance: Array, over: Axis, limits: UnknownSettings = DEFAULT.unknown
 ) -> Formula | None:
     """Return a formula of three pieces at most for a curve (points,) with its covariance, or None.
 
@@ -70,21 +65,21 @@ def propose_formula(
     whitened = np.linalg.solve(root, widest.transpose(1, 0, 2).reshape(len(at), -1)).reshape(len(at), -1, 2)
     prices = np.array([_sum_prices([p]) for p in pieces])
     white: list[Array] = []
-    for _ in range(MOST):
+    for _ in range(int(limits.formula_pieces)):
         scores = _compute_residuals(aim, white, whitened) + prices + _sum_prices(chosen)
         first = int(np.argmin(scores))
-        if scores[first] >= best - MORE:
+        if scores[first] >= best - limits.formula_gain:
             break
         best = scores[first]
         chosen.append(pieces[first])
         white.append(whitened[:, first, : pieces[first].columns.shape[1]])
-        if _fit_columns(aim, white)[0] < (1.0 - ENOUGH) * float(aim @ aim):
+        if _fit_columns(aim, white)[0] < (1.0 - limits.formula_full) * float(aim @ aim):
             break
     if not chosen:
         return None
     left, weights = _fit_columns(aim, white)
     share = 1.0 - left / float(aim @ aim)
-    if share < least:
+    if share < limits.formula:
         return None
     cuts = np.cumsum([0, *(p.columns.shape[1] for p in chosen)])
     parts = [p.text(weights[a:b]) for p, a, b in zip(chosen, cuts[:-1], cuts[1:], strict=True)]

@@ -30,17 +30,15 @@ from lostmotion.likelihood.space import LEVELS, NOISE, OFFSET, RANDOM, FreeParam
 from lostmotion.likelihood.system import Slot, System
 from lostmotion.quantities import quantity_of, unit_of
 from lostmotion.recording.checks import filled
-from lostmotion.settings import DEFAULT, Settings
+from lostmotion.settings import DEFAULT, HeldOutSettings, Settings
 
-BLOCKS, ALIVE = 60, 4.0
-"""Parts of a recording that are looked at for its motion; noises by which that stands out where there is one."""
+BLOCKS = 60
+"""Parts of a recording in which its motion is compared with the noise."""
 SHARED = SensorSpec("shared")
 """A sensor of which nothing is to be split by recording."""
 BEGINNING, FEWEST = 3000, 400
 """Starting points are compared on so many samples of one recording; of each of many at least on so few."""
 
-WITHIN = 20.0
-"""A mode of which the log evidence is further below the best has no share in the posterior."""
 SLACK = 30.0
 """Before the final fits a hill may be this much lower, in log posterior."""
 
@@ -56,20 +54,20 @@ COARSE, FINE = 0.06, 0.015
 
 
 def split_heldout(
-    observations: Sequence[Observation], share: float = DEFAULT.heldout.share
+    observations: Sequence[Observation], limits: HeldOutSettings = DEFAULT.heldout
 ) -> tuple[tuple[Observation, ...], tuple[Observation, ...]]:
     """Return what is fitted and what is held out: the last `share` of one recording, or of several.
 
     Of a motion that dies away, that share of what stands out of the noise begin what is held out.
     """
     if len(observations) == 1:
-        cut = round((1.0 - share) * count_lasting_samples(observations[0], share))
+        cut = round((1.0 - limits.share) * count_lasting_samples(observations[0], limits))
         return (observations[0].part(0, cut),), (observations[0].part(cut, observations[0].samples),)
-    kept = max(1, len(observations) - max(1, round(share * len(observations))))
+    kept = max(1, len(observations) - max(1, round(limits.share * len(observations))))
     return tuple(observations[:kept]), tuple(observations[kept:])
 
 
-def count_lasting_samples(observation: Observation, share: float = DEFAULT.heldout.share) -> int:
+def count_lasting_samples(observation: Observation, limits: HeldOutSettings = DEFAULT.heldout) -> int:
     """Return how many samples of a recording there are until its motion has died away, or all of them.
 
     A block of readings lives where its deviation is more than `ALIVE` times the noise, and the motion has died where
@@ -77,9 +75,9 @@ def count_lasting_samples(observation: Observation, share: float = DEFAULT.heldo
     """
     sensor = choose_main_sensor(observation)
     blocks = np.array_split(filled(observation.readings[:, sensor]), BLOCKS)
-    alive = np.array([float(np.std(block)) for block in blocks]) > ALIVE * observation.noises[sensor]
+    alive = np.array([float(np.std(block)) for block in blocks]) > limits.alive * observation.noises[sensor]
     last = int(np.flatnonzero(alive)[-1]) + 1 if alive.any() else BLOCKS
-    if last > (1.0 - share) * BLOCKS:
+    if last > (1.0 - limits.share) * BLOCKS:
         return observation.samples
     return sum(len(block) for block in blocks[:last])
 
@@ -336,7 +334,9 @@ def _unify_modes(fits: list[Fit], problem: Problem) -> list[Fit]:
     again = [f if f.problem.nsub == problem.nsub else maximise(problem, f.theta) for f in fits]
     hills = [replace(f, problem=problem) for f in select_modes(again, SLACK)] or again
     top = max(f.log_evidence for f in hills)
-    return sorted((f for f in hills if f.log_evidence >= top - WITHIN), key=lambda f: -f.log_evidence)
+    return sorted(
+        (f for f in hills if f.log_evidence >= top - problem.settings.mode.within), key=lambda f: -f.log_evidence
+    )
 
 
 def separate_levels(fit: Fit, sensor: SensorSpec) -> Fit:

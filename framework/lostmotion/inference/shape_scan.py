@@ -32,11 +32,7 @@ APART, FEWEST = 0.033, 30
 is told by this."""
 MOST_SAMPLES = 3000
 BLOCKS = 40
-STEADY = 3.0
-"""A law is looked at more closely when it goes with the gradient in all parts of the recording: its mean over `BLOCKS`
-parts is so many standard errors from zero."""
-CLEAR = 8.0
-"""It is told of when a score test then promises this gain in log-likelihood, and more than at any usual shape."""
+"""Parts of a recording over which the correlation of a law with the gradient is averaged for its standard error."""
 
 
 @dataclass(frozen=True)
@@ -153,7 +149,7 @@ def scan_shapes(fit: Fit, *, forces: bool = True) -> dict[str, list[dict[str, fl
         if best := _select_best_shape(_make_sensor_errors(problem, fit.theta, key) if of_sensor else track, key):
             slopes = slopes or compute_slopes(fit)
             hint = run_score_test(fit, slopes, key, [best])
-            if hint.gain > CLEAR and best.items() <= hint.start.items():
+            if hint.gain > fit.problem.settings.select.shape_gain and best.items() <= hint.start.items():
                 found[key] = [best]
     return found
 
@@ -178,7 +174,11 @@ def _select_best_shape(track: SmoothedMotion | SensorErrors, key: str) -> dict[s
         return max(((track.steady(key, shape), shape) for shape in tried), key=lambda pair: pair[0])
 
     top, best = steadiest(list_shapes(problem, key))
-    return best if top > max(STEADY, steadiest(_list_star_shapes(problem, key, usual))[0]) else None
+    return (
+        best
+        if top > max(problem.settings.select.shape_steady, steadiest(_list_star_shapes(problem, key, usual))[0])
+        else None
+    )
 
 
 def list_shapes(problem: Problem, key: str) -> list[dict[str, float]]:

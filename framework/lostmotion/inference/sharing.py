@@ -37,21 +37,10 @@ RAISED = 3.0
 """By how much the log random force is raised where a fit without a curve begins."""
 BLOCKS, SHORTEST = 40, 10
 """Scores are added up over so many blocks of each recording, of so many readings each at least."""
-VAGUE = 0.05
-"""The rms tells to about this share how strongly a motion is driven: lines over the level may miss values by it."""
-MOST_OWN = 3
-"""So many parameters are released at most: where more of them differ, the model does not hold."""
 SAMPLES = 40_000
 """The beginnings of the recordings are compared, so many samples together."""
 FEWER = 10_000
 """So many samples where learned curves bring dozens of coefficients: all of them are fitted anew each time."""
-NEAR = 3.0
-"""Own values of another parameter that come within this log-likelihood explain a difference as well."""
-FITS, KNOWN, STEEPEST = 0.05, 3.0, 4.0
-"""A power of the level describes values when this p-value is left over, when its exponent is so many standard errors
-from zero, and no larger: steeper powers stand for a difference of another kind."""
-SPREAD = 1.1
-"""Levels of the drive that span less than this factor are one level; the levels of the response are used then."""
 
 
 @dataclass(frozen=True)
@@ -151,17 +140,17 @@ def compare_recordings(fit: Fit) -> SharedValues | None:
 
 def _release_parameters(shared: Fit) -> tuple[SharedValues, float]:
     """Return what recordings share, and the log evidence of the fit in which what differs is released."""
-    base = shared
+    base, limits = shared, shared.problem.settings.shared
     observations, tested = base.problem.observations, _list_tested(base.problem)
-    levels = measure_levels(observations)
+    levels = measure_levels(observations, limits.spread)
     found: dict[str, ComparedParameter] = {}
     released: list[str] = []
-    for turn in range(MOST_OWN + 1):
+    for turn in range(int(limits.most_own) + 1):
         rest = [key for key in tested if key not in found]
         apart = {one.key: one for one in _fit_each_separately(base, rest)}
-        tests = _test_parameters(apart, levels, base.problem.settings.shared)
+        tests = _test_parameters(apart, levels, limits)
         own = _select_best(apart, tests)
-        if turn == MOST_OWN or own is None:
+        if turn == int(limits.most_own) or own is None:
             found |= tests
             break
         found[own.key] = tests[own.key]
@@ -197,12 +186,12 @@ def _list_tested(problem: Problem) -> tuple[str, ...]:
     return tuple(dict.fromkeys(name for name in names if name.rpartition(".")[0] not in curves))
 
 
-def measure_levels(observations: Sequence[Observation]) -> Levels:
+def measure_levels(observations: Sequence[Observation], spread: float = DEFAULT.shared.spread) -> Levels:
     """Return how strongly the machine moved in each recording; by the drive, where that differs from one to another."""
     first = observations[0]
     if not any(observation.free for observation in observations):
         drives = tuple(float(np.nanstd(observation.excitation)) for observation in observations)
-        if min(drives) > 0.0 and max(drives) > SPREAD * min(drives):
+        if min(drives) > 0.0 and max(drives) > spread * min(drives):
             return Levels("drive", first.driven[0] if first.driven else "force", drives)
     return Levels("response", first.channel, tuple(float(np.nanstd(o.response)) for o in observations))
 
@@ -294,12 +283,14 @@ def adjust_by_holm(p: Sequence[float]) -> list[float]:
     return adjusted
 
 
-def fit_power(values: Array, covariance: Array, levels: Array) -> PowerOfLevel | None:
+def fit_power(
+    values: Array, covariance: Array, levels: Array, limits: SharedLimits = DEFAULT.shared
+) -> PowerOfLevel | None:
     """Return how logarithms of values (n,) go with those of the levels (n,): a straight line, where one describes them.
 
     None for fewer than three values, equal levels, or a line that leaves something over.
     """
-    if len(values) < 3 or not np.all(levels > 0.0) or not np.max(levels) > SPREAD * np.min(levels):
+    if len(values) < 3 or not np.all(levels > 0.0) or not np.max(levels) > limits.spread * np.min(levels):
         return None
     rows = np.stack([np.ones(len(levels)), np.log(levels)])
     weighted = np.linalg.solve(covariance, rows.T)
@@ -308,16 +299,17 @@ def fit_power(values: Array, covariance: Array, levels: Array) -> PowerOfLevel |
     left = values - line @ rows
     p = float(chdtrc(len(values) - 2, max(float(left @ np.linalg.solve(covariance, left)), 0.0)))
     exponent, error = float(line[1]), math.sqrt(spread[1, 1])
-    return PowerOfLevel(exponent, error, p) if p > FITS and KNOWN * error < abs(exponent) <= STEEPEST else None
+    known = limits.exponent * error < abs(exponent) <= limits.steepest
+    return PowerOfLevel(exponent, error, p) if p > limits.fits and known else None
 
 
-def find_odd_recording(values: Array, covariance: Array) -> int | None:
+def find_odd_recording(values: Array, covariance: Array, fits: float = DEFAULT.shared.fits) -> int | None:
     """Return the number of the only recording that differs, where the others agree; None where it is not one alone."""
     if len(values) < 3:
         return None
     rest = [np.delete(np.arange(len(values)), i) for i in range(len(values))]
     chi2 = [compute_homogeneity(values[kept], covariance[np.ix_(kept, kept)]) for kept in rest]
-    good = [i for i, value in enumerate(chi2) if chdtrc(len(values) - 2, value) > FITS]
+    good = [i for i, value in enumerate(chi2) if chdtrc(len(values) - 2, value) > fits]
     return good[0] if len(good) == 1 else None
 
 
@@ -343,9 +335,9 @@ def _test_parameters(
         )
         if not shared.holds:
             rivals = [k for k, q in zip(apart, p, strict=True) if k != key and q <= limits.level]
-            near = tuple(k for k in rivals if gains[k] > gains[key] - NEAR)
-            power = _fit_power_of_level(one, one.covariance + _make_tolerance(one, VAGUE), levels)
-            odd = find_odd_recording(one.at, loose[key]) if power is None else None
+            near = tuple(k for k in rivals if gains[k] > gains[key] - limits.instead)
+            power = _fit_power_of_level(one, one.covariance + _make_tolerance(one, limits.vague), levels, limits)
+            odd = find_odd_recording(one.at, loose[key], limits.fits) if power is None else None
             shared = replace(shared, power=power, odd=odd, instead=near)
         found[key] = shared
     return found
@@ -357,14 +349,16 @@ def _make_tolerance(one: SeparateFit, share: float) -> Array:
     return np.asarray((share * size) ** 2 * np.eye(len(one.at)))
 
 
-def _fit_power_of_level(one: SeparateFit, covariance: Array, levels: Levels) -> PowerOfLevel | None:
+def _fit_power_of_level(
+    one: SeparateFit, covariance: Array, levels: Levels, limits: SharedLimits
+) -> PowerOfLevel | None:
     """Return how the values of a parameter go with the level; only where each is known to be other than zero."""
     if one.free.log:
-        return fit_power(one.at, covariance, np.array(levels.values))
+        return fit_power(one.at, covariance, np.array(levels.values), limits)
     sd = np.sqrt(np.diag(covariance))
     if not (np.all(one.at > 2.0 * sd) or np.all(one.at < -2.0 * sd)):
         return None
-    return fit_power(np.log(np.abs(one.at)), covariance / np.outer(one.at, one.at), np.array(levels.values))
+    return fit_power(np.log(np.abs(one.at)), covariance / np.outer(one.at, one.at), np.array(levels.values), limits)
 
 
 def _list_intervals(one: SeparateFit) -> tuple[Interval, ...]:

@@ -19,7 +19,6 @@ from lostmotion.inference.prices import price_of
 from lostmotion.inference.surfaces import RICHER
 from lostmotion.likelihood.problem import RANDOM, Problem
 
-MOST_CURVES = 2
 MOST_SAMPLES = 8000
 """Curves are sought on so many samples, and then fitted to all."""
 FITTED, RIVAL = 2, 0.7
@@ -154,7 +153,7 @@ class CurveSearch:
         Curves are tried on top of the chosen terms and of the nominal model alone: where they do without the terms,
         these are dropped, and else the names are kept.
         """
-        before, search = self._begun(nominal)
+        (before, search), limits = self._begun(nominal), nominal.problem.settings.unknown
         after = _shorten_fit(add_all_curves(chosen)) if chosen.problem.active else before
         bar = max(search.visits[before.problem.active][1], search.visit(after))
         search.learn(after)
@@ -169,7 +168,7 @@ class CurveSearch:
             best = search.bare(best)
         if best is None or _changes_named_law(best, after):
             return None
-        while len(_list_curves(best.problem)) < MOST_CURVES and significant_random_force(best) > 0.0:
+        while len(_list_curves(best.problem)) < int(limits.most_curves) and significant_random_force(best) > 0.0:
             search.learn(best, 1)
             further = _select_best(search, best.problem.active) or best
             if further.problem.active == best.problem.active:
@@ -245,5 +244,6 @@ def _changes_named_law(fit: Fit, without: Fit) -> bool:
 def _reduces_random_force(fit: Fit, without: Fit) -> bool:
     """Return whether curves take enough off a random force that was beyond the usual."""
     at, then = (f.theta[f.problem.keys.index(RANDOM)] for f in (fit, without))
-    cap = without.problem.free[without.problem.keys.index(RANDOM)].mean + 2.0 * math.log(3.0)
-    return bool(then <= cap or at < then + math.log(1.0 - fit.problem.settings.select.share))
+    limits = fit.problem.settings
+    cap = without.problem.free[without.problem.keys.index(RANDOM)].mean + 2.0 * math.log(limits.unknown.usual)
+    return bool(then <= cap or at < then + math.log(1.0 - limits.select.share))

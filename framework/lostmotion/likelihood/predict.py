@@ -14,9 +14,8 @@ from lostmotion.kernels.filter import UNREAD_VARIANCE
 from lostmotion.likelihood.motion import compute_derivatives
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import Problem
+from lostmotion.settings import DEFAULT
 
-ENOUGH = 0.4
-"""A prediction is valid until its error exceeds this share of the standard deviation of the response."""
 WORST = 1e3
 """The largest error, in standard deviations of the response; a run that diverges has this error."""
 NEAR = 1e-6
@@ -63,14 +62,15 @@ class FreeRuns:
 
     lead: Array
     error: Array
+    valid: float = DEFAULT.heldout.valid
 
     def growth(self, scale: float) -> Array:
         """Return the rms error over the starts at each lead, over `scale`."""
         return np.asarray(np.sqrt(np.nanmean(self.error**2, axis=0)) / scale)
 
     def valid_time(self, scale: float) -> float:
-        """Return the median time (s) until the error exceeds `ENOUGH` of `scale`."""
-        beyond = np.abs(self.error) > ENOUGH * scale
+        """Return the median time (s) until the error exceeds the share `valid` of `scale`."""
+        beyond = np.abs(self.error) > self.valid * scale
         first = np.where(beyond.any(axis=1), beyond.argmax(axis=1), len(self.lead) - 1)
         return float(np.median(self.lead[first]))
 
@@ -100,7 +100,7 @@ def predict_freely(
             error[row] = seen - z[start : start + steps]
             error[row, ~np.isfinite(seen)] = math.inf
         worst = WORST * float(np.nanstd(z))
-        found.append(FreeRuns(lead, np.clip(error, -worst, worst)))
+        found.append(FreeRuns(lead, np.clip(error, -worst, worst), problem.settings.heldout.valid))
     return tuple(found)
 
 
