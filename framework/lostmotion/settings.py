@@ -26,7 +26,8 @@ from lostmotion.thresholds import make_field as _number
 
 __all__ = [
     "DEFAULT", "ChainSettings", "HeldOutSettings", "LevelSettings", "LocateSettings", "ModeSettings", "MotionSettings",
-    "NameSettings", "RivalSettings", "SelectSettings", "Setting", "Settings", "SharedSettings", "UnknownSettings", "read",
+    "NameSettings", "RivalSettings", "SelectSettings", "Setting", "Settings", "SharedSettings", "UnknownSettings",
+    "read",
 ]  # fmt: skip
 
 

@@ -18,6 +18,7 @@ from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import FreeParameter
 from lostmotion.likelihood.system import System
 from lostmotion.registry import default
+from lostmotion.settings import DEFAULT, Settings
 
 DT, TRUE, FOLDED = 0.05, 7.0, 13.0
 """A ring of 7 Hz that is sampled at 20 Hz looks like one of 13 Hz: all but the faint push that is recorded with it."""
@@ -73,6 +74,7 @@ class Hills:
     centres: tuple[float, ...]
     ripple: float = 0.0
     nsub: int = 1
+    settings: Settings = DEFAULT
 
     def clip(self, points):
         return points

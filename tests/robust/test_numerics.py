@@ -25,6 +25,7 @@ from lostmotion.likelihood.problem import USUAL, Innovations
 from lostmotion.likelihood.space import FreeParameter, ParameterSpace
 from lostmotion.likelihood.system import System
 from lostmotion.maps.cells import CODES
+from lostmotion.settings import DEFAULT
 from lostmotion_plugins.models.exact import ExactBacklash
 from lostmotion_plugins.models.lin import LinBacklash
 
@@ -209,7 +210,7 @@ class Cliff:
     def space(self):
         return ParameterSpace(self.free)
 
-    def many(self, points):
+    def filter_many(self, points):
         seen = np.linspace(-1.0, 1.0, 9)
         return Innovations(
             np.where(points > 1.0, np.nan, seen - points), np.ones((len(points), 9)), points[:, 0] <= 1.0
@@ -228,6 +229,7 @@ def test_a_free_run_that_leaves_all_bounds_errs_by_the_most(monkeypatch):
     from lostmotion.likelihood import predict
 
     class Still:
+        settings = DEFAULT
         observations = (Observation.of("still", np.array([1.0, 2.0, 3.0, 5.0]), np.zeros((4, 1)), 1.0, "position"),)
 
     def observed(problem, theta, states, where=(0, 0), sensor=0):

@@ -1,4 +1,4 @@
-"""Terms as candidates: their priors in natural scales, a score test that costs a few filter runs, and their fits."""
+"""Candidate terms: a score test that costs a few filter runs, and fits with a term added or replaced."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from lostmotion.contracts import Array, Term, Values, place_of
-from lostmotion.errors import ContractError
+from lostmotion.contracts import Array, place_of
+from lostmotion.inference.calls import require_finite
 from lostmotion.inference.fit import (
     Fit,
     Sensitivity,
@@ -28,8 +28,6 @@ from lostmotion.inference.natural import (
     make_free_parameters,
     sort_slots,
 )
-from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.plan import prepare_values
 from lostmotion.likelihood.problem import LATEST, NOISE, RANDOM, FreeParameter, Problem
 from lostmotion.likelihood.system import ALWAYS, Slot, onset_key
 from lostmotion.quantities import FORCE, TIME
@@ -38,30 +36,29 @@ CREEP, FINEST = 0.02, 32
 SHORT = 1500
 """Samples on which values far from the null are tried."""
 SHARES = (1.0, 0.3, 0.01)
-"""Fits begin with these shares of what a score test promises."""
+"""Fits begin with these shares of the amplitude that a score test predicts."""
 CALM, LARGE = 0.05, 0.7
-"""Noise of a calm start in amplitudes of the response, and a large force in amplitudes of the measured one."""
-LOOKS = 200
-"""Places of a recording at which a force is looked at, when a filter with it does not get through."""
+"""The noise of a refit without random force, in amplitudes of the response, and a large force in amplitudes of the
+measured one."""
 SPREAD = (0.003, 0.01, 0.03, 0.1, 0.3, 1.0, 3.0)
-"""Where the shape of a law begins that takes the place of a simpler relative, in units of its typical value."""
+"""Starting values of the shape of a law that replaces a simpler related law, in units of its typical value."""
 RAISED = 2.0
-"""By how much the log random force is raised where a fit begins far from its maximum."""
+"""The increase of the log random force where a fit begins far from its maximum."""
 ROUGHLY = 0.1
-"""A fit that is to be compared with others has converged when a step promises less log posterior than this."""
+"""A fit that is to be compared with others has converged when a step predicts less gain in log posterior than this."""
 MUTE = 1e-6
-"""An amplitude of typical size that carries less information than this says nothing while the others are zero."""
+"""An amplitude of typical size with less information than this has no effect while the others are zero."""
 FARTHEST = 4
-"""So many of the values far off are refitted: those at which the likelihood is highest to begin with."""
+"""The number of values far from the null that are refitted: those at which the likelihood is highest to begin with."""
 
 
 Shapes = Mapping[str, Sequence[Mapping[str, float]]]
-"""For a term by key, the values of its shape parameters that are tried beyond the usual."""
+"""The values of shape parameters that are tried in addition to the usual ones, by key of the term."""
 
 
 @dataclass(frozen=True)
 class ScoreTest:
-    """What a score test says of a term: the gain in log-likelihood it promises, and where to start its fit."""
+    """The result of a score test of a term: the predicted gain in log-likelihood, and the starting point of its fit."""
 
     key: str
     gain: float
@@ -80,9 +77,9 @@ def compute_slopes(fit: Fit) -> Sensitivity:
 
 
 def run_score_test(fit: Fit, slopes: Sensitivity, key: str, more: Sequence[Mapping[str, float]] = ()) -> ScoreTest:
-    """Return what adding the term `key` to a fit promises, the base parameters moving along (Rao's score test).
+    """Return the predicted gain of adding the term `key` to a fit, with the base parameters free (Rao's score test).
 
-    `more` are shapes to be tried beyond the usual.
+    `more` are shapes that are tried in addition to the usual ones.
     """
     return max(run_score_tests(fit, slopes, key, more), key=lambda h: h.gain)
 
@@ -90,7 +87,7 @@ def run_score_test(fit: Fit, slopes: Sensitivity, key: str, more: Sequence[Mappi
 def run_score_tests(
     fit: Fit, slopes: Sensitivity, key: str, more: Sequence[Mapping[str, float]] = ()
 ) -> list[ScoreTest]:
-    """Return what a term promises that acts from the beginning, and what one with an onset does if that is more."""
+    """Return the score test of a term that acts from the beginning, and of one with an onset if its gain is larger."""
     problem = fit.problem
     amplitudes, shapes = sort_slots(problem, key)
     grids = [list_tried_values(s.param, problem.scales) for s in shapes]
@@ -107,7 +104,7 @@ def run_score_tests(
 
 
 def _test_onsets(fit: Fit, key: str, amplitudes: Sequence[Slot], always: ScoreTest, joint: Sensitivity) -> ScoreTest:
-    """Return what a term promises that acts from some time on, if that is decisively more than what it `always` did."""
+    """Return the score test of a term with an onset if its gain is decisively larger than that of `always`."""
     best, least = always, PRICE + fit.problem.settings.select.late
     shape = {name: value for name, value in always.start.items() if name not in {a.key for a in amplitudes}}
     for time, gradient, information in cut_at_onsets(fit.problem, joint, len(amplitudes)):
@@ -118,10 +115,10 @@ def _test_onsets(fit: Fit, key: str, amplitudes: Sequence[Slot], always: ScoreTe
 
 
 def _try_far_values(fit: Fit, slot: Slot, key: str, distinct: float) -> ScoreTest:
-    """Return the best of the values of an amplitude that are tried beyond the reach of a score test.
+    """Return the best of the values of an amplitude that are too far from the null for a score test.
 
-    For each the other parameters are refitted roughly, on the beginning of the recording. It is done for the nominal
-    model alone: what is so far off is missed by it at once.
+    For each value the other parameters are refitted roughly, on the beginning of the recording. It is done for the
+    nominal model alone: a missing term of this size is evident there.
     """
     short = fit.problem.on(tuple(t.part(0, min(t.samples, SHORT)) for t in fit.problem.observations))
     size = compute_size(slot.param, fit.problem.scales)
@@ -139,10 +136,10 @@ def _try_far_values(fit: Fit, slot: Slot, key: str, distinct: float) -> ScoreTes
 
 
 def _test_secants(fit: Fit, slopes: Sensitivity, key: str, slot: Slot) -> list[ScoreTest]:
-    """Return what a term promises whose response is far from linear in its amplitude, at amplitudes of a scan.
+    """Return score tests of a term whose response is strongly nonlinear in its amplitude, at amplitudes of a scan.
 
-    In place of the slope at zero stands that of the secant to each amplitude, and no more of it is believed than half
-    or one and a half times this amplitude.
+    The slope at zero is replaced by the secant to each amplitude, and the estimate is limited to half to one and a half
+    times this amplitude.
     """
     problem = fit.problem
     reached = list_tried_values(slot.param, problem.scales)
@@ -172,13 +169,13 @@ def _test_secants(fit: Fit, slopes: Sensitivity, key: str, slot: Slot) -> list[S
 
 
 def add_term(problem: Problem, hint: ScoreTest, start: Mapping[str, float]) -> Problem:
-    """Return a problem with one more term, its choices held at what the score test chose."""
+    """Return a problem with one more term, its choices held at those of the score test."""
     wider = join_term(problem, hint.key, {**hint.start, **start})
     return replace(wider, nsub=max(wider.nsub, count_steps_for_sticking(wider, wider.start)))
 
 
 def join_term(problem: Problem, key: str, start: Mapping[str, float]) -> Problem:
-    """Return a problem with one more term, begun at `start`, its choices held at what is said there."""
+    """Return a problem with one more term that begins at `start`, its choices held at the values there."""
     _, slots = find_term(problem, key)
     choices = {s.key: start[s.key] for s in slots if s.param.choices and s.key in start}
     if onset_key(key) in problem.system.index:
@@ -189,7 +186,7 @@ def join_term(problem: Problem, key: str, start: Mapping[str, float]) -> Problem
 def make_term_parameters(
     problem: Problem, key: str, slots: list[Slot], start: Mapping[str, float]
 ) -> tuple[FreeParameter, ...]:
-    """Return the free parameters of a term of a problem; one of several sensors is late by no more than is allowed."""
+    """Return the free parameters of a term of a problem; the delay of one of several sensors is bounded."""
     frees, (term, _) = make_free_parameters(slots, problem.scales, start), find_term(problem, key)
     if term.acts != "sensor" or len(problem.observations[0].sensors) == 1:
         return frees
@@ -199,9 +196,9 @@ def make_term_parameters(
 
 
 def count_steps_for_sticking(problem: Problem, theta: Array, *, creep: float = CREEP) -> int:
-    """Return how many steps between samples a law needs that jumps at rest, so that it hardly creeps where it sticks.
+    """Return the steps between samples at which a law that jumps at rest hardly creeps during sticking.
 
-    It creeps by at most `force * mobility`, which is to be the share `creep` of the velocity of the motion.
+    Its creep is at most `force * mobility`, which is limited to the share `creep` of the velocity of the motion.
     """
     system, most, full = problem.system, 1.0, problem.full(theta)
     for key in problem.active:
@@ -215,7 +212,7 @@ def count_steps_for_sticking(problem: Problem, theta: Array, *, creep: float = C
 
 
 def _test_shapes(fit: Fit, slopes: Sensitivity, key: str, shapes: Sequence[Mapping[str, float]]) -> list[ScoreTest]:
-    """Return what a term promises at several shapes, all of them computed together."""
+    """Return the score tests of a term at several shapes, all of them computed together."""
     amplitudes, fixed = sort_slots(fit.problem, key)
     frees = (*make_term_parameters(fit.problem, key, amplitudes, {}), *(_hold_shape(slot) for slot in fixed))
     wider = fit.problem.extend(frees, {key})
@@ -236,7 +233,7 @@ def _test_shapes(fit: Fit, slopes: Sensitivity, key: str, shapes: Sequence[Mappi
 
 
 def _hold_shape(slot: Slot) -> FreeParameter:
-    """Return a shape parameter as a coordinate that stays where it is put."""
+    """Return a shape parameter as a coordinate without bounds."""
     return FreeParameter(slot.key, slot.unit, 0.0, -math.inf, math.inf)
 
 
@@ -265,16 +262,16 @@ def _join_sensitivities(
 def _solve_score_test(
     fit: Fit, key: str, amplitudes: Sequence[Slot], shape: Mapping[str, float], joint: Sensitivity
 ) -> ScoreTest:
-    """Return what a score test says of a term at one shape."""
+    """Return the score test of a term at one shape."""
     return _solve_from_gradient(fit, key, amplitudes, shape, joint.gradient(), joint.information())
 
 
 def _solve_from_gradient(
     fit: Fit, key: str, amplitudes: Sequence[Slot], shape: Mapping[str, float], gradient: Array, information: Array
 ) -> ScoreTest:
-    """Return what gradient and information of base parameters and amplitudes together say of a term."""
+    """Return the score test of a term from gradient and information of base parameters and amplitudes together."""
     if not (np.all(np.isfinite(gradient)) and np.all(np.isfinite(information))):
-        _require_finite(fit.problem, key)
+        require_finite(fit.problem, key)
         return ScoreTest(key, 0.0, dict(shape), 0.0)
     k = len(amplitudes)
     base, cross, own = information[:-k, :-k], information[:-k, -k:], information[-k:, -k:]
@@ -297,40 +294,10 @@ def _solve_from_gradient(
     return ScoreTest(key, 0.5 * float(force[kept] @ estimate), {**shape, **start}, distinct)
 
 
-def _require_finite(problem: Problem, key: str) -> None:
-    """Raise a `ContractError` if force or rates of a term, all its numbers one, are not finite along a recording."""
-    term, _ = find_term(problem, key)
-    if term.acts == "motion" and not all(_is_finite(term, observation) for observation in problem.observations):
-        raise ContractError(
-            f"the force of {key} is not a finite number along the recorded motion: mend the term, or leave it out", key
-        )
-
-
-def _is_finite(term: Term, observation: Observation) -> bool:
-    change = np.zeros(len(term.states))
-    for told in list_calls(term, observation, LOOKS):
-        if math.isfinite(told[1]) and math.isfinite(told[2]):
-            term.rate(*told, change)
-            if not (math.isfinite(term.force(*told)) and np.all(np.isfinite(change))):
-                return False
-    return True
-
-
-def list_calls(
-    term: Term, observation: Observation, looks: int
-) -> Iterator[tuple[float, float, float, Array, Values, Values]]:
-    """Yield what the force of a term is told at about `looks` points of a recording, all its numbers one at rest."""
-    p = prepare_values(term, np.ones(len(term.params) + len(term.needs)))
-    s, u = (0.0,) * len(term.states), np.zeros(max(2, observation.inputs.shape[1]))
-    speed = np.gradient(observation.response, observation.dt)
-    for k in range(0, observation.samples, max(1, observation.samples // looks)):
-        yield k * observation.dt, float(observation.response[k]), float(speed[k]), u, p, s
-
-
 def fit_term(fit: Fit, hint: ScoreTest, *, hopeless: float = -math.inf) -> Fit:
-    """Return the fit with one more term, started where its score test points, or with less of it: the best one.
+    """Return the best fit with one more term, started at the estimate of its score test or at shares of it.
 
-    With nothing of the term the likelihood is that of the fit; one that ends lower has lost its way.
+    Without the term the likelihood is that of the given fit; a fit that ends lower has failed.
     """
     _, slots = find_term(fit.problem, hint.key)
     problems = [add_term(restart(fit), hint, _scale_start(hint, slots, factor)) for factor in SHARES]
@@ -345,7 +312,7 @@ def fit_term(fit: Fit, hint: ScoreTest, *, hopeless: float = -math.inf) -> Fit:
 
 
 def refit_with_noise(fit: Fit) -> Fit:
-    """Return the fit begun anew with what is missing taken for noise of the sensor, and not for a random force."""
+    """Return the fit started with the residuals as measurement noise and not as a random force."""
     problem, theta = fit.problem, fit.theta.copy()
     for i, free in enumerate(problem.free):
         if free.level == NOISE:
@@ -356,7 +323,7 @@ def refit_with_noise(fit: Fit) -> Fit:
 
 
 def guess_large_force(problem: Problem, key: str) -> ScoreTest | None:
-    """Return a hint that a term is most of the measured force; None for one that is no force of one amplitude."""
+    """Return a start at which a term is most of the measured force; None for one that is no force of one amplitude."""
     amplitudes, shapes = sort_slots(problem, key)
     if len(amplitudes) != 1 or amplitudes[0].param.dimension != FORCE or amplitudes[0].param.low < 0.0:
         return None
@@ -365,7 +332,7 @@ def guess_large_force(problem: Problem, key: str) -> ScoreTest | None:
 
 
 def replace_term(fit: Fit, key: str, hint: ScoreTest, *, hopeless: float = -math.inf) -> Fit:
-    """Return the fit with the term of `hint` in place of its relative `key`, starting from what both of them have."""
+    """Return the fit with the term of `hint` in place of the related term `key`, started from shared parameters."""
     values = fit.values
     _, slots = find_term(fit.problem, hint.key)
     shared = {s.key: values.get(f"{key}.{s.param.name}") for s in slots}
@@ -379,9 +346,9 @@ def replace_term(fit: Fit, key: str, hint: ScoreTest, *, hopeless: float = -math
 
 
 def _list_shape_starts(problem: Problem, slots: Sequence[Slot]) -> Iterator[Array]:
-    """Yield the start of a problem with one of the shapes among `slots` put elsewhere: a thousandfold range of each.
+    """Yield the start of a problem with one of the shapes among `slots` changed over a thousandfold range.
 
-    A shape with a scan stays: it was looked for already.
+    A shape with a scan is not changed: the scan has covered its range already.
     """
     for slot in slots:
         if slot.param.null is None and slot.param.scale == "log" and not (slot.param.choices or slot.param.scan):
@@ -393,7 +360,7 @@ def _list_shape_starts(problem: Problem, slots: Sequence[Slot]) -> Iterator[Arra
 
 
 def _list_smaller_starts(problem: Problem, slots: Sequence[Slot]) -> Iterator[Array]:
-    """Yield the start of a problem with less of the amplitudes among `slots`: score tests promise too much of some."""
+    """Yield the start of a problem with smaller amplitudes among `slots`: score tests overestimate some of them."""
     at = [problem.keys.index(s.key) for s in slots if s.param.null is not None and s.key in problem.keys]
     for share in SHARES[1:] if at else ():
         theta = problem.start.copy()
@@ -402,6 +369,6 @@ def _list_smaller_starts(problem: Problem, slots: Sequence[Slot]) -> Iterator[Ar
 
 
 def _scale_start(hint: ScoreTest, slots: list[Slot], factor: float) -> dict[str, float]:
-    """Return the starting values of a hint with its amplitudes scaled."""
+    """Return the starting values of a score test with its amplitudes scaled."""
     shapes = {s.key for s in slots if s.param.null is None} | {onset_key(hint.key)}
     return {name: value if name in shapes else factor * value for name, value in hint.start.items()}

@@ -1,4 +1,4 @@
-"""A law that is the sum of two commoner laws is told as these, where its values make that the likelier story."""
+"""A law that equals the sum of two more common laws is replaced by these, where its values make that more probable."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from lostmotion.likelihood.system import key_of, onset_key
 
 
 def rewrite_in_commoner_terms(fit: Fit, candidates: Collection[str]) -> Fit:
-    """Return a fit in which commoner terms stand for one that is their sum; the fit itself where none is."""
+    """Return a fit in which more common terms replace one that is their sum; the fit itself where there is none."""
     for key in sorted(fit.problem.active):
         problem = _rewrite_term(fit, key, candidates)
         told = maximise(problem) if problem else fit
@@ -24,7 +24,7 @@ def rewrite_in_commoner_terms(fit: Fit, candidates: Collection[str]) -> Fit:
 
 
 def _rewrite_term(fit: Fit, key: str, candidates: Collection[str]) -> Problem | None:
-    """Return the problem with commoner terms in place of one, begun at the same force; None where it is no sum."""
+    """Return the problem with more common terms in place of one, at the same force; None where it is no sum."""
     term, slots = find_term(fit.problem, key)
     values = fit.values
     if not all(slot.key in values for slot in slots):

@@ -1,7 +1,7 @@
-"""Learned curves in a fit: their smoothness by marginal likelihood, their coefficients by the fit, their bands.
+"""Learned curves in a fit: smoothness by marginal likelihood, coefficients by the fit, and their bands.
 
-One score test of all coefficients gives the marginal likelihood of any smoothness in closed form, for the likelihood of
-one-step errors is close to normal in them.
+One score test of all coefficients gives the marginal likelihood of any smoothness in closed form, because the
+likelihood of the innovations is close to normal in the coefficients.
 """
 
 from __future__ import annotations
@@ -26,30 +26,30 @@ SIZES = (0.002, 0.006, 0.02, 0.06, 0.2)
 LENGTHS = (0.06, 0.12, 0.25, 0.5, 1.0)
 """Correlation lengths that are tried, in half widths of the range."""
 CHOICES = math.log(len(SIZES) * len(LENGTHS))
-"""The log price of a smoothness that was chosen."""
+"""The log prior penalty of the choice of a smoothness."""
 ROUNDS = 6
-"""A curve is nearly linear in its coefficients and begins at a score estimate: a few rounds of scoring settle it."""
+"""Rounds of scoring: a curve is nearly linear in its coefficients and begins at a score estimate."""
 EDGE, BEYOND = 0.02, 0.15
-"""How far beyond what was visited a curve goes, over its range: a richer one farther, for a motion leaves a plane, or
-the range of a hidden state, sooner."""
+"""The margin of a curve beyond the visited range, as a share of it: larger for one over two variables or a hidden
+state, because a motion leaves a plane, or the range of a hidden state, sooner."""
 GRID = (41, 31)
-"""Places along both axes at which a surface is told."""
+"""Points along both axes of the grid on which a surface is evaluated."""
 TIMES = (0.3, 1.0, 3.0, 10.0)
-"""Times in which a learned force forgets that are tried, in units of the natural time of the recording."""
+"""Memory times of a learned force that are tried, in units of the natural time of the recording."""
 TOLD = 0.1
-"""The information of the data over that of the prior from which on a coefficient is fitted."""
+"""A coefficient is fitted when the information of the data exceeds this share of that of its prior."""
 COVERED = 1e-2
-"""A direction of which less than this share of its information is left is covered by what is free anyway."""
+"""A direction with less than this share of its information left is explained by the other free parameters."""
 NUDGE = 3e-4
 """Finite-difference step of a coefficient in units of the drive."""
 
 
 @dataclass(frozen=True)
 class CurveTest:
-    """What a score test says of a curve: the log evidence it promises, its prior widths and where to start (count,).
+    """The score test of a curve: predicted gain in log evidence, prior widths and starting values (count,).
 
-    A coefficient of which the data tell next to nothing beside its prior has width zero: it is left out. `known` are
-    values of the curve that were chosen with it.
+    A coefficient with almost no information in the data has width zero: it is left out. `known` are values of the curve
+    that were chosen with it.
     """
 
     key: str
@@ -60,9 +60,9 @@ class CurveTest:
 
 
 def add_all_curves(fit: Fit) -> Fit:
-    """Return a fit in a system that has every curve beside its terms, with the ranges that the motion visited.
+    """Return a fit in a system that has every curve in addition to its terms, with the ranges that the motion visited.
 
-    All terms stay, so that one kernel serves whatever is active. A system that has them is left as it is.
+    All terms stay, so one kernel serves any active set. A system that has the curves is returned unchanged.
     """
     problem, old = fit.problem, fit.problem.system
     if any(isinstance(term, LearnedCurve) for term in old.terms):
@@ -83,7 +83,7 @@ Motions = dict[str, list[Array]]
 
 
 def smooth_motions(fit: Fit, places: Sequence[Interface]) -> Motions:
-    """Return the motion at places of the model as a fit sees it in each recording; each is smoothed once."""
+    """Return the filtered motion at places of the model in each recording; each recording is filtered once."""
     problem, distinct = fit.problem, {place.name: place for place in places}
     found: Motions = {name: [] for name in distinct}
     for observation in problem.observations:
@@ -95,7 +95,7 @@ def smooth_motions(fit: Fit, places: Sequence[Interface]) -> Motions:
 
 
 def _find_ranges(fit: Fit, curve: LearnedCurve, moved: Motions) -> dict[str, float]:
-    """Return middle and half width of the range of what a curve runs over, of a surface of both things."""
+    """Return middle and half width of the range of a curve's variable, for a surface of both variables."""
     time = fit.problem.scales.time
     found = _centre_range(*_find_range(fit, curve, curve.over, moved, time))
     if isinstance(curve, Surface):
@@ -108,9 +108,9 @@ def _centre_range(low: float, high: float) -> dict[str, float]:
 
 
 def _find_range(fit: Fit, curve: LearnedCurve, over: str, moved: Motions, time: float) -> tuple[float, float]:
-    """Return the least and the greatest value of something that moves, in all recordings, with a narrow margin.
+    """Return the least and the greatest value of a variable in all recordings, with a narrow margin.
 
-    A hidden state forgets in a `time` (s).
+    `time` (s) is the memory time of a hidden state.
     """
     problem = fit.problem
     if over in ("time", "phase"):
@@ -133,13 +133,13 @@ def _find_ends(moved: Array) -> tuple[float, float]:
 
 
 def compute_coefficient_size(term: LearnedCurve, problem: Problem) -> float:
-    """Return the natural size of the coefficients of a curve: the drive, in the dimension they have."""
+    """Return the natural size of the coefficients of a curve: the drive, in their dimension."""
     scales = problem.scales
     return term.params[0].dimension.scale(scales.force, scales.length, scales.time)
 
 
 def run_curve_test(fit: Fit, slopes: Sensitivity, key: str) -> CurveTest:
-    """Return what a curve promises; one with a memory is asked at each of some `TIMES`, for which it pays."""
+    """Return the score test of a curve; one with a memory is tested at each of `TIMES`, at a price for the choice."""
     problem, term = fit.problem, _find_curve(fit.problem, key)
     if not isinstance(term, OverHistory):
         return _choose_smoothness(fit, slopes, key)
@@ -154,10 +154,10 @@ def run_curve_test(fit: Fit, slopes: Sensitivity, key: str) -> CurveTest:
 
 
 def _choose_smoothness(fit: Fit, slopes: Sensitivity, key: str) -> CurveTest:
-    """Return what a curve promises at its best smoothness, the free parameters of the fit moving along.
+    """Return the score test of a curve at its best smoothness, with the free parameters of the fit adjusted.
 
-    With gradient g and information H of its coefficients, prior widths D: the evidence gains
-    (g'D (I + D H D)^-1 D g - log det(I + D H D)) / 2.
+    With gradient g and information H of its coefficients, prior widths D: the evidence gains (g'D (I + D H D)^-1 D g -
+    log det(I + D H D)) / 2.
     """
     problem = fit.problem
     term = _find_curve(problem, key)
@@ -183,13 +183,13 @@ def _find_curve(problem: Problem, key: str) -> LearnedCurve:
 def project_score(fit: Fit, slopes: Sensitivity, key: str) -> tuple[Array, Array]:
     """Return gradient (count,) and information (count, count) of the coefficients of a curve at zero.
 
-    What the free parameters of the fit explain as well is taken out.
+    What the free parameters of the fit explain as well is projected out.
     """
     return project_from(fit, join_curve(fit, slopes, key), len(slopes.theta))[:2]
 
 
 def join_curve(fit: Fit, slopes: Sensitivity, key: str) -> Sensitivity:
-    """Return the sensitivities of a fit with those of the coefficients of a curve at zero behind them."""
+    """Return the sensitivities of a fit, followed by those of the coefficients of a curve at zero."""
     problem, term = fit.problem, _find_curve(fit.problem, key)
     width = NUDGE * compute_coefficient_size(term, problem)
     wider = add_curve(problem, key, np.full(term.count, math.inf), np.zeros(term.count))
@@ -204,9 +204,9 @@ def join_curve(fit: Fit, slopes: Sensitivity, key: str) -> Sensitivity:
 
 
 def project_from(fit: Fit, joint: Sensitivity, k: int) -> tuple[Array, Array, Array]:
-    """Return gradient, information, and what the first `k` parameters take of the score of each coefficient (k, count).
+    """Return gradient, information, and the projection of each score on the first `k` parameters (k, count).
 
-    They are those of `projected`, from the sensitivities of `joint_of`.
+    They are those of `project_score`, from the sensitivities of `join_curve`.
     """
     problem = fit.problem
     gradient, information = joint.gradient(), joint.information()
@@ -219,10 +219,11 @@ def project_from(fit: Fit, joint: Sensitivity, k: int) -> tuple[Array, Array, Ar
 
 
 def _keep_independent(gradient: Array, left: Array, own: Array) -> tuple[Array, Array]:
-    """Return gradient and information without the directions that the free parameters of the fit cover already.
+    """Return gradient and information without the directions that the free parameters of the fit explain already.
 
-    Of the information `own` nothing is `left` there but errors of the differences, by which the rest of a gradient that
-    is not quite zero would be divided: a curve over velocity would then promise what a change of damping does.
+    In those directions nothing is `left` of the information `own` but errors of the differences. Dividing by them would
+    amplify the rest of a gradient that is not quite zero: a curve over velocity would then predict the gain of a change
+    of damping.
     """
     values, vectors = np.linalg.eigh(own)
     root = vectors * np.sqrt(np.maximum(values, 1e-9 * values[-1]))
@@ -244,7 +245,7 @@ def add_curve(problem: Problem, key: str, widths: Array, start: Array) -> Proble
 
 
 def fit_curve(fit: Fit, shape: CurveTest) -> Fit:
-    """Return the fit with one more curve, begun where its score test points, or with less of it, and fitted again."""
+    """Return the fit with one more curve, started at the estimate of its score test or at a share of it."""
     base = restart(fit).hold_values(shape.known)
     problems = [add_curve(base, shape.key, shape.widths, f * shape.start) for f in (1.0, 0.5, 0.2)]
     log_densities = [p.log_posterior(p.clip(p.start)) for p in problems]
@@ -253,9 +254,9 @@ def fit_curve(fit: Fit, shape: CurveTest) -> Fit:
 
 @dataclass(frozen=True)
 class Band:
-    """A learned curve at places `at` (points,): mean, and covariance (points, points) of mean; what it is times.
+    """A learned curve at places `at` (points,): mean, and covariance (points, points) of the mean.
 
-    A surface is given on the grid of `at` and `beside`, of which the values (points of both) stand in rows.
+    A surface is given on the grid of `at` and `beside`, with the values (points of both) in rows.
     """
 
     term: LearnedCurve
@@ -291,7 +292,7 @@ def compute_band(fit: Fit, key: str, points: int = 161) -> Band:
 
 
 def _make_axis(problem: Problem, key: str, over: str, points: int, which: str = "") -> tuple[Array, Array]:
-    """Return places (points,) in half widths (half periods) of a range, and what is there in its unit (periods)."""
+    """Return places (points,) in half widths (half periods) of a range, and their values in its unit (periods)."""
     if over == "phase":
         z = np.linspace(0.0, 2.0, points)
         return z, 0.5 * z

@@ -1,12 +1,12 @@
-"""When a model disagrees with a recording: its one-step errors over windows of time, hits, or recordings.
+"""Where a model disagrees with a recording: its innovations over windows of time, hits, or recordings.
 
-A one-step error of the filter, squared and divided by the variance that the model states for it, is one on average
-where the model holds. Its mean over a window says how much more the recording varies there than the model expects.
+The squared innovation over its variance has the mean one where the model holds. Its mean over a window is the ratio of
+the observed to the expected variation there.
 
-Some window is always the largest. Whether it is larger than chance would make it is asked by permutation: under the
-null hypothesis that the disagreement is the same all along, blocks of errors may change places. Blocks are longer than
-the memory of the squared errors, so that neighbouring errors stay together (Carlstein, Annals of Statistics 14 (1986)
-1171-1179). The p-value of each window is that of the largest excess over all windows (Westfall, Young 1993).
+The largest window is tested by permutation. Under the null hypothesis that the disagreement is the same everywhere,
+blocks of errors are exchangeable. Blocks are longer than the memory of the squared errors, so that neighbouring errors
+stay together (Carlstein, Annals of Statistics 14 (1986) 1171-1179). The p-value of each window is that of the largest
+excess over all windows (Westfall, Young 1993).
 """
 
 from __future__ import annotations
@@ -25,16 +25,16 @@ from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.predict import filter_recording
 
 WINDOWS = 30
-"""A recording has so many windows at most: more are too narrow to be read in a figure of a page."""
+"""The greatest number of windows of a recording: more are too narrow to be read in a figure of a page."""
 SHORTEST, PERIODS = 40, 1
-"""A window has so many samples and periods of the drive at least, so that it holds all phases of the motion."""
+"""The least number of samples and of periods of the drive in a window, so that it contains all phases of the motion."""
 FEWEST = 4
 """With fewer windows, or blocks to a window, nothing is tested."""
 MEMORIES = 3
-"""A block is so many times as long as it takes until squared errors are uncorrelated."""
+"""The length of a block, in lags at which squared errors become uncorrelated."""
 DRAWS = 999
 LARGEST = 1e12
-"""A filter that ran away errs by no more: squares of squares must be numbers."""
+"""The largest squared error: after a divergence, squares of squares must be finite."""
 MOST_BLOCKS = 3000
 """More blocks make the test slower, and not sharper."""
 
@@ -45,7 +45,7 @@ Numbers = NDArray[np.int64]
 class Windows:
     """Windows of a series: `edges` (windows + 1,) in samples; `aligned` says that each begins with an event (a hit).
 
-    After an event a motion dies away, so errors are compared at the same time after each event.
+    After an event a motion decays, so errors are compared at the same time after each event.
     """
 
     edges: Numbers
@@ -56,7 +56,7 @@ class Windows:
 
 
 def compute_squares(fit: Fit, observation: Observation) -> Array:
-    """Return the squared standardised one-step error (samples,), mean over the sensors; NaN where none was read."""
+    """Return the squared standardised innovation (samples,), mean over the sensors; NaN where none was read."""
     seen = filter_recording(fit.problem.on((observation,)), fit.theta)
     read = seen.taken & np.isfinite(seen.errors) & np.isfinite(seen.variances)
     with np.errstate(over="ignore", invalid="ignore"):
@@ -84,10 +84,10 @@ def average_windows(squares: Array, windows: Windows) -> Array:
 
 
 def find_memory(squares: Array, windows: Windows) -> int:
-    """Return the lag (samples) from which on squared errors of one window are uncorrelated.
+    """Return the lag (samples) at which squared errors of one window become uncorrelated.
 
-    The mean of each window is taken out first: what differs from window to window is no memory. Of windows that begin
-    with an event the mean course after it is taken out as well.
+    The mean of each window is subtracted first: differences between windows are no memory. For windows that begin with
+    an event the mean course after it is subtracted as well.
     """
     left = np.zeros(len(squares))
     for a, b in zip(windows.edges[:-1], windows.edges[1:], strict=True):
@@ -108,7 +108,7 @@ def find_memory(squares: Array, windows: Windows) -> int:
 
 
 def compute_window_p(squares: Array, windows: Windows, rng: np.random.Generator) -> Array | None:
-    """Return the p-value (windows,) of each window, adjusted for all of them; None where too little is there."""
+    """Return the p-value (windows,) of each window, adjusted for all of them; None where there are too few data."""
     block = choose_block(squares, windows)
     if windows.aligned:
         return _compare_after_events(squares, windows, block, rng)
@@ -126,7 +126,7 @@ def compute_recording_p(parts: Sequence[Array], rng: np.random.Generator) -> Arr
 def compute_trend(parts: Sequence[Array], levels: Array, rng: np.random.Generator) -> tuple[float, float] | None:
     """Return the correlation of the disagreement in recordings with their log level, and its two-sided p-value.
 
-    None where there are fewer than three levels: any two differ, and nobody knows by what.
+    None for fewer than three levels.
     """
     if len(np.unique(levels)) < FEWEST - 1 or not np.all(levels > 0.0):
         return None
@@ -142,7 +142,7 @@ def compute_trend(parts: Sequence[Array], levels: Array, rng: np.random.Generato
 
 
 def _join_blocks(parts: Sequence[Array]) -> tuple[Array, Numbers]:
-    """Return blocks of all recordings, and of which recording each is."""
+    """Return the blocks of all recordings, and the recording of each."""
     whole = [Windows(np.array([0, len(part)])) for part in parts]
     block = max(MEMORIES * find_memory(part, one) for part, one in zip(parts, whole, strict=True))
     block = max(block, sum(map(len, parts)) // MOST_BLOCKS, 1)
@@ -151,14 +151,14 @@ def _join_blocks(parts: Sequence[Array]) -> tuple[Array, Numbers]:
 
 
 def choose_block(squares: Array, windows: Windows) -> int:
-    """Return the length (samples) of the blocks that change places."""
+    """Return the length (samples) of the blocks that are permuted."""
     return max(1, MEMORIES * find_memory(squares, windows), len(squares) // MOST_BLOCKS)
 
 
 def _select_comparable(windows: Windows) -> tuple[Numbers, int]:
-    """Return the windows that are not cut short, at less than half of the usual length, and the length of the shortest.
+    """Return the windows of at least half of the usual length, and the length of the shortest of them.
 
-    A hit just before the end of a recording, or before the next one, leaves too little to be compared.
+    A hit just before the end of a recording, or before the next one, leaves too few data.
     """
     lengths = np.diff(windows.edges)
     whole = np.flatnonzero(lengths >= 0.5 * np.median(lengths))
@@ -166,7 +166,7 @@ def _select_comparable(windows: Windows) -> tuple[Numbers, int]:
 
 
 def _compare_after_events(squares: Array, windows: Windows, block: int, rng: np.random.Generator) -> Array | None:
-    """Return the p-value (windows,) of each window; blocks that begin equally long after an event change places."""
+    """Return the p-value (windows,) of each window; blocks at the same time after an event are permuted."""
     whole, long = _select_comparable(windows)
     count = long // block
     after = np.tile(np.arange(count), len(whole))
@@ -190,7 +190,7 @@ def _average_blocks(squares: Array, starts: Numbers, block: int) -> Array:
 
 
 def _permute(values: Array, which: Numbers, strata: Numbers, rng: np.random.Generator) -> Array | None:
-    """Return the p-value of the mean (windows,) of blocks; blocks of one stratum change places with one another."""
+    """Return the p-value of the mean (windows,) of blocks, which are permuted within each stratum."""
     count = int(which.max()) + 1 if len(which) else 0
     sizes = np.bincount(which, minlength=count)
     if count < 2 or len(values) < FEWEST * count or sizes.min() < 1 or not np.std(values) > 0.0:

@@ -1,4 +1,4 @@
-"""Marginal likelihoods checked by sampling: Laplace's method assumes a normal posterior."""
+"""Marginal likelihoods checked by importance sampling: Laplace's method assumes a normal posterior."""
 
 from __future__ import annotations
 
@@ -12,16 +12,16 @@ from lostmotion.inference.fit import MANY, Fit
 from lostmotion.results.diagnosis import SampledEvidence
 
 HEAVY = 5.0
-"""Degrees of freedom of the t density that is sampled from: its tails must be heavier than those of the posterior."""
+"""Degrees of freedom of the t proposal density: its tails must be heavier than those of the posterior."""
 WIDER = 1.2
 
 
 def sample_evidence(fit: Fit, rng: np.random.Generator, draws: int = 150) -> SampledEvidence:
     """Return the log evidence of a fit by importance sampling about its maximum.
 
-    Geweke, Econometrica 57 (1989) 1317-1339. Coordinates that press against a bound are drawn beyond it as well; such
-    draws have no weight, so the cut is counted. The noise of a filter through kinks counts as well. Beyond `MANY`
-    coordinates the weights would fall on a few draws, and nothing is sampled.
+    Geweke, Econometrica 57 (1989) 1317-1339. Coordinates at a bound are drawn beyond it as well; such draws have weight
+    zero, so the truncation is included. So is the roughness of a filter through kinks. Beyond `MANY` coordinates a few
+    draws would have all the weight, and nothing is sampled.
     """
     if len(fit.theta) > MANY:
         return SampledEvidence(fit.log_evidence, -math.inf, math.inf, 0.0)

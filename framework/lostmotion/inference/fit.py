@@ -1,8 +1,8 @@
-"""Fits by Fisher scoring on the innovations, and the evidence they leave.
+"""Fits by Fisher scoring on the innovations, and their evidence by Laplace's method.
 
 The expected information of a prediction-error likelihood needs first derivatives only (Schweppe 1965; Gupta, Mehra,
-IEEE Trans. Automatic Control 19 (1974) 774-783), so it is positive and survives the roughness of a filter through
-a kink, where a finite-difference Hessian does not.
+IEEE Trans. Automatic Control 19 (1974) 774-783), so it is positive and robust against the roughness of a filter through
+a kink, unlike a finite-difference Hessian.
 """
 
 from __future__ import annotations
@@ -19,14 +19,14 @@ BLOCKS = 40
 STRIDE = 0.3
 """Finite-difference step in conditional standard deviations: small against the posterior, large against roughness."""
 MANY = 20
-"""Beyond so many parameters derivatives cost more than all else, and are kept while steps along them gain."""
+"""Beyond this number of parameters derivatives dominate the cost, and are reused while steps along them gain."""
 REUSES = 8
 STEEPEST = 4.0
-"""So many times the expected curvature is believed along a step that gained less than half of what it promised."""
+"""The largest correction of the expected curvature along a step that gained less than half of the prediction."""
 STEP_FACTOR = 3.0
-"""Derivatives are taken anew where the first steps were wrong by more than this factor."""
+"""Derivatives are computed again where the first finite-difference steps were wrong by more than this factor."""
 DAMPINGS = (1.0, 8.0, 64.0, 512.0)
-"""Steps with so many times the damping are tried at once."""
+"""Steps with these multiples of the damping are tried at once."""
 
 
 @dataclass(frozen=True)
@@ -85,9 +85,9 @@ class Fit:
 
 
 def solve_scaled(information: Array, right: Array) -> Array:
-    """Return the solution of `information @ x = right`, each coordinate first scaled to unit information.
+    """Return the solution of `information @ x = right`, with each coordinate scaled to unit information.
 
-    Parameters differ by many powers of ten, and a cut at small eigenvalues would drop the large ones.
+    Parameters differ by many orders of magnitude, and a cut at small eigenvalues would drop some of them.
     """
     unit = 1.0 / np.sqrt(np.maximum(np.diag(information), 1e-300))
     scaled = information * np.outer(unit, unit)
@@ -96,7 +96,7 @@ def solve_scaled(information: Array, right: Array) -> Array:
 
 
 def choose_first_steps(problem: Problem) -> Array:
-    """Return finite-difference steps to begin with: a thousandth of a logarithm, or of the prior width."""
+    """Return the first finite-difference steps: a thousandth of a logarithm, or of the prior width."""
     return np.array(
         [1e-3 if f.log or f.key.startswith("log_") else 1e-3 * min(f.sd, f.high - f.low) for f in problem.free]
     )
@@ -118,7 +118,7 @@ class Sensitivity:
         return np.asarray(self.errors @ (-e / v) + self.variances @ (0.5 * (e * e / v - 1.0) / v))
 
     def scores(self) -> Array:
-        """Return what each sample contributes to the gradient, (parameters, samples)."""
+        """Return the score of each sample: its contribution to the gradient, (parameters, samples)."""
         e, v = self.here.errors, self.here.variances
         return np.asarray(self.errors * (-e / v) + self.variances * (0.5 * (e * e / v - 1.0) / v))
 
@@ -129,9 +129,9 @@ class Sensitivity:
 
 
 def make_stencil(problem: Problem, theta: Array, steps: Array) -> tuple[Array, Array]:
-    """Return coordinates above and below `theta`, (n,) each: equal where one side is enough, or a bound forbids it.
+    """Return coordinates above and below `theta`, (n,) each: equal to it where one side is enough or a bound is met.
 
-    Differences are central, but for coordinates in which errors are straight.
+    Differences are central, except for coordinates in which the innovations are linear.
     """
     space = problem.space
     straight = np.array([f.linear for f in problem.free], dtype=bool)
@@ -139,14 +139,14 @@ def make_stencil(problem: Problem, theta: Array, steps: Array) -> tuple[Array, A
 
 
 def list_stencil_points(theta: Array, up: Array, down: Array) -> Array:
-    """Return the points (count, n) of a stencil: the middle, those above, those below that differ from the middle."""
+    """Return the points (count, n) of a stencil: the centre, those above, and those below that differ from it."""
     above = theta + np.diag(up - theta)
     below = theta + np.diag(down - theta)
     return np.vstack([theta[None], above, below[down != theta]])
 
 
 def compute_sensitivity(problem: Problem, theta: Array, steps: Array) -> Sensitivity:
-    """Return innovations and their derivatives at `theta`, by differences that stay within the bounds."""
+    """Return innovations and their derivatives at `theta`, by differences within the bounds."""
     up, down = make_stencil(problem, theta, steps)
     return compute_differences(theta, (up, down), problem.filter_many(list_stencil_points(theta, up, down)), steps)
 
@@ -154,7 +154,7 @@ def compute_sensitivity(problem: Problem, theta: Array, steps: Array) -> Sensiti
 def compute_differences(theta: Array, ends: tuple[Array, Array], seen: Innovations, steps: Array) -> Sensitivity:
     """Return the derivatives from the innovations `seen` at the points of a stencil.
 
-    Where the filter does not get through on one side, the other has to do.
+    Where the filter diverges on one side, the difference is one-sided.
     """
     (up, down), count = ends, len(theta)
     below = np.zeros(count, dtype=np.intp)
@@ -171,8 +171,8 @@ def compute_differences(theta: Array, ends: tuple[Array, Array], seen: Innovatio
 def expand(problem: Problem, theta: Array, steps: Array) -> Expansion:
     """Return the log posterior at `theta` with its gradient and its expected information.
 
-    A uniform prior counts with its variance: where the recording tells nothing of a parameter, its posterior is as wide
-    as its prior, and the evidence by Laplace's method neither gains nor loses by it.
+    A uniform prior contributes the information of its variance: where the recording does not inform a parameter, its
+    posterior is as wide as its prior, and it does not change the evidence by Laplace's method.
     """
     return _expand_from(problem, compute_sensitivity(problem, theta, steps))
 
@@ -191,7 +191,7 @@ def _expand_from(problem: Problem, slopes: Sensitivity) -> Expansion:
 
 
 def _tune_steps(local: Expansion, problem: Problem) -> Array:
-    """Return steps of `STRIDE` conditional standard deviations, within reason."""
+    """Return steps of `STRIDE` conditional standard deviations, within bounds."""
     widths = np.array([min(f.sd, f.high - f.low) for f in problem.free])
     curvature = np.maximum(np.diag(local.information), 1e-300)
     return np.clip(STRIDE / np.sqrt(curvature), 1e-9 * widths, 0.05 * widths)
@@ -207,8 +207,8 @@ def maximise(
 ) -> Fit:
     """Return the maximum of the log posterior near `theta`, by damped Fisher scoring within the bounds.
 
-    It has converged when a full step promises a gain of less than `tolerance` in log posterior, and is abandoned
-    when after a few rounds five times the promise would not reach `hopeless`.
+    It has converged when a full step predicts a gain of less than `tolerance` in log posterior. It is abandoned when
+    after a few rounds five times the predicted gain would not reach `hopeless`.
     """
     point = problem.clip(problem.start if theta is None else theta)
     local = expand(problem, point, choose_first_steps(problem))
@@ -239,10 +239,10 @@ def maximise(
 
 
 def _correct_curvature(local: Expansion, before: Expansion) -> Expansion:
-    """Return the expansion with the curvature that was met along the last step, where the expected one is too small.
+    """Return the expansion with the curvature found along the last step, where the expected one is too small.
 
-    Where something is left over, the expected information of the noise levels is too small: steps overshoot by nearly
-    their own length, again and again.
+    Where the model does not explain the data, the expected information of the noise levels is too small: steps
+    overshoot repeatedly by nearly their own length.
     """
     step = local.theta - before.theta
     pulled = local.information @ step
@@ -252,9 +252,9 @@ def _correct_curvature(local: Expansion, before: Expansion) -> Expansion:
 
 
 def _climb(problem: Problem, local: Expansion, damping: float) -> Expansion | None:
-    """Return the expansion at the best of several steps, the more damped the shorter, or None where none gains.
+    """Return the expansion at the best of several steps with different damping, or None where none gains.
 
-    They are computed together with the stencil of the longest step, which is the one to be taken as a rule.
+    They are computed together with the stencil of the longest step, which is usually accepted.
     """
     trials = [problem.clip(local.theta + _compute_step(problem, local, factor * damping)[0]) for factor in DAMPINGS]
     steps = _tune_steps(local, problem)
@@ -288,7 +288,7 @@ def _maximise_many(problem: Problem, local: Expansion, rounds: int, tolerance: f
 
 
 def _reuse_derivatives(problem: Problem, slopes: Sensitivity, local: Expansion) -> Array:
-    """Return where steps along derivatives that are held lead, as long as they gain; one filter run for each."""
+    """Return the end of steps with the same derivatives, as long as they gain; one filter run for each."""
     damping = 1e-3
     for _ in range(REUSES):
         step, promise = _compute_step(problem, local, damping)
@@ -306,7 +306,7 @@ def _reuse_derivatives(problem: Problem, slopes: Sensitivity, local: Expansion) 
 
 
 def _compute_step(problem: Problem, local: Expansion, damping: float) -> tuple[Array, float]:
-    """Return the damped step and the gain it promises; coordinates that press against a bound stay there."""
+    """Return the damped step and its predicted gain; coordinates at a bound with an outward gradient stay there."""
     low, high = problem.space.low, problem.space.high
     pressed = ((local.theta <= low) & (local.gradient < 0)) | ((local.theta >= high) & (local.gradient > 0))
     loose = np.flatnonzero(~pressed)
@@ -322,12 +322,12 @@ def _compute_step(problem: Problem, local: Expansion, damping: float) -> tuple[A
 
 
 def use_one_core(fit: Fit) -> Fit:
-    """Return the fit with its problem on one core, for work that is spread over the cores already."""
+    """Return the fit with its problem on one core, for work that is divided over the cores already."""
     return replace(fit, problem=replace(fit.problem, jobs=1))
 
 
 def use_cores(fit: Fit, jobs: int) -> Fit:
-    """Return the fit with its problem on so many cores."""
+    """Return the fit with its problem on this number of cores."""
     return replace(fit, problem=replace(fit.problem, jobs=jobs))
 
 
@@ -340,10 +340,10 @@ def restart(fit: Fit) -> Problem:
 
 
 def compute_robust_covariance(fit: Fit) -> Array:
-    """Return the covariance of the estimate that holds when something is left over that the model does not explain.
+    """Return the covariance of the estimate that is valid where the model leaves correlated residuals.
 
-    The sandwich of Huber (1967) and White, Econometrica 50 (1982) 1-25, with scores added up over contiguous blocks,
-    so that leftovers with a memory count for as little as they should. Never smaller than the usual covariance.
+    The sandwich of Huber (1967) and White, Econometrica 50 (1982) 1-25, with scores summed over contiguous blocks, so
+    that correlated residuals reduce the information. Never smaller than the usual covariance.
     """
     scores = compute_sensitivity(fit.problem, fit.theta, fit.local.steps).scores()
     edges = np.linspace(0, scores.shape[1], BLOCKS + 1).astype(int)[:-1]
@@ -356,7 +356,7 @@ def compute_robust_covariance(fit: Fit) -> Array:
 
 
 def raise_random_force(problem: Problem, theta: Array, by: float) -> Array:
-    """Return the coordinates with the random force raised, so that a fit begins where the posterior is smooth."""
+    """Return the coordinates with a larger random force, where the posterior is smoother."""
     warm = theta.copy()
     warm[[f.parameter == RANDOM for f in problem.free]] += by
     return problem.clip(warm)

@@ -1,4 +1,4 @@
-"""Since when a term acts: how a recording tells it at first sight, and how it is estimated."""
+"""The onset of a term: its first estimate from score tests, its fit, and its interval."""
 
 from __future__ import annotations
 
@@ -15,21 +15,21 @@ from lostmotion.likelihood.system import ALWAYS, onset_key
 from lostmotion.results import Interval
 
 TIMES = 24
-"""So many onsets are tried, evenly over a recording."""
+"""The number of onsets that are tried, evenly over a recording."""
 AROUND, GRID, DEPTH = 0.1, 96, 12.0
-"""An interval of an onset is sought over this share of a recording to either side, at so many places at once, and among
-those whose log-likelihood is this much lower at the most."""
+"""The interval of an onset is sought over this share of a recording to either side, on this many grid points, where the
+log-likelihood is at most this much lower."""
 PRICE = math.log(TIMES)
-"""The log price of an onset that was chosen."""
+"""The log prior penalty of the choice of an onset."""
 
 
 def can_have_onset(problem: Problem, key: str) -> bool:
-    """Return whether an onset of a term can be told: of one recording, and not of a sensor."""
+    """Return whether the onset of a term can be estimated: for one recording, and not for a sensor."""
     return len(problem.observations) == 1 and onset_key(key) in problem.system.index
 
 
 def find_onset(problem: Problem, key: str) -> float:
-    """Return since when (s) a term acts by what is known, `ALWAYS` if from the beginning."""
+    """Return the time (s) from which a term acts in a problem, `ALWAYS` if from the beginning."""
     return problem.system.onset(problem.known, key)
 
 
@@ -44,8 +44,8 @@ def list_onsets(problem: Problem) -> Array:
 def cut_at_onsets(problem: Problem, joint: Sensitivity, k: int) -> Iterator[tuple[float, Array, Array]]:
     """Yield each onset (s) with gradient and information where the last `k` coordinates act from it on alone.
 
-    What came before is forgotten by a filter within a few cycles, so that the sensitivity behind an onset is that of a
-    term which was always there: sums over its part of the samples.
+    A filter forgets earlier samples within a few cycles. So the sensitivity after an onset is that of a term that acts
+    from the beginning, summed over the samples after it.
     """
     observation, times = problem.observations[0], list_onsets(problem)
     width = len(observation.sensors)
@@ -69,7 +69,7 @@ def make_onset_parameter(problem: Problem, key: str, start: float) -> FreeParame
 
 
 def refine_onset(fit: Fit, key: str) -> Fit:
-    """Return the fit with the onset of a term held where the likelihood is highest nearby; as it is without one."""
+    """Return the fit with the onset of a term held at the nearest maximum; unchanged for a term without one."""
     if not find_onset(fit.problem, key) > ALWAYS:
         return fit
     wider = restart(fit).extend((make_onset_parameter(fit.problem, key, find_onset(fit.problem, key)),), ())
@@ -80,10 +80,10 @@ def refine_onset(fit: Fit, key: str) -> Fit:
 
 
 def drop_weak_onsets(fit: Fit) -> Fit:
-    """Return a fit in which only those onsets are left that are believed; all other terms act from the beginning.
+    """Return a fit with only those onsets that the evidence supports; all other terms act from the beginning.
 
-    Few machines change while they are recorded; and where what is left over has a memory, a change wins more than
-    independent samples would let it, by the square of how much wider errors are than usual.
+    Few machines change during a recording. Where residuals are correlated, an onset gains more evidence than with
+    independent samples, by the square of the ratio of robust to usual standard deviations.
     """
     for key in sorted(fit.problem.active):
         if find_onset(fit.problem, key) > ALWAYS and fit.status != "diverged":
@@ -95,10 +95,10 @@ def drop_weak_onsets(fit: Fit) -> Fit:
 
 
 def estimate_onset(fit: Fit, key: str) -> Interval | None:
-    """Return median and central 95 % interval of the onset of a term, all else as it is; None where it has none.
+    """Return median and central 95 % interval of the onset of a term, other parameters held; None where it has none.
 
     A likelihood over onsets has kinks, and is flat where the term does nothing, so it is summed over a grid: first over
-    a part of the recording about the onset, then over where it is high.
+    a part of the recording about the onset, then over the region of high likelihood.
     """
     problem, at = fit.problem, find_onset(fit.problem, key)
     if not at > ALWAYS:
@@ -120,5 +120,5 @@ def estimate_onset(fit: Fit, key: str) -> Interval | None:
 
 
 def compute_onset_price(problem: Problem) -> float:
-    """Return the log price of the onsets of the terms at work."""
+    """Return the log prior penalty of the onsets of the active terms."""
     return PRICE * sum(find_onset(problem, key) > ALWAYS for key in problem.active)

@@ -17,7 +17,7 @@ import numpy as np
 
 from lostmotion.contracts import Array, Term
 from lostmotion.errors import ContractError, DataError, LostMotionError, PluginWarning
-from lostmotion.inference.candidates import list_calls
+from lostmotion.inference.calls import list_calls
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.system import key_of
 from lostmotion.registry import Registry
