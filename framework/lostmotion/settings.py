@@ -312,6 +312,12 @@ class LevelSettings:
         "Chaos is weak when the exponent is below this, in nat per drive period: a recording may show nothing of it.",
         "`benchmarks/levels.py errors`: 6 of 10 recordings of weak chaos were classified correctly",
     )
+    harmonic: float = _number(
+        0.1,
+        "A drive is harmonic when this share of its standard deviation, or less, is not a sine of one frequency: its"
+        " noise and small harmonics.",
+        most=1.0,
+    )
 
 
 @dataclass(frozen=True)
