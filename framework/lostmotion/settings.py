@@ -212,6 +212,12 @@ class NameSettings:
         "A named finding has a probability above this; a finding with a doubt is reported with at most this.",
         most=1.0,
     )
+    simplest: float = _number(
+        0.5,
+        "A term that explains the data better than any learned curve, but no better than a generic smooth force, has"
+        " its probability among the terms times this: the smooth force may be real.",
+        most=1.0,
+    )
     rival: float = _number(
         0.05, "A set of terms with a larger share of the posterior is reported as a rival.", most=1.0
     )
@@ -305,6 +311,12 @@ class LevelSettings:
         0.5,
         "Chaos is weak when the exponent is below this, in nat per drive period: a recording may show nothing of it.",
         "`benchmarks/levels.py errors`: 6 of 10 recordings of weak chaos were classified correctly",
+    )
+    harmonic: float = _number(
+        0.1,
+        "A drive is harmonic when this share of its standard deviation, or less, is not a sine of one frequency: its"
+        " noise and small harmonics.",
+        most=1.0,
     )
 
 

@@ -11,8 +11,15 @@ from lostmotion.case import CaseFile, Prior
 from lostmotion.case.levels import Level, Measured
 from lostmotion.codec import to_plain
 from lostmotion.errors import CaseError, DataError
-from lostmotion.identification.levels import Survey, _free, derived, inversion_of, quantifier_task, wanted_of
-from lostmotion.identification.result import drive_level
+from lostmotion.identification.levels import (
+    MapGrid,
+    _make_free_parameter,
+    compute_derived,
+    make_inversion,
+    make_level_numbers,
+    make_quantifier_task,
+)
+from lostmotion.identification.result import make_drive_level
 from lostmotion.likelihood.space import FreeParameter
 from lostmotion.maps.atlas import CHAOTIC, PERIODIC, Atlas
 from lostmotion.maps.inversion import Inversion, compute_likelihood, group_levels, predict_levels
@@ -148,7 +155,7 @@ def test_predictions_are_those_of_the_map():
     assert found.chaotic_share == 1.0
     assert found.lyapunov.median == pytest.approx(2.0 * 0.15, rel=0.05)
     assert found.lyapunov.low <= found.lyapunov.median <= found.lyapunov.high
-    told = to_plain(drive_level(replace(found, level=replace(level, lyapunov=Measured(0.3, 0.1)))))
+    told = to_plain(make_drive_level(replace(found, level=replace(level, lyapunov=Measured(0.3, 0.1)))))
     assert told["predicted"]["chaotic_share"] == 1.0
     assert {"low", "median", "high"} == told["predicted"]["lyapunov"].keys()
     assert told["lyapunov"] == {"value": 0.3, "low": pytest.approx(0.104), "high": pytest.approx(0.496), "unit": "1/s"}
@@ -179,10 +186,10 @@ def test_levels_of_one_frequency_share_a_map():
 
 def test_priors_are_cut_where_a_map_must_end():
     model = default().make("model", "lin_backlash")
-    half = _free("c", Prior(half_sd=2.0), model)
+    half = _make_free_parameter("c", Prior(half_sd=2.0), model)
     assert 0.0 < half.low < 0.05
     assert 6.0 < half.high < 8.0
-    log = _free("x0", Prior(median=0.5, sd_log=0.1), model)
+    log = _make_free_parameter("x0", Prior(median=0.5, sd_log=0.1), model)
     assert log.log
     assert math.exp(log.low) == pytest.approx(0.5 * math.exp(-0.329), rel=1e-3)
 
@@ -205,34 +212,36 @@ def test_an_open_stiffness_adds_the_frequency_ratio_to_the_map(tmp_path):
     levels = (Level("a", 0.5, 0.2, "chaotic", unit="N"), Level("b", 0.4, 0.2, "periodic", unit="N"))
     estimate = {"x0": Prior(low=0.8, high=1.3), "c": Prior(low=0.03, high=0.06), "k0": Prior(median=1.0, sd_log=0.02)}
     case = CaseFile("open", Path(), (), "lin_backlash", {"m": 1.0}, estimate, {}, (), "none", levels=levels)
-    survey = Survey(alpha=16, zeta=4, ratios=3, periods=100, transient=60, starts=1)
-    made = inversion_of(case, levels, default(), tmp_path, survey)
+    survey = MapGrid(alpha=16, zeta=4, ratios=3, periods=100, transient=60, starts=1)
+    made = make_inversion(case, levels, default(), tmp_path, survey)
     assert made.atlases[0].names == ("alpha", "zeta", "frequency_ratio")
     assert made.atlases[0].shape == (8, 2, 3)
     inside = made.log_likelihoods(np.array([[1.0, 0.04, 0.0], [0.8, 0.03, made.free[2].low]]))
     assert np.isfinite(inside).all()
     assert set(made.compute_numbers(np.array([[1.0, 0.04, 0.0]]))) == {"zeta"}
-    again = inversion_of(case, levels, default(), tmp_path, Survey(maps=tuple(tmp_path.glob("*.nc"))))
+    again = make_inversion(case, levels, default(), tmp_path, MapGrid(maps=tuple(tmp_path.glob("*.nc"))))
     assert np.array_equal(again.log_likelihoods(np.array([[1.0, 0.04, 0.0]])), inside[:1])
     wide = replace(case, estimate={**estimate, "x0": Prior(low=0.5, high=1.3)})
     with pytest.raises(DataError, match="priors ask for"):
-        inversion_of(wide, levels, default(), tmp_path, Survey(maps=tuple(tmp_path.glob("*.nc"))))
+        make_inversion(wide, levels, default(), tmp_path, MapGrid(maps=tuple(tmp_path.glob("*.nc"))))
 
 
 def test_a_task_is_ready_to_be_sampled_and_changes_with_what_was_seen(tmp_path):
     levels = (Level("a", 0.5, 0.2, "chaotic", unit="N"), Level("b", 0.39, 0.2, "periodic", unit="N"))
     estimate = {"x0": Prior(low=0.8, high=1.3, scale="log"), "zeta": Prior(low=0.015, high=0.03)}
     case = CaseFile("task", Path(), (), "lin_backlash", {"m": 1.0, "k0": 1.0}, estimate, {}, (), "none", levels=levels)
-    survey = Survey(alpha=16, zeta=4, periods=100, transient=60, starts=1)
+    survey = MapGrid(alpha=16, zeta=4, periods=100, transient=60, starts=1)
     told = []
-    task = quantifier_task(case, default(), tmp_path, np.random.default_rng(1), survey, say=lambda *x: told.append(x))
+    task = make_quantifier_task(
+        case, default(), tmp_path, np.random.default_rng(1), survey, say=lambda *x: told.append(x)
+    )
     assert told[-1] == (64, 64)
     assert [(s.name, s.unit, s.power) for s in task.shown] == [("x0", "m", 1.0), ("zeta", "1", 0.0)]
     assert np.isfinite(task.posterior.log_likelihoods(task.maximum[None])).all()
-    assert np.allclose(derived(task.posterior, task.maximum[None]).get("zeta", 0.0), 0.0)
+    assert np.allclose(compute_derived(task.posterior, task.maximum[None]).get("zeta", 0.0), 0.0)
     other = replace(case, levels=(levels[0],))
-    again = quantifier_task(
-        other, default(), tmp_path, np.random.default_rng(1), Survey(maps=(*tmp_path.glob("*.nc"),))
+    again = make_quantifier_task(
+        other, default(), tmp_path, np.random.default_rng(1), MapGrid(maps=(*tmp_path.glob("*.nc"),))
     )
     assert again.digest != task.digest
 
@@ -240,7 +249,7 @@ def test_a_task_is_ready_to_be_sampled_and_changes_with_what_was_seen(tmp_path):
 def test_a_case_without_levels_is_told_what_is_wanted(tmp_path):
     case = CaseFile("none", Path(), (), "lin_backlash", {}, {}, {}, (), "none")
     with pytest.raises(CaseError, match=r"neither \[\[levels\]\] nor"):
-        quantifier_task(case, default(), tmp_path, np.random.default_rng(1))
+        make_quantifier_task(case, default(), tmp_path, np.random.default_rng(1))
 
 
 @pytest.mark.parametrize(
@@ -262,4 +271,4 @@ def test_cases_that_cannot_be_inverted_are_refused_in_a_sentence(known, estimate
     levels = (Level("a", 0.5, 0.2, "chaotic", unit=unit),)
     case = CaseFile("bad", Path(), (), "lin_backlash", known, estimate, {}, (), "none", levels=levels)
     with pytest.raises(CaseError, match=says):
-        wanted_of(case, levels, default())
+        make_level_numbers(case, levels, default())

@@ -103,23 +103,23 @@ def identify(
     wanted. `route` is "trajectory" or "quantifiers", which needs the path of a case, and may be given `maps`.
     `settings` are as for `diagnose`.
     """
-    from lostmotion.identification.run import Order, identified, inference_of, route_of
+    from lostmotion.identification.run import IdentificationRequest, choose_route, identify_case, make_inference_data
     from lostmotion.identification.sampling import SamplingPlan
     from lostmotion.preparation.prepare import case_of
 
     known_to = registry or default()
     limits = read(settings)
     plan = SamplingPlan(ess, max_steps, walkers, limits.chain)
-    order = Order(_texts(terms), seed, jobs, plan, route, tuple(Path(m) for m in maps), fresh, limits)
+    order = IdentificationRequest(_texts(terms), seed, jobs, plan, route, tuple(Path(m) for m in maps), fresh, limits)
     with shown("identify", progress) as say, TemporaryDirectory() as spare:
         place = Path(out) if out is not None else Path(spare)
         file = case_of(Path(case), known_to) if isinstance(case, str | Path) else None
-        if file is not None and route_of(file, order) == "quantifiers":
-            done = identified(file, None, place, known_to, order, lambda _steps, says: say(says))
+        if file is not None and choose_route(file, order) == "quantifiers":
+            done = identify_case(file, None, place, known_to, order, lambda _steps, says: say(says))
         else:
             prepared = case_from(case, model, known, estimate, known_to).prepared(known_to)
-            done = identified(prepared.case, prepared, place, known_to, order, lambda _steps, says: say(says))
-        data = inference_of(done)
+            done = identify_case(prepared.case, prepared, place, known_to, order, lambda _steps, says: say(says))
+        data = make_inference_data(done)
     found = IdentificationResult(done.result, {name: data[name] for name in data.groups()})
     if out is not None:
         found.save(out)
