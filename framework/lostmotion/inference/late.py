@@ -9,9 +9,11 @@ import numpy as np
 
 from lostmotion.contracts import Array
 from lostmotion.inference.fit import Fit, Sensitivity, maximise, restart
+from lostmotion.inference.natural import find_term
 from lostmotion.inference.standing import standing
 from lostmotion.likelihood.problem import FreeParameter, Problem
 from lostmotion.likelihood.system import ALWAYS, onset_key
+from lostmotion.quantities import TIME
 from lostmotion.results import Interval
 
 TIMES = 24
@@ -24,8 +26,14 @@ PRICE = math.log(TIMES)
 
 
 def can_have_onset(problem: Problem, key: str) -> bool:
-    """Return whether the onset of a term can be estimated: for one recording, and not for a sensor."""
-    return len(problem.observations) == 1 and onset_key(key) in problem.system.index
+    """Return whether an onset of a term can be estimated: from one recording, and not of a sensor.
+
+    A term whose own parameters say when it acts (a change at a time, a warming up) has no second time beside that.
+    """
+    if len(problem.observations) > 1 or onset_key(key) not in problem.system.index:
+        return False
+    term, _ = find_term(problem, key)
+    return not any(param.lasting and param.dimension == TIME for param in term.params)
 
 
 def find_onset(problem: Problem, key: str) -> float:
