@@ -11,15 +11,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass, field, fields, replace
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from lostmotion.errors import CaseError, nearest
-
-
-def _number(value: float, why: str, source: str = "", least: float = 0.0, most: float = math.inf) -> Any:
-    """Return a dataclass field with its default, its reason, its source and its allowed range."""
-    metadata = {"default": value, "why": why, "source": source, "least": least, "most": most}
-    return field(default=value, metadata=metadata)
+from lostmotion.thresholds import ChainSettings as ChainSettings
+from lostmotion.thresholds import LevelSettings as LevelSettings
+from lostmotion.thresholds import MotionSettings as MotionSettings
+from lostmotion.thresholds import number as _number
 
 
 @dataclass(frozen=True)
@@ -272,81 +270,6 @@ class SharedSettings:
     level: float = _number(0.01, "The significance level for calling parameters different.", most=1.0)
     alike: float = _number(
         0.01, "Values that differ by less than this share count as equal in engineering terms.", most=1.0
-    )
-
-
-@dataclass(frozen=True)
-class ChainSettings:
-    """Convergence of a Markov chain."""
-
-    long: float = _number(
-        50.0,
-        "The least length of a chain in autocorrelation times: from shorter chains that time cannot be estimated.",
-        "Foreman-Mackey et al., PASP 125 (2013) 306",
-    )
-    steady: float = _number(
-        0.02,
-        "The longest autocorrelation time has converged when it grows by less than this share between checks.",
-        most=1.0,
-    )
-    agreed: float = _number(
-        1.01, "The largest accepted R-hat.", "Vehtari et al., Bayesian Analysis 16 (2021) 667-718", least=1.0
-    )
-
-
-@dataclass(frozen=True)
-class LevelSettings:
-    """Which motions count as chaotic when parameters are identified from exponents and dimensions."""
-
-    chaotic: float = _number(
-        2.0, "A motion is chaotic when its exponent exceeds zero by more than this many standard errors."
-    )
-    weak: float = _number(
-        0.5,
-        "Chaos is weak when the exponent is below this, in nat per drive period: a recording may show nothing of it.",
-        "`benchmarks/levels.py errors`: 6 of 10 recordings of weak chaos were classified correctly",
-    )
-    harmonic: float = _number(
-        0.1,
-        "A drive is harmonic when this share of its standard deviation, or less, is not a sine of one frequency: its"
-        " noise and small harmonics.",
-        most=1.0,
-    )
-
-
-@dataclass(frozen=True)
-class MotionSettings:
-    """Classifying a recorded motion as periodic, quasiperiodic, chaotic or noise."""
-
-    level: float = _number(
-        0.05, "The significance level of each surrogate test.", "Theiler et al., Physica D 58 (1992) 77-94", most=1.0
-    )
-    efolds: float = _number(
-        0.8,
-        (
-            "Growth over fewer e-foldings is no evidence: noise with a long memory shows up to 0.65 "
-            "(`benchmarks/verdicts.py`)."
-        ),
-    )
-    turns: float = _number(
-        1.0, "Growth over fewer cycles of the motion is no evidence: distances rise and fall within a cycle."
-    )
-    flat: float = _number(
-        1.5, "A dimension whose interval ends below this belongs to a closed curve: a chaotic flow has more than 2."
-    )
-    still: float = _number(0.05, "An entropy of fewer e-foldings per cycle cannot be distinguished from zero.")
-    left: float = _number(
-        0.5,
-        "The greatest share of the variance that does not repeat in a motion called periodic with fluctuations.",
-        most=1.0,
-    )
-    uneven: float = _number(
-        2.0,
-        "From this ratio of the standard deviations of its two halves on, a recording is not stationary.",
-        least=1.0,
-    )
-    measured: float = _number(
-        2.0, "How many of exponent, dimension and entropy must indicate chaos.", least=1.0, most=3.0
     )
 
 

@@ -155,7 +155,7 @@ def analyse(
     for `diagnose`.
     """
     from lostmotion.analysis.run import AnalysisRequest, analyse_source
-    from lostmotion.analysis.source import WantedChannel, source_in, source_of
+    from lostmotion.analysis.source import WantedChannel, extract_source, load_source
 
     request = AnalysisRequest(
         columns=_texts(columns),
@@ -174,10 +174,10 @@ def analyse(
     )
     known_to = registry or default()
     if isinstance(recording, Recording):
-        source = source_in(recording, _sensor(recording, channel))
+        source = extract_source(recording, _sensor(recording, channel))
     else:
         wanted = WantedChannel(request.columns or _texts(channel or ()), request.rate, request.every)
-        source = source_of(Path(recording), wanted, known_to)
+        source = load_source(Path(recording), wanted, known_to)
     with shown("analyse", progress) as say:
         result, arrays = analyse_source(source, known_to, request, say)
     found = AnalysisResult(result, arrays)
