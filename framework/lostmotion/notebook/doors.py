@@ -217,7 +217,7 @@ def simulate(
 
     `values` and `initial` are values of parameters and states by name, in SI units. `drives` are texts such as
     "harmonic:amplitude=1,frequency=2"; `duration` is in s and `rate` in Hz. `noise` is white, as a share of the
-    standard deviation of each channel. `motion` ("translation", "rotation") selects the kind of a model that allows both.
+    standard deviation of each channel. `motion` ("translation", "rotation") selects one kind where a model allows both.
     """
     known = registry or default()
     assembly, own = _simulate.assembly_of(known, model, _to_texts(terms), motion)
