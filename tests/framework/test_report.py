@@ -155,7 +155,7 @@ def test_what_was_learned_is_drawn_with_its_band_and_its_proposal(tmp_path):
     }
     page = _page(tmp_path, facts)
     assert "section-learned" in page
-    assert "A proposal, not a finding. It reads 1·10⁶ N/m³ x³." in page
+    assert "A proposal, not a finding. The formula is 1·10⁶ N/m³ x³." in page
 
 
 @pytest.mark.usefixtures("unsaved")

@@ -59,7 +59,7 @@ def test_each_sensor_has_its_panels_and_its_row(data, tmp_path):
     assert all(unit.endswith("m/s)") for unit in units[2:])
     assert sensors.make_table(evidence).rows == [
         ["motor <b>", "position", "40 µm", "white", "19 %", "1.2 %"],
-        ["load", "second velocity", "2 mm/s", "with a memory", "23 %", "1.3 %"],
+        ["load", "second velocity", "2 mm/s", "autocorrelated", "23 %", "1.3 %"],
     ]
     page = write_report(home).read_text(encoding="utf-8")
     assert page.index("section-prediction") < page.index("section-sensors") < page.index("section-missing")

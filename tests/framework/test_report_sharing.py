@@ -46,7 +46,7 @@ def test_there_is_a_row_for_each_parameter_and_a_column_for_each_recording():
     table = sharing.make_table(evidence(sharing=TOLD))
     assert table.head == ["Parameter", "low (4 N)", "<b>high (16 N)", "One value?"]
     assert table.rows[0] == ["k (N/m)", "800 [720, 880]", "801 [721, 881]", "yes (p = 0.4)"]
-    assert table.rows[1][-1] == "goes with level to the power 1"
+    assert table.rows[1][-1] == "proportional to level to the power 1"
     assert table.rows[2][0] == "Coulomb friction: force (mN)"
     assert table.rows[2][1:] == ["1.00 [0.90, 1.10]", "2.0 [1.8, 2.2]", "no, differs in <b>high"]
     assert table.rows[3][-1] == "no (p = 1·10⁻⁹)"

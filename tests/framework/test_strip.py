@@ -57,7 +57,7 @@ def test_the_caption_says_what_stands_out_and_what_chance_is():
     assert told.endswith("Of 2 recordings one disagrees.")
     quiet = TOLD | {"says": "", "windows": "hits", "worst": WORST | {"beyond_chance": False}}
     told = strip.caption(evidence(over_time=quiet))
-    assert told.startswith("No stretch stands out beyond chance. For each hit, up to the next one: ")
+    assert told.startswith("No section has a significant disagreement. For each hit, up to the next one: ")
 
 
 def test_nothing_is_drawn_without_windows_and_a_table_has_a_row_for_each_recording():
