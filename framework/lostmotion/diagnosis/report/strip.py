@@ -94,7 +94,7 @@ def caption(evidence: Evidence) -> str:
     level = evidence.settings.locate.level
     return (
         f"{worst}{shaded} For each {window}: the mean squared one-step prediction error over the variance that the"
-        " model predicts for it, 1 for a correct model. Significance is tested against permutations of blocks of errors,"
+        " model predicts for it, 1 for a correct model. Significance is tested by permutations of blocks of errors,"
         f" at {level:.0%} over all windows together. {recordings.says if recordings else ''}"
     ).rstrip()
 
