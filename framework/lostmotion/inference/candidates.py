@@ -19,7 +19,14 @@ from lostmotion.inference.fit import (
     restart,
     solve_scaled,
 )
-from lostmotion.inference.late import PRICE, can_have_onset, cut_at_onsets, refine_onset
+from lostmotion.inference.late import (
+    PRICE,
+    can_have_onset,
+    cut_at_onsets,
+    list_onsets,
+    make_onset_parameter,
+    refine_onset,
+)
 from lostmotion.inference.natural import (
     compute_size,
     find_term,
@@ -112,6 +119,19 @@ def _test_onsets(fit: Fit, key: str, amplitudes: Sequence[Slot], always: ScoreTe
         if hint.gain > best.gain + (least if best is always else 0.0):
             best = replace(hint, start={**hint.start, onset_key(key): time})
     return best
+
+
+def _refine_sensor_onset(fit: Fit, hint: ScoreTest) -> ScoreTest:
+    """Return the score test of a sensor term with its onset at the best sample between the neighbouring tried onsets.
+
+    A gain or an offset that sets in makes the reading jump: a fit that begins at a wrong sample does not find the time.
+    """
+    wider, times = join_term(restart(fit), hint.key, hint.start), list_onsets(fit.problem)
+    dt, near = fit.problem.observations[0].dt, hint.start[onset_key(hint.key)]
+    grid = np.arange(near - (times[1] - times[0]), near + (times[1] - times[0]), dt)
+    held = wider.extend((make_onset_parameter(fit.problem, hint.key, near),), ())
+    best = int(np.argmax(held.log_likelihoods(np.array([np.append(wider.start, t) for t in grid]))))
+    return replace(hint, start={**hint.start, onset_key(hint.key): float(grid[best])})
 
 
 def _try_far_values(fit: Fit, slot: Slot, key: str, distinct: float) -> ScoreTest:
@@ -228,7 +248,8 @@ def _test_shapes(fit: Fit, slopes: Sensitivity, key: str, shapes: Sequence[Mappi
     if can_have_onset(fit.problem, key):
         best = max(range(len(hints)), key=lambda i: hints[i].gain)
         late = _test_onsets(fit, key, amplitudes, hints[best], joints[best])
-        hints += [late] if late.late else []
+        if late.late:
+            hints.append(_refine_sensor_onset(fit, late) if key in fit.problem.system.rescaling else late)
     return hints
 
 

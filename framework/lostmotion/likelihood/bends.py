@@ -1,23 +1,69 @@
-"""Readings of nonlinear sensors: corrected before the filter, with the change of their probability density."""
+"""Readings of nonlinear sensors, and of sensors that change at a time, corrected before the filter sees them.
+
+The density of the readings changes by the slope of the correction, so that likelihoods stay comparable.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from lostmotion.contracts import Array, SensorTerm, Values
 from lostmotion.likelihood.engine import Innovations
 from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.sensors import FLATTEST, Sensor, SensorChange
 
-Bend = tuple[int, SensorTerm, Values]
-"""The number of a sensor, the term that makes it nonlinear, and the parameters of that term."""
+if TYPE_CHECKING:
+    from lostmotion.likelihood.system import System
+
 ROUNDS = 30
 CLOSE, NUDGE = 1e-10, 1e-6
 """A reading is corrected to this share of its range; slopes are differences over this share of it."""
-FLATTEST = 0.1
-"""The least slope of a sensor: one that is not monotonic cannot be inverted."""
+
+
+class Bend(NamedTuple):
+    """A nonlinear sensor: its number, the term that makes it so, and the parameters of that."""
+
+    sensor: int
+    term: SensorTerm
+    values: Values
+
+
+class Corrections(NamedTuple):
+    """The corrections of the readings of a recording: nonlinear sensors, and the changes of each sensor."""
+
+    bends: tuple[Bend, ...] = ()
+    changes: tuple[tuple[SensorChange, ...], ...] = ()
+
+
+def list_corrections(system: System, active: frozenset[str], full: Array, sensors: Sequence[Sensor]) -> Corrections:
+    """Return the corrections for the active terms of a system at a full vector (parameters,)."""
+    if not active & {*system.bending_terms, *system.rescaling}:
+        return Corrections()
+    bends = tuple(
+        Bend(s, term, p)
+        for s, sensor in enumerate(sensors)
+        for term, p in system.at_sensor(full, active, sensor.place)
+        if type(term).bent is not SensorTerm.bent
+    )
+    changes = tuple(system.changes_at_sensor(full, active, sensor.place) for sensor in sensors)
+    return Corrections(bends, changes if any(changes) else ())
+
+
+def correct_readings(seen: Observation, corrections: Corrections) -> tuple[Observation, Array | None]:
+    """Return an observation with its readings corrected, and the slopes (samples, sensors) of that; None without."""
+    if not any(corrections):
+        return seen, None
+    seen, slopes = correct_bends(seen, corrections.bends)
+    readings, time = seen.readings.copy(), seen.time
+    for sensor, changes in enumerate(corrections.changes):
+        for change in reversed(changes):
+            readings[:, sensor], slope = change.undo(readings[:, sensor], time)
+            slopes[:, sensor] *= slope
+    return replace(seen, readings=readings), slopes
 
 
 def correct_bends(seen: Observation, bends: Sequence[Bend]) -> tuple[Observation, Array]:

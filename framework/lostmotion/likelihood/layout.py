@@ -70,12 +70,24 @@ class Layout:
 
     @cached_property
     def onsets(self) -> tuple[Slot, ...]:
-        """The time from which each term acts: `key.since`; those of the kernel first, then those of the drive.
+        """The time from which each term acts: `key.since`; of forces first, then of the drive, then of sensors.
 
-        They come after all parameters in the full vector. A term of a sensor has no onset.
+        They come after all parameters in the full vector.
         """
         keys = [key for key, _ in self.forces] + [k for k, t in self.channel_terms.items() if t.acts == "drive"]
+        keys += self.rescaling
         return tuple(Slot(onset_key(key), ONSET, "s", self.keys.index(key)) for key in keys)
+
+    @cached_property
+    def rescaling(self) -> tuple[str, ...]:
+        """The keys of the sensor terms that are a gain or an offset and nothing else: these may have an onset."""
+        plain = ("delay", "bent", "rounded", "quantisation", "rate")
+        return tuple(
+            key
+            for key, term in self.channel_terms.items()
+            if isinstance(term, SensorTerm)
+            and all(getattr(type(term), name) is getattr(SensorTerm, name) for name in plain)
+        )
 
     @cached_property
     def index(self) -> Mapping[str, int]:

@@ -11,10 +11,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from lostmotion.contracts import Array, Engine, SensorTerm
+from lostmotion.contracts import Array, Engine
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.batches import find_distinct, group_rows, join_innovations, realign
-from lostmotion.likelihood.bends import Bend, correct_bends, rescale_innovations
+from lostmotion.likelihood.bends import Corrections, correct_readings, list_corrections, rescale_innovations
 from lostmotion.likelihood.drive import Drive, pad_inputs
 from lostmotion.likelihood.engine import Dynamics, Innovations, Points, Random, Smoothed
 from lostmotion.likelihood.initial import compute_initial
@@ -231,11 +231,13 @@ class Problem:
     def _filter_tasks(self, tasks: Sequence[tuple[int, NDArray[np.intp]]], thetas: Array) -> list[Innovations]:
         def work(task: tuple[int, NDArray[np.intp]]) -> Innovations:
             index, rows = task
-            late, bends = self.count_delays(thetas[rows[:1]], index)[0], self._list_bends(thetas[rows[0]], index)
-            seen, slopes = correct_bends(self._make_view(index, late), bends)
+            late = self.count_delays(thetas[rows[:1]], index)[0]
+            seen, slopes = correct_readings(
+                self._make_view(index, late), self._list_corrections(thetas[rows[0]], index)
+            )
             awake = self._drop_idle_lags(thetas[rows[0]], index)
             found = self.engine.filter(awake.dynamics, seen, awake.points(thetas[rows], index))
-            found = rescale_innovations(found, slopes) if bends else found
+            found = found if slopes is None else rescale_innovations(found, slopes)
             return realign(found, late) if any(late) else found
 
         return each(work, tasks, self.jobs)
@@ -243,11 +245,11 @@ class Problem:
     def _list_views(self, thetas: Array, index: int) -> list[tuple[Any, ...]]:
         """Return for each of some coordinates (points, n) what changes the view of the readings: delay, bend, lag."""
         late = self.count_delays(thetas, index)
-        if not self.active & {*self.system.bending_terms, *self.system.lagging_terms}:
+        if not self.active & {*self.system.bending_terms, *self.system.lagging_terms, *self.system.rescaling}:
             return list(late)
-        bends = [tuple((s, p) for s, _, p in self._list_bends(theta, index)) for theta in thetas]
+        corrections = [self._list_corrections(theta, index) for theta in thetas]
         awake = [self._drop_idle_lags(theta, index).active for theta in thetas]
-        return list(zip(late, bends, awake, strict=True))
+        return list(zip(late, corrections, awake, strict=True))
 
     def _drop_idle_lags(self, theta: Array, index: int) -> Problem:
         """Return the problem without sensors that have no lag at some coordinates: a lag of zero has no rate."""
@@ -255,17 +257,9 @@ class Problem:
         idle = {key for key in lagging if self.system.is_idle(self.full(theta, index), key)}
         return replace(self, active=self.active - idle) if idle else self
 
-    def _list_bends(self, theta: Array, index: int) -> list[Bend]:
-        """Return the nonlinear sensors of a recording at some coordinates, each with its term and its parameters."""
-        if not self.active & set(self.system.bending_terms):
-            return []
-        full, sensors = self.full(theta, index), self.observations[index].sensors
-        return [
-            (s, term, p)
-            for s, sensor in enumerate(sensors)
-            for term, p in self.system.at_sensor(full, self.active, sensor.place)
-            if type(term).bent is not SensorTerm.bent
-        ]
+    def _list_corrections(self, theta: Array, index: int) -> Corrections:
+        """Return the corrections of the readings of a recording at some coordinates."""
+        return list_corrections(self.system, self.active, self.full(theta, index), self.observations[index].sensors)
 
     def points(self, thetas: Array, index: int = 0) -> Points:
         """Return coordinates (points, n) as an engine takes them, for one recording."""
@@ -283,7 +277,7 @@ class Problem:
         process = np.exp(coordinates.at(thetas, RANDOM))
         first = np.zeros(len(thetas), dtype=np.int64)
         sensing = (white, ar1, ar1_share, gain, offset + more, lag)
-        return Points(fulls, process, pace, *sensing, mean, covariance, drives, which, first)
+        return Points(fulls, process, pace, *sensing, mean, covariance, drives, which, first)  # fmt: skip
 
     def _compute_levels(self, thetas: Array, index: int, sensor: int) -> tuple[Any, Any, Any, Any]:
         """Return the variances of white and of AR(1) noise, the AR(1) coefficient per sample, and the offset."""
@@ -370,8 +364,8 @@ class Problem:
 
     def smooth(self, theta: Array, index: int = 0) -> Smoothed:
         """Return the filtered and the smoothed states of a recording at the coordinates `theta`."""
-        seen, _ = correct_bends(
-            self._make_view(index, self.count_delays(theta[None], index)[0]), self._list_bends(theta, index)
+        seen, _ = correct_readings(
+            self._make_view(index, self.count_delays(theta[None], index)[0]), self._list_corrections(theta, index)
         )
         return self.engine.smooth(self.dynamics, seen, self.points(theta[None], index))
 
