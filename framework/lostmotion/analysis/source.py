@@ -14,7 +14,7 @@ from lostmotion.errors import CaseError, DataError, nearest
 from lostmotion.preparation.prepare import case_of
 from lostmotion.provenance import digest
 from lostmotion.recording import Recording, Table, load_recording, read_table
-from lostmotion.recording.timing import EvenClock, check_step, even_clock, resampled
+from lostmotion.recording.timing import EvenClock, check_step, even_clock, resample_channel
 from lostmotion.recording.units import seconds, time_unit
 from lostmotion.registry import Registry
 
@@ -161,7 +161,7 @@ def _of_file(path: Path, wanted: WantedChannel) -> Source:
 
 def _even(values: Array, clock: EvenClock, time: Array) -> Array:
     """Return a channel (n,) on the even grid of its recording; values that are infinite count as lost."""
-    return resampled(time, values, clock) if clock.uneven and values.size == time.size else values
+    return resample_channel(time, values, clock) if clock.uneven and values.size == time.size else values
 
 
 def _named(table: Table, asked: tuple[str, ...], clock: str | None, source: str) -> tuple[str, ...]:

@@ -56,14 +56,14 @@ def _begun(ctx: click.Context, case: Path, out: Path, model: str) -> Path:
     """Return a case; where a recording was given, one that is written for it into the folder of the results."""
     from lostmotion.preparation.beginning import begun
     from lostmotion.recording import ENDINGS
-    from lostmotion.recording.outline import Wishes
+    from lostmotion.recording.outline import GivenRoles
 
     if case.suffix[1:].lower() not in ENDINGS:
         if model:
             raise click.UsageError(f"--model goes with a recording: {case.name} is a case, and has its [model]")
         return case
     out.mkdir(parents=True, exist_ok=True)
-    draft = begun(case, out / "case.toml", Wishes(None, None, None, None, {}), registry_of(ctx), model, {})
+    draft = begun(case, out / "case.toml", GivenRoles(None, None, None, None, {}), registry_of(ctx), model, {})
     for line in (*draft.found, *(f"look at this: {note}" for note in draft.notes)):
         click.echo(plain(line), err=True)
     return out / "case.toml"

@@ -48,11 +48,11 @@ def command(
     message says which option helps.
     """
     from lostmotion.preparation.beginning import begun
-    from lostmotion.recording.outline import Wishes
+    from lostmotion.recording.outline import GivenRoles
 
     if out.exists() and not force:
         raise click.UsageError(f"{out} is there already: give another --out, or --force")
-    wishes = Wishes(roles["time"], roles["rate"], roles["drive"], roles["response"], dict(_pairs(units, "--unit")))
+    wishes = GivenRoles(roles["time"], roles["rate"], roles["drive"], roles["response"], dict(_pairs(units, "--unit")))
     gains = {name: _number(name, value) for name, value in _pairs(factors, "--factor")}
     draft = begun(recording, out, wishes, registry_of(ctx), model, gains)
     for line in draft.found:

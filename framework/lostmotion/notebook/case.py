@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from lostmotion.case import WRITTEN, CaseFile, Experiment, Prior, SensorSpec, check_alike, dump_case
+from lostmotion.case import WRITTEN, CaseFile, Experiment, Prior, SensorSpec, check_same_sensors, dump_case
 from lostmotion.contracts import Model
 from lostmotion.errors import CaseError, PluginError, nearest
 from lostmotion.preparation.prepare import Prepared, case_of, prepared_with
@@ -61,7 +61,7 @@ class Case:
         if not several or not all(isinstance(one, Recording) for one in several):
             raise CaseError("a case needs a Recording, or a list of them: lm.Recording.from_arrays(...) makes one")
         object.__setattr__(self, "recordings", several)
-        check_alike(tuple(_sensors_of(one) for one in several))
+        check_same_sensors(tuple(_sensors_of(one) for one in several))
         if wrong := [name for name, prior in self.estimate.items() if not isinstance(prior, Prior)]:
             raise CaseError(
                 f"the prior of {wrong[0]!r} is {self.estimate[wrong[0]]!r}: wanted lm.LogUniform(1, 100) or the like"

@@ -23,7 +23,7 @@ from lostmotion.notebook.case import Case, model
 from lostmotion.notebook.diagnosis import DiagnosisResult, load_diagnosis
 from lostmotion.notebook.posterior import IdentificationResult, load_identification
 from lostmotion.recording import Recording
-from lostmotion.recording.checks import filled
+from lostmotion.recording.checks import fill_lost
 from lostmotion.registry import Registry, default
 from lostmotion.settings import Settings, read
 from lostmotion.simulation import simulate as _simulate
@@ -302,7 +302,7 @@ def _guessed(recording: Recording, given: Modelled, known: Mapping[str, float], 
     machine: Any = first.model
     response = recording.sensors[0]
     pushed = next((a for a in recording.inputs if a.attrs["quantity"] in ("force", "torque")), None)
-    seen, quantity = filled(np.asarray(response, dtype=float)), str(response.attrs["quantity"])
+    seen, quantity = fill_lost(np.asarray(response, dtype=float)), str(response.attrs["quantity"])
     drive = None if pushed is None else np.asarray(pushed) - float(pushed.mean())
     scales = sizes_of(seen - seen.mean(), quantity, drive, recording.dt)
     values, ranges = guesses(machine, scales, forced=pushed is not None or quantity in ("force", "torque"))

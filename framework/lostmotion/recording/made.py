@@ -1,4 +1,4 @@
-"""Recordings that are put together in Python: of arrays, data frames, datasets or the columns of a file."""
+"""Recordings made in Python from arrays, data frames, datasets or the columns of a file."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 Which = tuple[Mapping[str, str], Mapping[str, str]]
-"""Columns by the names that a model has for its inputs, and for its channels."""
+"""Columns keyed by the inputs of a model, and columns keyed by its channels."""
 PANEL = (7.2, 1.5)
 """Width of a figure and height of one of its panels, in inches."""
 
 
-def made(
+def make_recording(
     columns: Mapping[str, ArrayLike],
     which: Which,
     units: Mapping[str, str],
@@ -38,13 +38,15 @@ def made(
     name: str,
 ) -> Recording:
     """Return a recording of columns (n,) in memory."""
-    arrays = {key: _numbers(key, value) for key, value in columns.items() if key in _used(which, time)}
-    told = hashlib.sha256(b"".join(key.encode() + array.tobytes() for key, array in sorted(arrays.items()))).hexdigest()
+    arrays = {key: _to_numbers(key, value) for key, value in columns.items() if key in _used_columns(which, time)}
+    checksum = hashlib.sha256(
+        b"".join(key.encode() + array.tobytes() for key, array in sorted(arrays.items()))
+    ).hexdigest()
     table = Table(arrays, {key: unit for key, unit in units.items() if key in arrays})
-    return recording_of(_spec(which, table.units, time, rate, noise, hold, name), table, name, told)
+    return recording_of(_make_spec(which, table.units, time, rate, noise, hold, name), table, name, checksum)
 
 
-def read(
+def read_recording(
     path: Path,
     which: Which,
     units: Mapping[str, str],
@@ -54,31 +56,33 @@ def read(
     hold: Hold,
     name: str,
 ) -> Recording:
-    """Return a recording of a file; units that are not given are those that the file tells."""
+    """Return a recording of a file; units default to those in the file."""
     table = read_table(path)
-    told = {**table.units, **units}
-    return recording_of(_spec(which, told, time, rate, noise, hold, name or path.stem), table, path.name, digest(path))
+    note = {**table.units, **units}
+    return recording_of(
+        _make_spec(which, note, time, rate, noise, hold, name or path.stem), table, path.name, digest(path)
+    )
 
 
-def _used(which: Which, time: str | None) -> set[str]:
+def _used_columns(which: Which, time: str | None) -> set[str]:
     return {*which[0].values(), *which[1].values(), *([time] if time else [])}
 
 
-def _numbers(name: str, value: ArrayLike) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
-    """Return a column as numbers; times of a calendar are seconds from the first one."""
+def _to_numbers(name: str, value: ArrayLike) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
+    """Return a column as numbers (n,); calendar times become seconds from the first one."""
     array = np.asarray(value)
     if array.dtype.kind in "mM":
         array = (array - array[0]) / np.timedelta64(1, "s") if array.size else array.astype(float)
     try:
         numbers = np.asarray(array, dtype=float)
     except (TypeError, ValueError) as err:
-        raise DataError(f"{name!r} holds {array.dtype} and no numbers: give an array of floats") from err
+        raise DataError(f"{name!r} holds {array.dtype} instead of numbers: give an array of floats") from err
     if numbers.ndim != 1:
         raise DataError(f"{name!r} has the shape {numbers.shape}: wanted one number for each sample, (n,)")
     return numbers
 
 
-def _spec(
+def _make_spec(
     which: Which,
     units: Mapping[str, str],
     time: str | None,
@@ -91,15 +95,15 @@ def _spec(
         raise DataError(f"{name} has {'both time and' if time else 'neither time nor'} rate: give one of them")
     if not which[1]:
         raise DataError(f"{name} has no sensor: give sensors = {{channel of the model: data}}")
-    inputs = tuple(_channel("input", key, column, units) for key, column in which[0].items())
-    sensors = tuple(_channel("sensor", key, column, units, noise) for key, column in which[1].items())
+    inputs = tuple(_make_channel("input", key, column, units) for key, column in which[0].items())
+    sensors = tuple(_make_channel("sensor", key, column, units, noise) for key, column in which[1].items())
     return RecordingSpec(name, time, rate, inputs, sensors, hold, name=name, time_unit=units.get(time or ""))
 
 
-def _channel(
+def _make_channel(
     role: str, key: str, column: str, units: Mapping[str, str], noise: Mapping[str, str] | None = None
 ) -> Channel:
-    """Return an input or a sensor; one without a unit, or with noise of an unknown kind, is refused."""
+    """Return an input or a sensor; raise `DataError` if it has no unit or an unknown kind of noise."""
     unit = units.get(column, units.get(key))
     if unit is None:
         raise DataError(f"the {role} {key!r} has no unit: add units = {{{column!r}: 'N'}} or the like")
@@ -112,12 +116,12 @@ def _channel(
     quantity = "base_position" if key == "base_position" else quantity_of(key)
     si_factor(unit, quantity)
     of = f"{key.removesuffix('torque')}force" if key.endswith("torque") else key
-    told = "" if role == "input" else key.replace(".", " ")
-    return Channel(column, quantity, unit, of=of, name=told, noise=kind)
+    label = "" if role == "input" else key.replace(".", " ")
+    return Channel(column, quantity, unit, of=of, name=label, noise=kind)
 
 
-def drawn(recording: Recording) -> Figure:
-    """Return a figure of a recording, one panel for each channel."""
+def plot_recording(recording: Recording) -> Figure:
+    """Return a figure of a recording with one panel for each channel."""
     from matplotlib.figure import Figure
 
     channels = (*recording.inputs, *recording.sensors)

@@ -1,6 +1,6 @@
-"""What looks wrong in a recording that can be used all the same: signs, swapped columns, angles, sensors, clocks.
+"""Warnings about a recording that can be used: signs, swapped columns, units of angles, sensors, clocks.
 
-None of them may cry wolf: each asks for a sign that good recordings do not give, real ones among them.
+False alarms must be rare: each condition was checked on recordings without the fault, real ones among them.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from lostmotion.recording.checks import filled, runs_of
+from lostmotion.recording.checks import fill_lost, runs_of
 from lostmotion.recording.drift import note_drift
 
 Array = NDArray[np.float64]
@@ -36,7 +36,7 @@ _POWERS = {("force", "position"): 1, ("force", "velocity"): 0, ("force", "accele
 _ANGLE = {"deg": re.compile(r"deg|°"), "rad": re.compile(r"rad")}
 
 
-class DoubtedChannel(NamedTuple):
+class CheckedChannel(NamedTuple):
     """A channel in SI units (n,), NaN where a sample was lost, with its column, quantity and the unit of its file."""
 
     values: Array
@@ -51,13 +51,13 @@ class DoubtedChannel(NamedTuple):
         return "force" if self.quantity == "torque" else self.quantity
 
 
-def warnings_of(inputs: Sequence[DoubtedChannel], sensors: Sequence[DoubtedChannel], dt: float) -> tuple[str, ...]:
-    """Return what looks wrong with inputs and sensors that were sampled together every `dt` s.
+def warnings_of(inputs: Sequence[CheckedChannel], sensors: Sequence[CheckedChannel], dt: float) -> tuple[str, ...]:
+    """Return warnings about inputs and sensors that were sampled together every `dt` s.
 
-    Units and power are compared where there is one input: with several, each may take up the power of the other. The
-    clocks of a hammer test are not: the force says nothing of them between hits, where frequency goes with size.
+    Units and power are compared only where there is one input: of several, one may absorb the power of another. Clocks
+    are not compared in a hammer test: the force is zero between hits, and the frequency may depend on the amplitude.
     """
-    from lostmotion.signals.impacts import note_hits, note_overload  # loads SciPy
+    from lostmotion.signals.impacts import note_hits, note_overload  # imported late: it loads SciPy
 
     each = [*(("excitation", s) for s in inputs), *(("response", s) for s in sensors)]
     pairs = [(inputs[0], sensors[0])] if len(inputs) == 1 else []
@@ -74,13 +74,13 @@ def warnings_of(inputs: Sequence[DoubtedChannel], sensors: Sequence[DoubtedChann
 
 
 def is_impulsive(values: Array) -> bool:
-    """Return whether an input (n,) is at rest nearly always, as the force of a hammer is."""
+    """Return whether an input (n,) is at rest most of the time, as the force of a hammer is."""
     away = np.abs(values - np.median(values))
     return float(np.mean(away < QUIET * away.max())) > MOSTLY
 
 
-def note_angle(signal: DoubtedChannel, what: str) -> Iterator[str]:
-    """Yield a note when an angle said to be in rad is as large as degrees are."""
+def note_angle(signal: CheckedChannel, what: str) -> Iterator[str]:
+    """Yield a note when an angle in rad is so large that its unit may be degrees."""
     if not _ANGLE["rad"].search(signal.unit) or signal.quantity not in ("position", "base_position"):
         return
     seen = signal.values[np.isfinite(signal.values)]
@@ -90,26 +90,26 @@ def note_angle(signal: DoubtedChannel, what: str) -> Iterator[str]:
         yield f"{what} reaches {largest:.4g} rad, more than {TURNS} turns: are these degrees? Then write unit = 'deg'"
     elif swings >= SWINGS and np.abs(away).max() > math.pi:
         yield (
-            f"{what} swings to and fro by {np.abs(away).max():.4g} rad, more than half a turn: are these degrees? "
+            f"{what} oscillates by {np.abs(away).max():.4g} rad, more than half a turn: are these degrees? "
             "Then write unit = 'deg'"
         )
 
 
-def note_units(excitation: DoubtedChannel, response: DoubtedChannel) -> Iterator[str]:
-    """Yield a note when one angle is said to be in degrees, the other in rad, and both numbers are about as large."""
+def note_units(excitation: CheckedChannel, response: CheckedChannel) -> Iterator[str]:
+    """Yield a note when one angle is in degrees and the other in rad, but their numbers have the same size."""
     units = [next((name for name, word in _ANGLE.items() if word.search(s.unit)), "") for s in (excitation, response)]
     if sorted(units) != ["deg", "rad"] or {excitation.quantity, response.quantity} != {"base_position", "position"}:
         return
     sizes = [float(np.nanstd(s.values) / abs(s.factor)) for s in (excitation, response)]
     if 0.2 < sizes[0] / sizes[1] < 5.0:
         yield (
-            f"the excitation is said to be in {excitation.unit}, the response in {response.unit}, and their numbers "
-            f"are as large as each other ({sizes[0]:.3g} and {sizes[1]:.3g}): are both in one unit?"
+            f"the excitation is in {excitation.unit} and the response in {response.unit}, but their numbers have the "
+            f"same size ({sizes[0]:.3g} and {sizes[1]:.3g}): are both in one unit?"
         )
 
 
 def note_frozen(values: Array, what: str, dt: float) -> Iterator[str]:
-    """Yield a note when the samples (n,) stand still in a stretch, and hardly ever repeat anywhere else."""
+    """Yield a note when the samples (n,) are constant over a long run, and hardly ever repeat elsewhere."""
     runs = runs_of(np.diff(values) == 0.0)
     lengths = np.diff(runs, axis=1)[:, 0]
     long = lengths >= FROZEN
@@ -118,26 +118,26 @@ def note_frozen(values: Array, what: str, dt: float) -> Iterator[str]:
     first = int(runs[long, 0][0])
     yield (
         f"{what} stays at exactly {values[first]:.6g} for {int(lengths[long][0]) + 1} samples from {first * dt:.6g} s "
-        f"after its start, {int(long.sum())} such stretches in all, and repeats hardly anywhere else: the sensor may "
-        "have been stuck; cut them out with t_start and t_end"
+        f"after its start, {int(long.sum())} such runs in all, and hardly ever repeats a value elsewhere: the sensor "
+        "may have been stuck; cut these runs out with t_start and t_end"
     )
 
 
 def note_far(values: Array, what: str) -> Iterator[str]:
-    """Yield a note when one value lies far away from all others, as the mark of a lost sample does."""
+    """Yield a note when one value lies far from all others, as a marker of lost samples does."""
     seen = values[np.isfinite(values)]
     for far in (seen.max(), seen.min()):
         rest = seen[seen != far]
         width = float(np.ptp(rest)) if rest.size else 0.0
         if width and abs(far - float(np.median(rest))) > FAR * width:
             yield (
-                f"{what} is {far:.6g} at {int(np.count_nonzero(seen == far))} samples, more than {FAR:g} times as far "
-                "out as all others: a glitch, or the mark of a lost sample? Then empty these cells"
+                f"{what} is {far:.6g} at {int(np.count_nonzero(seen == far))} samples, more than {FAR:g} times the "
+                "range of all others away: a glitch, or a marker of lost samples? Then empty these cells"
             )
 
 
-def note_power(excitation: DoubtedChannel, response: DoubtedChannel, dt: float) -> Iterator[str]:
-    """Yield a note when the machine feeds power to its drive on the whole, as only one with a motor of its own can."""
+def note_power(excitation: CheckedChannel, response: CheckedChannel, dt: float) -> Iterator[str]:
+    """Yield a note when on average power flows from the machine to its drive, which a passive machine cannot do."""
     pair = (excitation.kind, response.kind)
     if pair == ("base_position", "force"):
         force, motion, order = response, excitation, 1
@@ -145,19 +145,19 @@ def note_power(excitation: DoubtedChannel, response: DoubtedChannel, dt: float) 
         force, motion, order = excitation, response, _POWERS[pair]
     else:
         return
-    share, sure = mean_power(filled(force.values), filled(motion.values), dt, order)
+    share, sure = mean_power(fill_lost(force.values), fill_lost(motion.values), dt, order)
     if share < DRAWN and sure < SURE:
         yield (
-            f"on the whole power flows from the machine to its drive ({-share:.2g} of force times speed): one of the "
+            f"on average power flows from the machine to its drive ({-share:.2g} of force times speed): one of the "
             f"signs is wrong (factor = -1.0), or {excitation.column!r} and {response.column!r} are swapped, or one of "
             "them is late"
         )
 
 
 def mean_power(force: Array, motion: Array, dt: float, order: int) -> tuple[float, float]:
-    """Return the mean of force times speed over the product of their rms, and over its standard error.
+    """Return the mean power divided by the apparent power, and divided by its own standard error.
 
-    `order` derivatives of `motion` (n,) make the speed. Only lines that the force has are counted.
+    The speed is the derivative of `motion` (n,) of the given `order`. Only frequencies that the force contains count.
     """
     size = 2 * (motion.size // (SEGMENTS + 1))
     if size < 16:
@@ -177,6 +177,6 @@ def mean_power(force: Array, motion: Array, dt: float, order: int) -> tuple[floa
 
 
 def _spectra(values: Array, size: int) -> NDArray[np.complex128]:
-    """Return the spectra (segments, size // 2 + 1) of overlapping, tapered segments without their mean."""
+    """Return the spectra (segments, size // 2 + 1) of overlapping, tapered segments after removal of their means."""
     pieces = np.stack([values[k * (size // 2) :][:size] for k in range(SEGMENTS)])
     return np.fft.rfft((pieces - pieces.mean(axis=1, keepdims=True)) * np.hanning(size), axis=1)

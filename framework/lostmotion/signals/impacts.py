@@ -292,7 +292,7 @@ def note_overload(values: ArrayLike, what: str, unit: str = "") -> Iterator[str]
         at = f"{found.value:.4g} {unit}".rstrip()
         stretches = "1 stretch" if found.stretches == 1 else f"{found.stretches} stretches"
         yield (
-            f"{what} sits at its {word} value {at} for {found.samples} samples in {stretches}, the first at sample "
+            f"{what} stays at its {word} value {at} for {found.samples} samples in {stretches}, the first at sample "
             f"{found.first}: it was overloaded, and its readings there are not the motion; empty these cells, and take "
             "a larger range or strike less hard next time"
         )
