@@ -163,7 +163,7 @@ def _chain(folder):
         backend.save_step(start, np.ones(8, dtype=bool))
     scale = Scores(*(np.full(2, v) for v in (-1.0, 1.0, 0.0, 1.0)))
     cloud = TMixture(weights=np.ones(1), centres=np.zeros((1, 2)), roots=np.eye(2)[None], scale=scale)
-    _keep.save(folder / "chain.h5", "abc", ("a", "b"), _keep.Kept(backend, cloud, start, 3, 1), 3)
+    _keep.save(folder / "chain.h5", "abc", ("a", "b"), _keep.StoredChain(backend, cloud, start, 3, 1), 3)
 
 
 def _map(folder):

@@ -94,7 +94,7 @@ def main() -> None:
 def read(numbers: by_hand.Numbers) -> str:
     """Return what is read off by hand as a table."""
     rows = [f"| {key} | {value:.4g} {unit} |" for key, (value, unit) in numbers.items()]
-    return "\n".join(["| read off by hand | |", "|---|---|", *rows])
+    return "\n".join(["| value obtained without a model | |", "|---|---|", *rows])
 
 
 def table(found: Diagnosis, further: Mapping[str, float]) -> str:

@@ -21,7 +21,7 @@ from typing import Any
 
 import numpy as np
 
-from lostmotion.identification.sampling import SampledPosterior, SamplingPlan, identify, task_of
+from lostmotion.identification.sampling import SampledPosterior, SamplingPlan, identify, make_task
 from lostmotion.inference.fit import Fit, maximise
 from lostmotion.inference.setup import modes, polished, problem_of, stepped
 from lostmotion.likelihood.observation import Observation
@@ -78,7 +78,7 @@ def sharpness(draws: float) -> None:
 def _sharp(machine: Machine, excitation: float, draws: float) -> str:
     seen, observation = measured(machine, PERIODS, 1, excitation)
     fit = fitted(posed(observation))
-    found = identify(task_of([fit]), rng=np.random.default_rng(0), plan=SamplingPlan(ess=draws))
+    found = identify(make_task([fit]), rng=np.random.default_rng(0), plan=SamplingPlan(ess=draws))
     logs = np.log(found.draws[:, :2])
     sd, sigma = logs.std(axis=0), NOISE_SHARE * float(seen.states[:, 0].std())
     pieces = PIECES * PER_PERIOD if machine.amplitude == LEVELS["chaotic"] and not excitation else None
@@ -117,7 +117,7 @@ def speed(samples: int) -> None:
     print(f"the same by plain NumPy, one core       {plain:10.4f}   (log-likelihood apart by {apart:.1e})")
     print(f"ours over plain NumPy, one core         {alone / plain:10.0f}")
     begin = time.perf_counter()
-    found = identify(task_of(fits), rng=np.random.default_rng(1), plan=SamplingPlan())
+    found = identify(make_task(fits), rng=np.random.default_rng(1), plan=SamplingPlan())
     taken = time.perf_counter() - begin
     ess = float(found.quality.ess.min())
     print(f"identify: sampling to ESS {ess:.0f}           {taken:10.1f} s   {found.evaluations} runs {found.lacks}")
@@ -208,7 +208,7 @@ def _samplers(fits: list[Fit]) -> Iterator[tuple[str, Callable[[], Result]]]:
     fit, parameters = fits[0], len(fits[0].theta)
 
     def ours() -> Result:
-        found: SampledPosterior = identify(task_of(fits), rng=np.random.default_rng(1), plan=SamplingPlan())
+        found: SampledPosterior = identify(make_task(fits), rng=np.random.default_rng(1), plan=SamplingPlan())
         return found.evaluations, float(found.quality.ess.min()), np.log(found.draws)
 
     def zeus(steps: int = 400, walkers: int = 16) -> Result:

@@ -32,15 +32,16 @@ from lostmotion.case import CaseFile, Prior
 from lostmotion.case.levels import Level, Measured
 from lostmotion.contracts import Array, Flow
 from lostmotion.flow import Harmonic, flow_of
-from lostmotion.identification.levels import Survey, inversion_of, quantifier_task
-from lostmotion.identification.reading import corrected, read_level
-from lostmotion.identification.rehearsal import Bench, rehearsed, rehearsed_levels
+from lostmotion.identification.levels import MapGrid, make_inversion, make_quantifier_task
+from lostmotion.identification.reading import correct_estimate, read_level
+from lostmotion.identification.rehearsal import RecordingPlan, simulate_levels, simulate_signals
 from lostmotion.identification.sampling import identify
 from lostmotion.kernels.threads import cores
-from lostmotion.maps.cells import period_of
-from lostmotion.maps.inversion import TAIL, WEAK, Inversion, predicted
+from lostmotion.maps.cells import find_period
+from lostmotion.maps.inversion import ERROR_DOF, Inversion, predict_levels
 from lostmotion.registry import default
 from lostmotion.results import Estimate
+from lostmotion.settings import DEFAULT
 from lostmotion_trials.paper.joint import DAMPING, FREQUENCY, HALF, LEVELS, PAPER, RATIO
 
 OMEGA = 40.0
@@ -49,7 +50,7 @@ SD_PAPER = 0.2
 TRUE_GAP, TWO_GAPS, BETWEEN = {"x0": 0.0031, "zeta": 0.0239}, (60.0, 75.0, 100.0), 0.005
 """A machine and its levels (N), found among 1600 machines and sets of levels on a map: their exponents fit gaps of
 2 to 4 and of 7 to 11 mm."""
-CAREFUL = Bench(periods=400, looks=60, noise=0.002)
+CAREFUL = RecordingPlan(periods=400, looks=60, noise=0.002)
 LONG, BRIEF = 6000, 2000
 Known = tuple[float, float]
 """A value with its standard deviation."""
@@ -61,12 +62,12 @@ def one(seed: int, chaos: bool = False) -> dict[str, Any]:
     inverse, zeta = rng.uniform(0.8, 9.5), 0.005 * 16.0 ** rng.uniform() if chaos else rng.uniform(0.01, 0.06)
     ratio = rng.uniform(0.18, 0.32)
     noise = float(rng.choice([0.002, 0.005, 0.01] if seed % 2 or chaos else [0.002, 0.005, 0.01, 0.02]))
-    bench = Bench(int(rng.integers(120, 250)), int(rng.choice([50, 80, 100])), noise)
+    bench = RecordingPlan(int(rng.integers(120, 250)), int(rng.choice([50, 80, 100])), noise)
     moved = bool(seed % 2)
     model = registry.make("model", "robot_joint" if moved else "lin_backlash")
     values = {"m": 1.0, "c": 2.0 * zeta, "k0": 1.0, "x0": 1.0, "mgl" if moved else "k1": 0.0}
     beat = Harmonic(1.0 / inverse / (ratio**2 if moved else 1.0), ratio)
-    signals, begin = rehearsed(model, values, beat, bench, rng)
+    signals, begin = simulate_signals(model, values, beat, bench, rng)
     flow = flow_of(model, values, drive=beat, start=begin)
     if chaos and not shows_chaos(*truth(flow, rng, BRIEF)):
         return {}
@@ -98,7 +99,7 @@ def truth(flow: Flow, rng: np.random.Generator, periods: int = LONG) -> tuple[Kn
     section = registry.make("quantifier", "section_dimension", periods=periods, transient=0).estimate(flow, rng=rng)
     states = flow.strobe(flow.start, periods=400, tangents=0).states
     sd = section.details.get("stderr", math.nan)
-    return (found.value, found.details.get("stderr", math.nan)), (section.value, sd), period_of(states)
+    return (found.value, found.details.get("stderr", math.nan)), (section.value, sd), find_period(states)
 
 
 def errors(machines: int, keep: Path | None, *, chaos: bool = False) -> None:
@@ -117,11 +118,15 @@ def errors(machines: int, keep: Path | None, *, chaos: bool = False) -> None:
 def told(rows: list[dict[str, Any]]) -> None:
     """Print the kinds that were seen, the errors of exponents and dimensions, and the times."""
     kinds = ("periodic", "chaotic", "undecided")
-    weak = [r for r in chaotic(rows) if r["lyapunov_true"] * r["beat"] < WEAK]
-    strong = [r for r in chaotic(rows) if r["lyapunov_true"] * r["beat"] >= WEAK]
+    weak = [r for r in chaotic(rows) if r["lyapunov_true"] * r["beat"] < DEFAULT.levels.weak]
+    strong = [r for r in chaotic(rows) if r["lyapunov_true"] * r["beat"] >= DEFAULT.levels.weak]
     print(f"{'truth, seen as':<28}" + "".join(f"{k:>12}" for k in kinds))
     for name in ("lin_backlash", "robot_joint"):
-        table = {"periodic": [r for r in rows if r["period"]], f"chaotic, below {WEAK:g}": weak, "chaotic": strong}
+        table = {
+            "periodic": [r for r in rows if r["period"]],
+            f"chaotic, below {DEFAULT.levels.weak:g}": weak,
+            "chaotic": strong,
+        }
         for label, kept in table.items():
             own = [r for r in kept if r["model"] == name]
             print(f"{name + ', ' + label:<36}" + "".join(f"{sum(r['motion'] == k for r in own):>12}" for k in kinds))
@@ -135,10 +140,11 @@ def told(rows: list[dict[str, Any]]) -> None:
               f"{np.mean(off / size - 1.0):+.3f}, sd {np.std(off / size):.3f}")  # fmt: skip
         moved = np.array([r["model"] == "robot_joint" for r in kept])
         names = [f"{name} of a moved base" if base and name == "d2" else name for base in moved]
-        found = [corrected(key, Estimate(r[name], *(r[name] + s * 1.96 * r[f"{name}_sd"] for s in (-1, 1)), "ok"))
-                 for key, r in zip(names, kept, strict=True)]  # fmt: skip
+        ranges = [[r[name] + s * 1.96 * r[f"{name}_sd"] for s in (-1, 1)] for r in kept]
+        found = [correct_estimate(key, Estimate(r[name], *ends, "ok"))
+                 for key, r, ends in zip(names, kept, ranges, strict=True)]  # fmt: skip
         left = np.array([(one.value - t) / one.sd for one, t in zip(found, size, strict=True)])
-        inside = np.abs(left) < student.ppf(0.975, TAIL)
+        inside = np.abs(left) < student.ppf(0.975, ERROR_DOF)
         print(f"  as corrected: mean {left.mean():+.2f}, rms {math.sqrt(np.mean(left**2)):.2f}; 95 % intervals hold "
               f"{inside.sum()} of {len(left)}")  # fmt: skip
         unit = np.array([r["beat"] if name == "lyapunov" else 1.0 for r in kept])
@@ -159,7 +165,9 @@ def fitted(seen: Array, claimed: Array, true: Array, parts: Array) -> tuple[list
     def cost(theta: Array) -> float:
         bias, sd = theta[2:][parts.astype(int)], np.hypot(math.exp(theta[0]) * claimed, math.exp(theta[1]) * true)
         z = (seen - (1.0 + bias) * true) / sd
-        return float(np.sum(np.log(sd) + 0.5 * (TAIL + 1.0) * np.log1p(z**2 / TAIL)) + 0.5 * theta[1] ** 2 / 25.0)
+        return float(
+            np.sum(np.log(sd) + 0.5 * (ERROR_DOF + 1.0) * np.log1p(z**2 / ERROR_DOF)) + 0.5 * theta[1] ** 2 / 25.0
+        )
 
     start = [-0.2, -3.0, *[0.0] * len(np.unique(parts))]
     best = minimize(cost, start, method="Nelder-Mead", options={"maxiter": 4000})
@@ -177,7 +185,7 @@ def machine(folder: Path) -> None:
     truth, rng = {"x0": 0.0052, "zeta": 0.023}, np.random.default_rng(8)
     drives = [(a, OMEGA) for a in (40.0, 50.0, 62.0, 77.0, 95.0, 117.0, 145.0, 180.0)]
     begin = time.perf_counter()
-    reads = rehearsed_levels(case, default(), truth, drives, rng)
+    reads = simulate_levels(case, default(), truth, drives, rng)
     print(f"eight recordings simulated and read in {time.perf_counter() - begin:.1f} s")
     sampled(replace(case, levels=tuple(read.level for read in reads)), truth, folder)
 
@@ -199,7 +207,7 @@ def table2(folder: Path) -> None:
 def sampled(case: CaseFile, truth: Mapping[str, float], folder: Path) -> None:
     """Print the posterior of a case beside the truth, and what it expects at each level."""
     rng, begin = np.random.default_rng(0), time.perf_counter()
-    task = quantifier_task(case, default(), folder, rng, say=progress)
+    task = make_quantifier_task(case, default(), folder, rng, say=progress)
     made = time.perf_counter()
     found = identify(task, rng=rng)
     print(f"map and proposal {made - begin:.0f} s, chain {time.perf_counter() - made:.1f} s")
@@ -209,7 +217,7 @@ def sampled(case: CaseFile, truth: Mapping[str, float], folder: Path) -> None:
         print(f"  {key}: {median:.5g} {unit} [{low:.5g}, {high:.5g}], truth {truth[key]:.5g}")
     posterior = task.posterior
     assert isinstance(posterior, Inversion)
-    for one in predicted(posterior, found.draws[::10], rng):
+    for one in predict_levels(posterior, found.draws[::10], rng):
         seen, band = one.level.lyapunov, one.lyapunov
         told = f"{seen.value:.3g} +- {seen.sd:.2g} 1/s" if seen else ""
         expected = f"{band.median:.3g} [{band.low:.3g}, {band.high:.3g}] 1/s" if band else ""
@@ -232,8 +240,8 @@ def decide(folder: Path) -> None:
     case = oscillator({"x0": Prior(low=0.002, high=0.012), "zeta": Prior(low=0.01, high=0.06)})
     for seed in range(1, 4):
         rng, drives = np.random.default_rng(seed), [(a, OMEGA) for a in TWO_GAPS]
-        reads = rehearsed_levels(case, default(), TRUE_GAP, drives, rng, bench=CAREFUL)
-        both = inversion_of(case, tuple(read.level for read in reads), default(), folder, Survey(), say=progress)
+        reads = simulate_levels(case, default(), TRUE_GAP, drives, rng, bench=CAREFUL)
+        both = make_inversion(case, tuple(read.level for read in reads), default(), folder, MapGrid(), say=progress)
         gaps, points = grid_of(both)
         for name, posterior in (("exponents alone", both.without_d2()), ("with dimensions", both)):
             heights = posterior.log_likelihoods(points)

@@ -20,8 +20,8 @@ from scipy.ndimage import distance_transform_edt
 
 from lostmotion.kernels.threads import cores
 from lostmotion.maps.map import Map
-from lostmotion.maps.run import How, Request, make_map, study_of
-from lostmotion.maps.sweep import Crew
+from lostmotion.maps.run import Request, RunOptions, make_map, make_study
+from lostmotion.maps.sweep import Workers
 from lostmotion.registry import default
 
 ALPHA, ZETA = "alpha=0.2:0.6666:{0}:inverse", "zeta=0.008:0.05:{0}"
@@ -30,10 +30,10 @@ ALPHA, ZETA = "alpha=0.2:0.6666:{0}:inverse", "zeta=0.008:0.05:{0}"
 
 def made(folder, side, how=None, **asked):
     """Return a map of side x side cells, and the time (s) and processor time (s) it took."""
-    study = study_of(Request("lin_backlash", (ALPHA.format(side), ZETA.format(side)), **asked), default())
+    study = make_study(Request("lin_backlash", (ALPHA.format(side), ZETA.format(side)), **asked), default())
     path = Path(folder) / f"{side}-{time.monotonic_ns()}.zarr"
     begin, cpu = time.perf_counter(), time.process_time()
-    found = make_map(study, path, how or How(Crew(cores())), lambda done, total: None)
+    found = make_map(study, path, how or RunOptions(Workers(cores())), lambda done, total: None)
     return found, time.perf_counter() - begin, time.process_time() - cpu
 
 
@@ -42,7 +42,7 @@ def cost(folder, full):
     made(folder, 2, periods=40, transient=0, starts=1)
     rates = {}
     for side, jobs in ((6, 1), (12, 1), (12, cores()), (24, cores())):
-        _, seconds, cpu = made(folder, side, How(Crew(jobs)))
+        _, seconds, cpu = made(folder, side, RunOptions(Workers(jobs)))
         each = side * side * 4 * 800
         rates[side, jobs] = cpu / each
         print(
@@ -86,7 +86,7 @@ def refinement(folder, reference, side):
         many = (base - 1) * 2**levels + 1
         if many > side:
             continue
-        found, seconds, _ = made(folder, base, How(Crew(cores()), levels), **SHORT)
+        found, seconds, _ = made(folder, base, RunOptions(Workers(cores()), levels), **SHORT)
         computed = found.dataset["level"].to_numpy() >= 0
         step = (side - 1) // (many - 1)
         error = wrong(share, spread_out(computed, step, share.shape))

@@ -16,7 +16,7 @@ import numpy as np
 
 from first_light import show
 from lostmotion.identification.sampling import SamplingPlan
-from lostmotion.identification.trajectory import warnings_of
+from lostmotion.identification.trajectory import write_warnings
 
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "tests" / "science"))
@@ -60,7 +60,7 @@ def state(seen: Found, taken: float) -> str:
     """Return how the sampling ended, in a line."""
     quality = seen.result.quality
     said = "converged" if seen.result.converged else f"NOT converged ({'; '.join(seen.result.lacks)})"
-    warned = "; the workflow warns of a force left over" if warnings_of(seen.fit) else ""
+    warned = "; the workflow warns of a force left over" if write_warnings(seen.fit) else ""
     return f"{said}, ESS {quality.ess.min():.0f}, R-hat {quality.rhat.max():.3f}, {taken:.0f} s{warned}"
 
 

@@ -8,7 +8,7 @@ from scipy.spatial import cKDTree
 from lostmotion.kernels import neighbours
 from lostmotion.signals import delay_vectors
 from lostmotion_plugins.embedders.dimension import unfold
-from lostmotion_plugins.embedders.information import average_mutual_information, mutual_information_knn
+from lostmotion_plugins.embedders.information import compute_mutual_information, compute_mutual_information_knn
 from yardstick import Array, Case, lorenz
 
 LAG, THEILER, BINS, DIMS = 8, 100, 64, 8
@@ -61,7 +61,7 @@ def _points() -> Array:
 CASES = [
     Case(
         "mutual information, lags 0-100, 64 bins",
-        lambda: average_mutual_information(lorenz(), 100, bins=BINS),
+        lambda: compute_mutual_information(lorenz(), 100, bins=BINS),
         plain_information,
         goal=0.003,
     ),
@@ -78,7 +78,7 @@ CASES = [
     ),
     Case(
         "mutual information by neighbours, lags 1-20",
-        lambda: mutual_information_knn(lorenz(), 20, rng=np.random.default_rng(0)),
+        lambda: compute_mutual_information_knn(lorenz(), 20, rng=np.random.default_rng(0)),
         None,
     ),
 ]

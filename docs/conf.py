@@ -32,7 +32,7 @@ nitpick_ignore_regex = [
     (r"py:.*", r"(?!lostmotion).*"),
     (r"py:.*", r"lostmotion\..*\.(Array|Values|Drive|Hold|Data)"),
     (r"py:.*", r"lostmotion\..*\._.*"),
-    (r"py:.*", r"lostmotion\.report\.(evidence\.Evidence|identification_view\.IdentificationView)"),
+    (r"py:.*", r"lostmotion\.(diagnosis\.report\.evidence\.Evidence|identification\.report\.view\.IdentificationView)"),
     (r"py:.*", r"lostmotion\.results\.\w+\..*"),  # their keys have pages of their own
     (r"py:.*", r"lostmotion\.settings\.(?!Settings).*"),
 ]

@@ -295,6 +295,26 @@ class ChainSettings:
 
 
 @dataclass(frozen=True)
+class LevelSettings:
+    """Which motions count as chaotic when parameters are identified from exponents and dimensions."""
+
+    chaotic: float = _number(
+        2.0, "A motion is chaotic when its exponent exceeds zero by more than this many standard errors."
+    )
+    weak: float = _number(
+        0.5,
+        "Chaos is weak when the exponent is below this, in nat per drive period: a recording may show nothing of it.",
+        "`benchmarks/levels.py errors`: 6 of 10 recordings of weak chaos were classified correctly",
+    )
+    harmonic: float = _number(
+        0.1,
+        "A drive is harmonic when this share of its standard deviation, or less, is not a sine of one frequency: its"
+        " noise and small harmonics.",
+        most=1.0,
+    )
+
+
+@dataclass(frozen=True)
 class MotionSettings:
     """Classifying a recorded motion as periodic, quasiperiodic, chaotic or noise."""
 
@@ -354,6 +374,7 @@ class Settings:
     name: NameSettings = field(default_factory=NameSettings)
     shared: SharedSettings = field(default_factory=SharedSettings)
     chain: ChainSettings = field(default_factory=ChainSettings)
+    levels: LevelSettings = field(default_factory=LevelSettings)
     motion: MotionSettings = field(default_factory=MotionSettings)
 
     def changed(self, values: Mapping[str, float | str]) -> Settings:

@@ -24,7 +24,7 @@ def lostmotion_models() -> dict[str, str]:
 
 @hookimpl
 def lostmotion_terms() -> dict[str, str]:
-    """Return the built-in terms, under the names of the mechanisms that a diagnosis says."""
+    """Return the built-in terms, under the names that a diagnosis uses for the mechanisms."""
     return {
         "actuator_lag": f"{_HERE}.terms.lag:ActuatorLag",
         "asymmetric_gap": f"{_HERE}.terms.contact:AsymmetricGap",
@@ -73,7 +73,7 @@ def lostmotion_terms() -> dict[str, str]:
 
 @hookimpl
 def lostmotion_embedders() -> dict[str, str]:
-    """Return the built-in embedders: DELAY_DIMENSION, by the names of the two methods."""
+    """Return the built-in embedders, named DELAY_DIMENSION after the methods for the delay and for the dimension."""
     at = f"{_HERE}.embedders.choices"
     return {
         "ami_cao": f"{at}:AmiCao",
@@ -86,7 +86,7 @@ def lostmotion_embedders() -> dict[str, str]:
 
 @hookimpl
 def lostmotion_quantifiers() -> dict[str, str]:
-    """Return the built-in quantifiers, of recordings and of models."""
+    """Return the built-in quantifiers: those that read recordings and those that read the flow of a model."""
     at = f"{_HERE}.quantifiers"
     return {
         "correlation_dimension": f"{at}.dimension:CorrelationDimension",

@@ -11,10 +11,10 @@ import numpy as np
 import pytest
 
 from lostmotion.errors import DataError
-from lostmotion.maps.layout import layout_of
-from lostmotion.maps.run import How, Request, make_map, study_of
+from lostmotion.maps.layout import make_grid_layout
+from lostmotion.maps.run import Request, RunOptions, make_map, make_study
 from lostmotion.maps.store import _require_same, load
-from lostmotion.maps.sweep import Crew
+from lostmotion.maps.sweep import Workers
 from lostmotion.registry import Registry, sources
 
 REQUEST = Request(
@@ -42,7 +42,7 @@ def study(tmp_path):
     """Return a study with a quantifier that stands in a file that no other process can import."""
     file = tmp_path / "far_guests.py"
     file.write_text((Path(__file__).parent / "third_party.py").read_text(encoding="utf-8").partition("GOOD = ")[0])
-    yield study_of(REQUEST, Registry.discover().add_file(file))
+    yield make_study(REQUEST, Registry.discover().add_file(file))
     sys.modules.pop("far_guests")
 
 
@@ -60,17 +60,17 @@ def test_a_far_process_computes_cells_of_a_plugin_file(study, tmp_path):
 def test_a_map_knows_the_plugin_file_it_was_made_with(study):
     assert set(study.origins) == {"far_guests.py"}
     other = replace(study, origins={"far_guests.py": "0" * 64})
-    with pytest.raises(DataError, match=r"made otherwise \(plugin far_guests.py has changed\)"):
-        _require_same(Path("map.zarr"), layout_of(study).origin, layout_of(other))
+    with pytest.raises(DataError, match=r"with other settings \(plugin far_guests.py has changed\)"):
+        _require_same(Path("map.zarr"), make_grid_layout(study).origin, make_grid_layout(other))
 
 
 @pytest.mark.slow
 def test_a_cluster_computes_what_threads_do(study, tmp_path):
     distributed = pytest.importorskip("distributed", reason="pip install lostmotion[cluster]")
-    make_map(study, tmp_path / "here.zarr", How(Crew(1)), lambda done, total: None)
+    make_map(study, tmp_path / "here.zarr", RunOptions(Workers(1)), lambda done, total: None)
     with distributed.LocalCluster(
         n_workers=1, threads_per_worker=2, processes=True, dashboard_address=None, silence_logs=50
     ) as cluster:
-        how = How(Crew(address=cluster.scheduler_address))
+        how = RunOptions(Workers(address=cluster.scheduler_address))
         make_map(study, tmp_path / "there.zarr", how, lambda done, total: None)
     assert load(tmp_path / "here.zarr").identical(load(tmp_path / "there.zarr"))

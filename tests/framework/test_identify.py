@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from lostmotion.errors import CaseError, DataError
-from lostmotion.identification.chains import grouped, quality_of, quiet_arviz
-from lostmotion.identification.moves import state_of
-from lostmotion.identification.sampling import SamplingPlan, ShownCoordinate, Task, TMixture, identify, task_of
+from lostmotion.identification.chains import group_walkers, import_arviz, measure_quality
+from lostmotion.identification.moves import make_state
+from lostmotion.identification.sampling import SamplingPlan, ShownCoordinate, Task, TMixture, identify, make_task
 from lostmotion.likelihood.problem import FreeParameter
 from lostmotion.likelihood.sensors import Sensor
 
@@ -142,11 +142,11 @@ def test_too_few_walkers_and_a_hopeless_fit_are_refused():
     with pytest.raises(CaseError, match="4 walkers are too few for 3 parameters: give 8 or more"):
         draw(plan=SamplingPlan(walkers=4))
     with pytest.raises(DataError, match="cannot follow this recording"):
-        task_of([fit_of(log_posterior=-np.inf)])
+        make_task([fit_of(log_posterior=-np.inf)])
 
 
 def test_a_task_tells_each_recording_in_its_own_unit():
-    task = task_of([fit_of()])
+    task = make_task([fit_of()])
     assert [one.name for one in task.shown] == ["c", "x0", "offset[two]", "measurement_noise[two]", "random_force[two]"]
     assert [one.unit for one in task.shown] == ["?", "?", "rad/s", "rad/s", "N m"]
     expected = [0.1, np.exp(-5.0), 1.0, np.exp(2.0), np.exp(-1.5) / 0.2]
@@ -156,7 +156,7 @@ def test_a_task_tells_each_recording_in_its_own_unit():
 def test_a_task_weighs_modes_by_their_evidence_and_keeps_all():
     fits = [fit_of(log_evidence=e, log_posterior=p) for e, p in ((1.0, 0.0), (1.0, 2.0), (-50.0, 0.0), (np.nan, 0.0))]
     fits[1] = fit_of((1.0, 1.0, 1.0, 1.0, 1.0), 2.0, 1.0)
-    task = task_of([*fits, fit_of(log_posterior=-np.inf)])
+    task = make_task([*fits, fit_of(log_posterior=-np.inf)])
     assert task.mixture.kernels == 4
     assert task.mixture.weights[0] == pytest.approx(task.mixture.weights[1])
     assert task.mixture.weights[2] == pytest.approx(task.mixture.weights[3])
@@ -184,33 +184,33 @@ def test_density_of_the_cloud_is_that_of_its_draws():
 def test_a_walker_set_apart_is_seen_by_r_hat():
     rng = np.random.default_rng(5)
     chain = rng.standard_normal((16, 200, 1))
-    assert quality_of(chain).rhat[0] < 1.01
+    assert measure_quality(chain).rhat[0] < 1.01
     chain[::4] += 1.0
-    assert quality_of(chain).rhat[0] > 1.05
+    assert measure_quality(chain).rhat[0] > 1.05
     drifting = rng.standard_normal((16, 200, 1)) + np.linspace(0.0, 1.5, 200)[None, :, None]
-    assert quality_of(drifting).rhat[0] > 1.05
+    assert measure_quality(drifting).rhat[0] > 1.05
 
 
 def test_groups_keep_the_order_of_time():
     walks = np.arange(8)[:, None] + 100.0 * np.arange(6)[None]
-    assert grouped(walks).shape == (4, 12)
-    assert np.all(np.diff(grouped(walks) // 100.0, axis=1) >= 0)
+    assert group_walkers(walks).shape == (4, 12)
+    assert np.all(np.diff(group_walkers(walks) // 100.0, axis=1) >= 0)
 
 
 def test_a_walker_that_never_moved_is_not_believed():
     chain = np.random.default_rng(1).standard_normal((16, 300, 1))
     chain[3] = 0.5
-    assert quality_of(chain).lacks(100.0, 1.0)
+    assert measure_quality(chain).find_shortcomings(100.0, 1.0)
 
 
 def test_many_walkers_do_not_make_a_short_chain_long():
-    quality = quality_of(np.random.default_rng(1).standard_normal((200, 20, 1)))
+    quality = measure_quality(np.random.default_rng(1).standard_normal((200, 20, 1)))
     assert quality.ess[0] > 1000.0
-    assert "20 steps are less than 50" in quality.lacks(100.0, quality.slowest)[0]
+    assert "20 steps are less than 50" in quality.find_shortcomings(100.0, quality.slowest)[0]
 
 
 def test_state_is_seeded_by_the_generator():
-    keys = [state_of(np.zeros((4, 2)), np.zeros(4), np.random.default_rng(s)).random_state[1] for s in (1, 1, 2)]
+    keys = [make_state(np.zeros((4, 2)), np.zeros(4), np.random.default_rng(s)).random_state[1] for s in (1, 1, 2)]
     np.testing.assert_array_equal(keys[0], keys[1])
     assert not np.array_equal(keys[0], keys[2])
 
@@ -218,7 +218,7 @@ def test_state_is_seeded_by_the_generator():
 def test_arviz_reads_what_is_stored(tmp_path, bell):
     path = tmp_path / "posterior.nc"
     bell.inference_data({"title": "bell"}).to_netcdf(str(path), engine="h5netcdf")
-    arviz = quiet_arviz()
+    arviz = import_arviz()
     data = arviz.from_netcdf(path)
     assert {"posterior", "sample_stats"} <= set(data.groups())
     assert data.posterior.attrs == {"title": "bell"}

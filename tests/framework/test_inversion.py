@@ -11,15 +11,23 @@ from lostmotion.case import CaseFile, Prior
 from lostmotion.case.levels import Level, Measured
 from lostmotion.codec import to_plain
 from lostmotion.errors import CaseError, DataError
-from lostmotion.identification.levels import Survey, _free, derived, inversion_of, quantifier_task, wanted_of
-from lostmotion.identification.result import drive_level
+from lostmotion.identification.levels import (
+    MapGrid,
+    _make_free_parameter,
+    compute_derived,
+    make_inversion,
+    make_level_numbers,
+    make_quantifier_task,
+)
+from lostmotion.identification.result import make_drive_level
 from lostmotion.likelihood.space import FreeParameter
 from lostmotion.maps.atlas import CHAOTIC, PERIODIC, Atlas
-from lostmotion.maps.inversion import WEAK, Inversion, grouped, likelihood_of, predicted
-from lostmotion.maps.map import RING, Map
-from lostmotion.maps.numbers import NumberLaw, NumberPower, law_of
-from lostmotion.maps.run import How, Request, make_map, study_of
+from lostmotion.maps.inversion import Inversion, compute_likelihood, group_levels, predict_levels
+from lostmotion.maps.map import RING_WEIGHT, Map
+from lostmotion.maps.numbers import NumberLaw, NumberPower, make_law
+from lostmotion.maps.run import Request, RunOptions, make_map, make_study
 from lostmotion.registry import default
+from lostmotion.settings import DEFAULT
 
 ALPHA, ZETA = np.linspace(0.2, 2.0, 37), np.linspace(0.01, 0.1, 10)
 
@@ -97,8 +105,10 @@ def test_coexisting_attractors_leave_both_motions_possible():
     kind[:, 0] = PERIODIC
     mixed = Atlas(made.names, made.spacings, made.points, kind, *(getattr(made, k) for k in
                   ("exponent", "exponent_sd", "dimension", "dimension_sd")))  # fmt: skip
-    inside = np.flatnonzero((2.0 * math.pi * made.exponent > WEAK).all(axis=1))
-    seen = {motion: likelihood_of(Level("a", 1.0, 1.0, motion), mixed)[inside] for motion in ("periodic", "chaotic")}
+    inside = np.flatnonzero((2.0 * math.pi * made.exponent > DEFAULT.levels.weak).all(axis=1))
+    seen = {
+        motion: compute_likelihood(Level("a", 1.0, 1.0, motion), mixed)[inside] for motion in ("periodic", "chaotic")
+    }
     assert np.allclose(seen["periodic"] / seen["chaotic"], 1.0 / 3.0, atol=0.15)
 
 
@@ -117,17 +127,19 @@ def test_blending_is_linear_between_cells_and_mixes_in_the_ring():
     made = atlas(window)
     inverse, zeta = -made.points[0], made.points[1]
     table = (np.repeat(inverse[:, None], len(zeta), axis=1) + 10.0 * zeta).ravel()
-    at = made.places({"alpha": np.array([1.0 / 2.04]), "zeta": np.array([0.055])})
+    at = made.locate({"alpha": np.array([1.0 / 2.04]), "zeta": np.array([0.055])})
     # On a plane the mean of the ring is the middle of the square.
-    ring = made.around(table)
-    assert made.blended(table, ring, at)[0] == pytest.approx((1 - RING) * 2.59 + RING * (2.05 + 0.55), abs=1e-9)
+    ring = made.average_ring(table)
+    assert made.interpolate(table, ring, at)[0] == pytest.approx(
+        (1 - RING_WEIGHT) * 2.59 + RING_WEIGHT * (2.05 + 0.55), abs=1e-9
+    )
 
 
 def test_the_ring_leaves_the_square_out_at_the_edges_too():
     made = atlas(window)
     shape, rng = made.shape, np.random.default_rng(0)
     table = rng.random(shape)
-    ring = made.around(table.ravel()).reshape(shape)
+    ring = made.average_ring(table.ravel()).reshape(shape)
     for i, j in ((0, 0), (5, 3), (shape[0] - 2, shape[1] - 2), (0, 4)):
         cells = {(a, b) for a in range(i - 1, i + 3) for b in range(j - 1, j + 3)}
         inside = {c for c in cells if 0 <= c[0] < shape[0] and 0 <= c[1] < shape[1]}
@@ -137,11 +149,13 @@ def test_the_ring_leaves_the_square_out_at_the_edges_too():
 
 def test_predictions_are_those_of_the_map():
     level = Level("a", 0.5, 2.0, "chaotic")
-    found = predicted(inversion([level], atlas(window)), np.tile([1.0, 0.05], (200, 1)), np.random.default_rng(1))[0]
+    found = predict_levels(inversion([level], atlas(window)), np.tile([1.0, 0.05], (200, 1)), np.random.default_rng(1))[
+        0
+    ]
     assert found.chaotic_share == 1.0
     assert found.lyapunov.median == pytest.approx(2.0 * 0.15, rel=0.05)
     assert found.lyapunov.low <= found.lyapunov.median <= found.lyapunov.high
-    told = to_plain(drive_level(replace(found, level=replace(level, lyapunov=Measured(0.3, 0.1)))))
+    told = to_plain(make_drive_level(replace(found, level=replace(level, lyapunov=Measured(0.3, 0.1)))))
     assert told["predicted"]["chaotic_share"] == 1.0
     assert {"low", "median", "high"} == told["predicted"]["lyapunov"].keys()
     assert told["lyapunov"] == {"value": 0.3, "low": pytest.approx(0.104), "high": pytest.approx(0.496), "unit": "1/s"}
@@ -155,25 +169,27 @@ def test_powers_are_those_of_the_groups(name):
     truth = {"zeta": 0.15, "frequency_ratio": 0.4, "alpha": 0.4 if name == "lin_backlash" else 20.0}
     for group in model.groups:
         if group.name in truth:
-            law = law_of(NumberPower.of(group, model), values, ["x0"])
+            law = make_law(NumberPower.of(group, model), values, ["x0"])
             assert law(np.log([[0.2]]))[0] == pytest.approx(truth[group.name])
 
 
 def test_ends_of_a_number_over_a_box():
-    assert NumberLaw(0.0, (1.0, -2.0)).ends((0.0, 0.0), (math.log(2.0), math.log(3.0))) == pytest.approx((1 / 9, 2.0))
+    assert NumberLaw(0.0, (1.0, -2.0)).find_range((0.0, 0.0), (math.log(2.0), math.log(3.0))) == pytest.approx(
+        (1 / 9, 2.0)
+    )
 
 
 def test_levels_of_one_frequency_share_a_map():
     levels = [Level(str(k), 1.0, omega, "chaotic") for k, omega in enumerate((2.0, 1.0, 1.0005, 2.001))]
-    assert grouped(levels) == [[1, 2], [0, 3]]
+    assert group_levels(levels) == [[1, 2], [0, 3]]
 
 
 def test_priors_are_cut_where_a_map_must_end():
     model = default().make("model", "lin_backlash")
-    half = _free("c", Prior(half_sd=2.0), model)
+    half = _make_free_parameter("c", Prior(half_sd=2.0), model)
     assert 0.0 < half.low < 0.05
     assert 6.0 < half.high < 8.0
-    log = _free("x0", Prior(median=0.5, sd_log=0.1), model)
+    log = _make_free_parameter("x0", Prior(median=0.5, sd_log=0.1), model)
     assert log.log
     assert math.exp(log.low) == pytest.approx(0.5 * math.exp(-0.329), rel=1e-3)
 
@@ -182,12 +198,12 @@ def test_a_parameter_that_is_neither_known_nor_free_is_named():
     model = default().make("model", "lin_backlash")
     power = next(NumberPower.of(group, model) for group in model.groups if group.name == "alpha")
     with pytest.raises(CaseError, match="alpha needs k0"):
-        law_of(power, {"x0": 1.0, "drive.amplitude": 2.0}, [])
+        make_law(power, {"x0": 1.0, "drive.amplitude": 2.0}, [])
 
 
 def test_a_map_without_dimensions_is_refused(tmp_path):
     request = Request("lin_backlash", ("alpha=0.3:0.6:2", "zeta=0.02:0.05:2"), 100, 20, 1)
-    make_map(study_of(request, default()), tmp_path / "map.nc", How(), lambda _done, _all: None)
+    make_map(make_study(request, default()), tmp_path / "map.nc", RunOptions(), lambda _done, _all: None)
     with pytest.raises(DataError, match="section_dimension"):
         Atlas.of(Map.open(tmp_path / "map.nc"))
 
@@ -196,34 +212,36 @@ def test_an_open_stiffness_adds_the_frequency_ratio_to_the_map(tmp_path):
     levels = (Level("a", 0.5, 0.2, "chaotic", unit="N"), Level("b", 0.4, 0.2, "periodic", unit="N"))
     estimate = {"x0": Prior(low=0.8, high=1.3), "c": Prior(low=0.03, high=0.06), "k0": Prior(median=1.0, sd_log=0.02)}
     case = CaseFile("open", Path(), (), "lin_backlash", {"m": 1.0}, estimate, {}, (), "none", levels=levels)
-    survey = Survey(alpha=16, zeta=4, ratios=3, periods=100, transient=60, starts=1)
-    made = inversion_of(case, levels, default(), tmp_path, survey)
+    survey = MapGrid(alpha=16, zeta=4, ratios=3, periods=100, transient=60, starts=1)
+    made = make_inversion(case, levels, default(), tmp_path, survey)
     assert made.atlases[0].names == ("alpha", "zeta", "frequency_ratio")
     assert made.atlases[0].shape == (8, 2, 3)
     inside = made.log_likelihoods(np.array([[1.0, 0.04, 0.0], [0.8, 0.03, made.free[2].low]]))
     assert np.isfinite(inside).all()
-    assert set(made.numbers(np.array([[1.0, 0.04, 0.0]]))) == {"zeta"}
-    again = inversion_of(case, levels, default(), tmp_path, Survey(maps=tuple(tmp_path.glob("*.nc"))))
+    assert set(made.compute_numbers(np.array([[1.0, 0.04, 0.0]]))) == {"zeta"}
+    again = make_inversion(case, levels, default(), tmp_path, MapGrid(maps=tuple(tmp_path.glob("*.nc"))))
     assert np.array_equal(again.log_likelihoods(np.array([[1.0, 0.04, 0.0]])), inside[:1])
     wide = replace(case, estimate={**estimate, "x0": Prior(low=0.5, high=1.3)})
     with pytest.raises(DataError, match="priors ask for"):
-        inversion_of(wide, levels, default(), tmp_path, Survey(maps=tuple(tmp_path.glob("*.nc"))))
+        make_inversion(wide, levels, default(), tmp_path, MapGrid(maps=tuple(tmp_path.glob("*.nc"))))
 
 
 def test_a_task_is_ready_to_be_sampled_and_changes_with_what_was_seen(tmp_path):
     levels = (Level("a", 0.5, 0.2, "chaotic", unit="N"), Level("b", 0.39, 0.2, "periodic", unit="N"))
     estimate = {"x0": Prior(low=0.8, high=1.3, scale="log"), "zeta": Prior(low=0.015, high=0.03)}
     case = CaseFile("task", Path(), (), "lin_backlash", {"m": 1.0, "k0": 1.0}, estimate, {}, (), "none", levels=levels)
-    survey = Survey(alpha=16, zeta=4, periods=100, transient=60, starts=1)
+    survey = MapGrid(alpha=16, zeta=4, periods=100, transient=60, starts=1)
     told = []
-    task = quantifier_task(case, default(), tmp_path, np.random.default_rng(1), survey, say=lambda *x: told.append(x))
+    task = make_quantifier_task(
+        case, default(), tmp_path, np.random.default_rng(1), survey, say=lambda *x: told.append(x)
+    )
     assert told[-1] == (64, 64)
     assert [(s.name, s.unit, s.power) for s in task.shown] == [("x0", "m", 1.0), ("zeta", "1", 0.0)]
     assert np.isfinite(task.posterior.log_likelihoods(task.maximum[None])).all()
-    assert np.allclose(derived(task.posterior, task.maximum[None]).get("zeta", 0.0), 0.0)
+    assert np.allclose(compute_derived(task.posterior, task.maximum[None]).get("zeta", 0.0), 0.0)
     other = replace(case, levels=(levels[0],))
-    again = quantifier_task(
-        other, default(), tmp_path, np.random.default_rng(1), Survey(maps=(*tmp_path.glob("*.nc"),))
+    again = make_quantifier_task(
+        other, default(), tmp_path, np.random.default_rng(1), MapGrid(maps=(*tmp_path.glob("*.nc"),))
     )
     assert again.digest != task.digest
 
@@ -231,7 +249,7 @@ def test_a_task_is_ready_to_be_sampled_and_changes_with_what_was_seen(tmp_path):
 def test_a_case_without_levels_is_told_what_is_wanted(tmp_path):
     case = CaseFile("none", Path(), (), "lin_backlash", {}, {}, {}, (), "none")
     with pytest.raises(CaseError, match=r"neither \[\[levels\]\] nor"):
-        quantifier_task(case, default(), tmp_path, np.random.default_rng(1))
+        make_quantifier_task(case, default(), tmp_path, np.random.default_rng(1))
 
 
 @pytest.mark.parametrize(
@@ -253,4 +271,4 @@ def test_cases_that_cannot_be_inverted_are_refused_in_a_sentence(known, estimate
     levels = (Level("a", 0.5, 0.2, "chaotic", unit=unit),)
     case = CaseFile("bad", Path(), (), "lin_backlash", known, estimate, {}, (), "none", levels=levels)
     with pytest.raises(CaseError, match=says):
-        wanted_of(case, levels, default())
+        make_level_numbers(case, levels, default())

@@ -24,7 +24,7 @@ from pathlib import Path
 sys.path.insert(0, {here!r})
 import lostmotion.identification.sampling as stage
 from test_keep import slow_task, SamplingPlan
-stage.EVERY = 0.0
+stage.SAVE_INTERVAL = 0.0
 result = stage.identify(slow_task(), rng=np.random.default_rng(3), plan=SamplingPlan(ess=300), keep=Path(sys.argv[1]))
 np.save(sys.argv[2], result.chain)
 """
@@ -93,7 +93,7 @@ def cut_after(calls):
 @pytest.mark.slow
 def test_cut_short_after_any_block_it_ends_the_same(tmp_path, monkeypatch):
     """The same with an exception in place of a kill, so that every place is visited: pilots, start, each block."""
-    monkeypatch.setattr("lostmotion.identification.sampling.EVERY", 0.0)
+    monkeypatch.setattr("lostmotion.identification.sampling.SAVE_INTERVAL", 0.0)
     plan = SamplingPlan(ess=500)
     rng = np.random.default_rng(1)
     undisturbed = identify(quick_task(), rng=rng, plan=plan)
@@ -141,7 +141,7 @@ def test_a_chain_of_another_case_is_not_continued(tmp_path, task, seed):
 def test_a_file_that_is_no_chain_is_left_alone(tmp_path):
     path = tmp_path / "chain.h5"
     path.write_text("notes")
-    with pytest.raises(DataError, match="no chain of an identification"):
+    with pytest.raises(DataError, match="not a readable chain of an identification"):
         identify(quick_task(), rng=np.random.default_rng(1), keep=path)
     assert path.read_text() == "notes"
 

@@ -7,9 +7,9 @@ import pytest
 
 from lostmotion.contracts import Assembly
 from lostmotion.errors import CaseError, LostMotionError
-from lostmotion.maps.axes import MapAxis, axis_of
-from lostmotion.maps.rig import SweptMachine, reach
-from lostmotion.maps.run import Request, study_of
+from lostmotion.maps.axes import MapAxis, parse_axis
+from lostmotion.maps.rig import SweptMachine, measure_extent
+from lostmotion.maps.run import Request, make_study
 from lostmotion.registry import default
 
 X, Y = "alpha=0.2:0.5:4:inverse", "zeta=0.01:0.04:3"
@@ -18,30 +18,30 @@ X, Y = "alpha=0.2:0.5:4:inverse", "zeta=0.01:0.04:3"
 def rig(swept=("alpha", "zeta"), **fixed):
     """A rig of lin_backlash; a double underscore stands for a dot."""
     told = {name.replace("__", "."): value for name, value in fixed.items()}
-    return SweptMachine(Assembly(default().make("model", "lin_backlash")), swept, told).checked()
+    return SweptMachine(Assembly(default().make("model", "lin_backlash")), swept, told).validate()
 
 
 def test_an_inverse_axis_is_even_in_one_over_it():
-    axis = axis_of("alpha=0.1:0.5:9:inverse")
+    axis = parse_axis("alpha=0.1:0.5:9:inverse")
     assert axis == MapAxis("alpha", 0.1, 0.5, 9, "inverse")
     assert np.diff(1.0 / axis.values) == pytest.approx(np.full(8, -1.0))
     assert (axis.values[0], axis.values[-1]) == (0.1, 0.5)
 
 
 def test_a_log_axis_is_even_in_the_logarithm():
-    assert axis_of("c=0.01:1:3:log").values == pytest.approx([0.01, 0.1, 1.0])
+    assert parse_axis("c=0.01:1:3:log").values == pytest.approx([0.01, 0.1, 1.0])
 
 
 @pytest.mark.parametrize("text", ["zeta=0.01:0.07:4", "alpha=0.1:0.7:5:inverse", "c=0.3:9:6:log"])
 def test_the_points_of_an_axis_are_among_those_of_a_finer_one(text):
-    axis = axis_of(text)
-    assert np.array_equal(axis.finer(2).values[::4], axis.values) or axis.spacing != "linear"
-    assert axis.finer(2).values[::4] == pytest.approx(axis.values, rel=1e-15)
+    axis = parse_axis(text)
+    assert np.array_equal(axis.refine(2).values[::4], axis.values) or axis.spacing != "linear"
+    assert axis.refine(2).values[::4] == pytest.approx(axis.values, rel=1e-15)
 
 
 def test_an_axis_as_text_is_read_as_itself():
     axis = MapAxis("alpha", 0.1, 1.0 / 3.0, 9, "inverse")
-    assert axis_of(axis.as_text()) == axis
+    assert parse_axis(axis.as_text()) == axis
 
 
 @pytest.mark.parametrize(
@@ -60,7 +60,7 @@ def test_an_axis_as_text_is_read_as_itself():
 )
 def test_what_is_no_axis_is_refused(text, says):
     with pytest.raises(CaseError, match=says):
-        axis_of(text)
+        parse_axis(text)
 
 
 def test_the_numbers_of_the_paper_set_the_normalised_machine():
@@ -88,10 +88,10 @@ def test_parameters_of_terms_and_aliases_are_knobs():
     made = SweptMachine(
         Assembly(registry.make("model", "lin_backlash")) + friction,
         ("coulomb_friction.force",), {"alpha": 0.5, "zeta": 0.02},
-    ).checked()  # fmt: skip
+    ).validate()  # fmt: skip
     assert made.normalised
     assert made.flow({"coulomb_friction.force": 0.1})[0].period == pytest.approx(10.0 * math.pi)
-    assert rig(("damping", "drive.amplitude"), m=1, k0=1, x0=1, drive__omega=0.2).knob("damping").key == "c"
+    assert rig(("damping", "drive.amplitude"), m=1, k0=1, x0=1, drive__omega=0.2).find_knob("damping").key == "c"
 
 
 @pytest.mark.parametrize(
@@ -113,9 +113,9 @@ def test_knobs_that_contradict_or_are_wanting_are_refused(swept, fixed, says):
 
 def test_starts_reach_about_as_far_as_the_motion():
     flow, _ = rig().flow({"alpha": 0.5, "zeta": 0.02})
-    assert reach(flow, 40)[0] == pytest.approx(2.0, rel=0.5)
+    assert measure_extent(flow, 40)[0] == pytest.approx(2.0, rel=0.5)
     still, _ = rig().flow({"alpha": 0.0, "zeta": 0.02})
-    assert np.array_equal(reach(still, 40), [1.0, 1.0])
+    assert np.array_equal(measure_extent(still, 40), [1.0, 1.0])
 
 
 @pytest.mark.parametrize(
@@ -134,10 +134,10 @@ def test_starts_reach_about_as_far_as_the_motion():
 )
 def test_a_request_that_cannot_be_meant_is_refused(asked, says):
     with pytest.raises(LostMotionError, match=says):
-        study_of(Request(**{"model": "lin_backlash", **asked}), default())
+        make_study(Request(**{"model": "lin_backlash", **asked}), default())
 
 
 def test_a_drive_may_be_told_in_hertz():
     request = Request("lin_backlash", (X, Y), drive=f"harmonic:frequency={0.3 / (2 * math.pi)},phase=0.5")
-    flow, _ = study_of(request, default()).rig.flow({"alpha": 0.5, "zeta": 0.02})
+    flow, _ = make_study(request, default()).rig.flow({"alpha": 0.5, "zeta": 0.02})
     assert flow.numbers[6:] == pytest.approx((0.3, 0.5))

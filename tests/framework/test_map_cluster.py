@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from lostmotion.errors import DataError
-from lostmotion.maps.run import How, Request, make_map, study_of
+from lostmotion.maps.run import Request, RunOptions, make_map, make_study
 from lostmotion.maps.store import load
-from lostmotion.maps.sweep import Crew, _result
+from lostmotion.maps.sweep import Workers, _get_result
 from lostmotion.registry import default
 
 distributed = pytest.importorskip("distributed", reason="distributed is not installed: pip install lostmotion[cluster]")
@@ -21,8 +21,8 @@ REQUEST = Request(
 
 @pytest.mark.slow
 def test_a_worker_killed_midway_changes_nothing(tmp_path):
-    study = study_of(REQUEST, default())
-    make_map(study, tmp_path / "here.zarr", How(Crew(2)), lambda done, total: None)
+    study = make_study(REQUEST, default())
+    make_map(study, tmp_path / "here.zarr", RunOptions(Workers(2)), lambda done, total: None)
     with distributed.LocalCluster(
         n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None, silence_logs=50
     ) as cluster:
@@ -36,7 +36,7 @@ def test_a_worker_killed_midway_changes_nothing(tmp_path):
                 shot.append(done)
 
         address = cluster.scheduler_address
-        make_map(study, tmp_path / "there.zarr", How(Crew(address=address)), shoot)
+        make_map(study, tmp_path / "there.zarr", RunOptions(Workers(address=address)), shoot)
     assert shot
     assert len(victims) == 2
     here, there = load(tmp_path / "here.zarr"), load(tmp_path / "there.zarr")
@@ -50,7 +50,7 @@ def test_workers_that_lack_a_plugin_are_told():
             raise ModuleNotFoundError("No module named 'my_terms'")
 
     with pytest.raises(DataError, match=r"No module named 'my_terms'.*install lostmotion and its plugins"):
-        _result(Lost())
+        _get_result(Lost())
 
 
 def files(path):
@@ -58,7 +58,7 @@ def files(path):
 
 
 def test_a_cluster_that_does_not_answer_is_told(tmp_path):
-    study = study_of(REQUEST, default())
-    with pytest.raises(DataError, match="no cluster answers"):
-        make_map(study, tmp_path / "a.zarr", How(Crew(address="tcp://127.0.0.1:1")), lambda done, total: None)
+    study = make_study(REQUEST, default())
+    with pytest.raises(DataError, match="there is no cluster at"):
+        make_map(study, tmp_path / "a.zarr", RunOptions(Workers(address="tcp://127.0.0.1:1")), lambda done, total: None)
     assert np.isnan(load(tmp_path / "a.zarr")["lyapunov_max"]).all()

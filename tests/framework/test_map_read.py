@@ -11,11 +11,11 @@ from PIL import Image
 
 from lostmotion.errors import DataError
 from lostmotion.maps import figure as map_figure
-from lostmotion.maps.cells import computed
+from lostmotion.maps.cells import compute_cells
 from lostmotion.maps.map import Map
-from lostmotion.maps.refine import _split
-from lostmotion.maps.run import How, Request, make_map, study_of
-from lostmotion.maps.sweep import Crew
+from lostmotion.maps.refine import _list_split_cells
+from lostmotion.maps.run import Request, RunOptions, make_map, make_study
+from lostmotion.maps.sweep import Workers
 from lostmotion.registry import default
 
 
@@ -52,7 +52,7 @@ def test_what_careful_integration_found_for_case_1(inverse, value, chaotic):
     """Exponents in bit / t_bar at 2 zeta = 0.04, omega / omega_0 = 0.2: shared/paper/READING.md, table of facts."""
     alpha = f"alpha={1 / inverse}:{1 / inverse}:1"
     request = Request("lin_backlash", (alpha,), 600, 400, 6, sets=("zeta=0.02",), unit="bit")
-    found = computed(study_of(request, default()), np.array([[0]]))
+    found = compute_cells(make_study(request, default()), np.array([[0]]))
     assert found["chaotic_fraction"][0] == chaotic
     if value is None:
         assert (found["lyapunov_max"] < -0.01).all()
@@ -120,7 +120,7 @@ def test_a_point_outside_is_refused(point, says):
 
 
 def test_nothing_is_read_where_nothing_was_computed():
-    with pytest.raises(DataError, match="holds no lyapunov_max"):
+    with pytest.raises(DataError, match="has no value of lyapunov_max"):
         grid(np.full((6, 4, 2), np.nan)).at(alpha=2.5, zeta=0.2)
     with pytest.raises(DataError, match="has no 'kaplan_yorke'"):
         grid(np.zeros((6, 4, 2))).at(alpha=2.5, zeta=0.2, quantity="kaplan_yorke")
@@ -130,13 +130,13 @@ def test_nothing_is_read_where_nothing_was_computed():
 def fine():
     """A map of 33 x 33 cells across the edge of a window."""
     axes = ("alpha=0.36:0.64:33:inverse", "zeta=0.01:0.05:33")
-    return study_of(Request("lin_backlash", axes, 80, 60, 1), default())
+    return make_study(Request("lin_backlash", axes, 80, 60, 1), default())
 
 
 @pytest.mark.slow
 def test_intervals_hold_what_a_finer_map_shows(fine, tmp_path):
     """Every fourth cell read at the cells between: 95 % are promised; of 300 fewer than 91 % would be chance 0.2 %."""
-    whole = make_map(fine, tmp_path / "fine.zarr", How(Crew(2)), quiet)
+    whole = make_map(fine, tmp_path / "fine.zarr", RunOptions(Workers(2)), quiet)
     coarse = Map(whole.dataset.isel(alpha=slice(None, None, 4), zeta=slice(None, None, 4)))
     rng = np.random.default_rng(0)
     inside = []
@@ -148,10 +148,10 @@ def test_intervals_hold_what_a_finer_map_shows(fine, tmp_path):
 
 
 def test_a_refined_map_has_the_numbers_of_the_fine_one_where_it_was_computed(fine, tmp_path):
-    whole = make_map(fine, tmp_path / "fine.zarr", How(Crew(2)), quiet).dataset
+    whole = make_map(fine, tmp_path / "fine.zarr", RunOptions(Workers(2)), quiet).dataset
     axes = ("alpha=0.36:0.64:9:inverse", "zeta=0.01:0.05:9")
-    coarse = study_of(Request("lin_backlash", axes, 80, 60, 1), default())
-    found = make_map(coarse, tmp_path / "refined.zarr", How(Crew(2), levels=2), quiet).dataset
+    coarse = make_study(Request("lin_backlash", axes, 80, 60, 1), default())
+    found = make_map(coarse, tmp_path / "refined.zarr", RunOptions(Workers(2), levels=2), quiet).dataset
     level = found["level"].to_numpy()
     assert level.shape == (33, 33)
     assert (level[::4, ::4] == 0).all()
@@ -169,38 +169,38 @@ def test_a_refined_map_has_the_numbers_of_the_fine_one_where_it_was_computed(fin
 
 def test_a_refined_map_is_continued_level_by_level(fine, tmp_path):
     axes = ("alpha=0.36:0.64:5:inverse", "zeta=0.01:0.05:5")
-    study = study_of(Request("lin_backlash", axes, 60, 20, 1), default())
-    make_map(study, tmp_path / "whole.nc", How(Crew(2), levels=2), quiet)
+    study = make_study(Request("lin_backlash", axes, 60, 20, 1), default())
+    make_map(study, tmp_path / "whole.nc", RunOptions(Workers(2), levels=2), quiet)
 
     def stop(done, total):
         if total != 25:
             raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        make_map(study, tmp_path / "cut.nc", How(Crew(2), levels=2), stop)
+        make_map(study, tmp_path / "cut.nc", RunOptions(Workers(2), levels=2), stop)
     assert (tmp_path / ".cut.nc.levels").is_dir()
-    make_map(study, tmp_path / "cut.nc", How(Crew(1), levels=2), quiet)
+    make_map(study, tmp_path / "cut.nc", RunOptions(Workers(1), levels=2), quiet)
     assert (tmp_path / "cut.nc").read_bytes() == (tmp_path / "whole.nc").read_bytes()
-    with pytest.raises(DataError, match="made otherwise"):
-        make_map(study, tmp_path / "cut.nc", How(Crew(1), levels=1), quiet)
-    make_map(study, tmp_path / "cut.nc", How(Crew(1), levels=1, fresh=True), quiet)
+    with pytest.raises(DataError, match="with other settings"):
+        make_map(study, tmp_path / "cut.nc", RunOptions(Workers(1), levels=1), quiet)
+    make_map(study, tmp_path / "cut.nc", RunOptions(Workers(1), levels=1, fresh=True), quiet)
 
 
 def test_squares_whose_corners_differ_are_halved():
     share, level = np.full((5, 5), np.nan), np.full((5, 5), -1, np.int8)
     share[::2, ::2], level[::2, ::2] = 0.0, 0
     share[0, 0] = 1.0
-    assert _split(share, level, 2).tolist() == [[0, 1], [1, 0], [1, 1], [1, 2], [2, 1]]
+    assert _list_split_cells(share, level, 2).tolist() == [[0, 1], [1, 0], [1, 1], [1, 2], [2, 1]]
     share[0, 0] = 0.0
-    assert len(_split(share, level, 2)) == 0
+    assert len(_list_split_cells(share, level, 2)) == 0
     # A square of side 1 cannot be: those whose corners are not known stay whole.
-    assert list(itertools.chain(*_split(np.where(level == 0, share, np.nan), level, 4))) == []
+    assert list(itertools.chain(*_list_split_cells(np.where(level == 0, share, np.nan), level, 4))) == []
 
 
 def test_the_figure_is_drawn_and_has_its_colours(tmp_path):
     axes = ("alpha=0.36:0.64:12:inverse", "zeta=0.01:0.05:9")
-    study = study_of(Request("lin_backlash", axes, 60, 20, 1, unit="bit"), default())
-    found = make_map(study, tmp_path / "a.nc", How(Crew(2)), quiet)
+    study = make_study(Request("lin_backlash", axes, 60, 20, 1, unit="bit"), default())
+    found = make_map(study, tmp_path / "a.nc", RunOptions(Workers(2)), quiet)
     figure = map_figure.draw(found.dataset)
     assert figure.axes[0].get_xlabel().startswith("1 / alpha (alpha: amplitude of the drive, A / (k0 x0))")
     assert figure.axes[1].get_ylabel() == "largest exponent (bit/t_bar)"
@@ -221,12 +221,12 @@ def test_a_map_with_holes_is_drawn_and_one_of_one_axis_refused(tmp_path):
 
 
 def test_what_is_no_map_is_refused(tmp_path):
-    with pytest.raises(DataError, match="is not there"):
+    with pytest.raises(DataError, match="does not exist"):
         Map.open(tmp_path / "nothing.zarr")
     xr.Dataset({"a": ("x", [1.0])}).to_netcdf(tmp_path / "other.nc", engine="h5netcdf")
-    with pytest.raises(DataError, match="no map of ours"):
+    with pytest.raises(DataError, match="not a map of lostmotion"):
         Map.open(tmp_path / "other.nc")
     (tmp_path / "empty.zarr").mkdir()
-    with pytest.raises(DataError, match="no map of ours"):
+    with pytest.raises(DataError, match="not a map of lostmotion"):
         Map.open(tmp_path / "empty.zarr")
     shutil.rmtree(tmp_path / "empty.zarr")

@@ -14,10 +14,10 @@ import pytest
 import xarray as xr
 
 from lostmotion.errors import CaseError, DataError
-from lostmotion.maps.cells import computed, period_of
-from lostmotion.maps.layout import layout_of
-from lostmotion.maps.run import How, Request, make_map, study_of
-from lostmotion.maps.sweep import Crew
+from lostmotion.maps.cells import compute_cells, find_period
+from lostmotion.maps.layout import make_grid_layout
+from lostmotion.maps.run import Request, RunOptions, make_map, make_study
+from lostmotion.maps.sweep import Workers
 from lostmotion.registry import default
 from lostmotion.results import STATUSES
 
@@ -35,11 +35,11 @@ def quiet(done, total):
 
 
 def study(**changes):
-    return study_of(replace(SMALL, **changes), default())
+    return make_study(replace(SMALL, **changes), default())
 
 
 def made(path, how=None, **changes):
-    return make_map(study(**changes), path, how or How(Crew(2)), quiet)
+    return make_map(study(**changes), path, how or RunOptions(Workers(2)), quiet)
 
 
 def tree(path):
@@ -91,23 +91,23 @@ def test_the_share_of_chaos_is_that_of_positive_exponents(whole):
 
 @pytest.mark.parametrize("jobs", [1, 3])
 def test_bytes_do_not_depend_on_the_number_of_workers(whole, tmp_path, jobs):
-    made(tmp_path / "other.zarr", How(Crew(jobs)))
+    made(tmp_path / "other.zarr", RunOptions(Workers(jobs)))
     assert tree(tmp_path / "other.zarr") == tree(whole)
 
 
 def test_numbers_do_not_depend_on_the_chunks():
     plan = study()
     cells = np.array([[0, 0], [3, 2], [5, 4]])
-    together, alone = computed(plan, cells), computed(plan, cells[1:2])
+    together, alone = compute_cells(plan, cells), compute_cells(plan, cells[1:2])
     assert all(np.array_equal(together[name][1:2], alone[name], equal_nan=True) for name in alone)
 
 
 def test_starts_are_those_of_the_seed():
     cells = np.array([[1, 1]])
-    same, other = computed(study(), cells), computed(study(seed=4), cells)
-    assert np.array_equal(computed(study(), cells)["lyapunov_max"], same["lyapunov_max"])
+    same, other = compute_cells(study(), cells), compute_cells(study(seed=4), cells)
+    assert np.array_equal(compute_cells(study(), cells)["lyapunov_max"], same["lyapunov_max"])
     assert not np.array_equal(other["lyapunov_max"], same["lyapunov_max"])
-    more = computed(study(starts=5), cells)
+    more = compute_cells(study(starts=5), cells)
     assert np.array_equal(more["lyapunov_max"][:, :2], same["lyapunov_max"])
 
 
@@ -123,7 +123,7 @@ def test_a_spoilt_store_is_mended(whole, tmp_path):
     with xr.open_zarr(path, mask_and_scale=False) as stored:
         assert int(stored["status"].min()) == -1
     said = []
-    make_map(study(), path, How(Crew(2)), lambda done, total: said.append((done, total)))
+    make_map(study(), path, RunOptions(Workers(2)), lambda done, total: said.append((done, total)))
     assert tree(path) == tree(whole)
     assert said[0][0] > 0
     assert said[-1] == (30, 30)
@@ -135,7 +135,7 @@ def test_an_error_midway_keeps_what_is_finished(whole, tmp_path):
             raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        make_map(study(), tmp_path / "cut.zarr", How(Crew(2)), stop)
+        make_map(study(), tmp_path / "cut.zarr", RunOptions(Workers(2)), stop)
     begun = len(tree(tmp_path / "cut.zarr"))
     made(tmp_path / "cut.zarr")
     assert begun < len(tree(whole))
@@ -168,12 +168,12 @@ def files(path):
 def test_a_map_with_other_settings_is_refused_unless_fresh(whole, tmp_path):
     path = tmp_path / "a.zarr"
     shutil.copytree(whole, path)
-    with pytest.raises(DataError, match=r"made otherwise \(seed 3, now 4\)"):
+    with pytest.raises(DataError, match=r"with other settings \(seed 3, now 4\)"):
         made(path, seed=4)
     with pytest.raises(DataError, match="starts 2, now 3"):
         made(path, starts=3)
     assert tree(path) == tree(whole)
-    made(path, How(Crew(2), fresh=True), starts=1)
+    made(path, RunOptions(Workers(2), fresh=True), starts=1)
     assert xr.open_zarr(path).sizes["start"] == 1
 
 
@@ -182,12 +182,12 @@ def test_what_is_none_of_ours_is_never_touched(tmp_path):
     folder.mkdir()
     (folder / "holiday.txt").write_text("sun")
     for fresh in (False, True):
-        with pytest.raises(DataError, match="no map of ours"):
-            made(folder, How(Crew(1), fresh=fresh))
+        with pytest.raises(DataError, match="not a map of lostmotion"):
+            made(folder, RunOptions(Workers(1), fresh=fresh))
     assert (folder / "holiday.txt").read_text() == "sun"
     (tmp_path / "notes.nc").write_text("no netCDF")
     with pytest.raises(DataError, match="cannot be read as"):
-        made(tmp_path / "notes.nc", How(Crew(1), fresh=True))
+        made(tmp_path / "notes.nc", RunOptions(Workers(1), fresh=True))
 
 
 def test_two_runs_do_not_write_one_map(whole, tmp_path):
@@ -199,7 +199,7 @@ def test_two_runs_do_not_write_one_map(whole, tmp_path):
         with pytest.raises(DataError, match="being written by another run"):
             made(path)
 
-    make_map(study(), path, How(Crew(1)), meanwhile)
+    make_map(study(), path, RunOptions(Workers(1)), meanwhile)
 
 
 def test_netcdf_holds_the_same_and_leaves_nothing_beside_it(whole, tmp_path):
@@ -216,7 +216,7 @@ def test_netcdf_holds_the_same_and_leaves_nothing_beside_it(whole, tmp_path):
     with xr.open_dataset(tmp_path / "a.nc", mask_and_scale=False) as stored:
         assert stored["status"].attrs["flag_values"].dtype == np.int8
     begun = []
-    make_map(study(), tmp_path / "a.nc", How(Crew(1)), lambda done, total: begun.append(done))
+    make_map(study(), tmp_path / "a.nc", RunOptions(Workers(1)), lambda done, total: begun.append(done))
     assert begun == []
 
 
@@ -225,31 +225,31 @@ def test_another_ending_is_refused(tmp_path, name, says):
     with pytest.raises(DataError, match=says):
         made(tmp_path / name)
     with pytest.raises(CaseError, match="0 to 8"):
-        made(tmp_path / "a.zarr", How(levels=9))
+        made(tmp_path / "a.zarr", RunOptions(levels=9))
 
 
 def test_bits_are_what_they_are():
     cells = np.array([[2, 2]])
-    nats, bits = computed(study(), cells), computed(study(unit="bit"), cells)
+    nats, bits = compute_cells(study(), cells), compute_cells(study(unit="bit"), cells)
     for name in ("lyapunov_max", "lyapunov_stderr"):
         assert bits[name] == pytest.approx(nats[name] / np.log(2.0))
-    assert layout_of(study(unit="bit")).variables["lyapunov_max"].attrs.units == "bit/t_bar"
+    assert make_grid_layout(study(unit="bit")).variables["lyapunov_max"].attrs.units == "bit/t_bar"
 
 
 def test_further_quantities_stand_beside_the_exponent():
     plan = study(quantities=("kaplan_yorke",), periods=200)
-    found = computed(plan, np.array([[0, 1]]))
+    found = compute_cells(plan, np.array([[0, 1]]))
     assert np.isin(found["kaplan_yorke_status"], [0, 1]).all()
     chaotic = found["lyapunov_max"] > 3 * found["lyapunov_stderr"]
     assert chaotic.any()
     assert (found["kaplan_yorke"][chaotic] > 2.0).all()
-    plain = computed(study(periods=200), np.array([[0, 1]]))
+    plain = compute_cells(study(periods=200), np.array([[0, 1]]))
     assert np.array_equal(plain["lyapunov_max"], found["lyapunov_max"])
 
 
 @pytest.mark.slow
 def test_a_dimension_of_a_series_may_be_asked_for():
-    found = computed(study(quantities=("d2",), starts=1, periods=150), np.array([[0, 1]]))
+    found = compute_cells(study(quantities=("d2",), starts=1, periods=150), np.array([[0, 1]]))
     assert np.isfinite(found["d2"]).all() or (found["d2_status"] > 0).all()
 
 
@@ -259,9 +259,9 @@ def test_a_start_may_be_an_axis():
         "lin_backlash", ("start.position=-2:2:5", "start.velocity=-0.5:0.5:3"), periods=100, transient=100, starts=1,
         sets=("zeta=0.02", f"alpha={1 / 4.1}"),
     )  # fmt: skip
-    plan = study_of(request, default())
+    plan = make_study(request, default())
     cells = np.array([[i, j] for i in range(5) for j in range(3)])
-    found = computed(plan, cells)
+    found = compute_cells(plan, cells)
     assert (found["period"] == 1).all()
     assert (found["chaotic_fraction"] == 0.0).all()
 
@@ -271,20 +271,20 @@ def test_a_model_without_a_closed_form_is_mapped_too():
         "lin_backlash", ("alpha=0.4:0.6:2",), periods=60, transient=40, starts=1, sets=("zeta=0.02",),
         terms=("cubic_stiffness:coefficient=0.001",),
     )  # fmt: skip
-    found = computed(study_of(request, default()), np.array([[0], [1]]))
+    found = compute_cells(make_study(request, default()), np.array([[0], [1]]))
     assert np.isfinite(found["lyapunov_max"]).all()
 
 
 @pytest.mark.parametrize("k", [1, 2, 7, 32])
 def test_a_period_is_found(k):
     cycle = np.random.default_rng(k).normal(size=(k, 2))
-    assert period_of(np.tile(cycle, (200 // k + 1, 1))) == k
+    assert find_period(np.tile(cycle, (200 // k + 1, 1))) == k
 
 
 def test_no_period_is_no_period():
     rng = np.random.default_rng(0)
-    assert period_of(rng.normal(size=(300, 2))) == 0
-    assert period_of(np.tile(rng.normal(size=(33, 2)), (9, 1))) == 0
-    assert period_of(np.full((300, 2), np.nan)) == 0
-    assert period_of(np.ones((20, 2))) == 0
-    assert period_of(np.zeros((300, 2))) == 1
+    assert find_period(rng.normal(size=(300, 2))) == 0
+    assert find_period(np.tile(rng.normal(size=(33, 2)), (9, 1))) == 0
+    assert find_period(np.full((300, 2), np.nan)) == 0
+    assert find_period(np.ones((20, 2))) == 0
+    assert find_period(np.zeros((300, 2))) == 1

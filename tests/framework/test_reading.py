@@ -4,17 +4,17 @@ import numpy as np
 import pytest
 
 from lostmotion.flow import Harmonic
-from lostmotion.identification.reading import ERRORS, corrected, read_level
-from lostmotion.identification.rehearsal import Bench, rehearsed
+from lostmotion.identification.reading import ESTIMATOR_ERRORS, correct_estimate, read_level
+from lostmotion.identification.rehearsal import RecordingPlan, simulate_signals
 from lostmotion.registry import default
 from lostmotion.results import Estimate
 
 
-@pytest.mark.parametrize("name", ERRORS)
+@pytest.mark.parametrize("name", ESTIMATOR_ERRORS)
 def test_what_is_read_of_a_truth_is_corrected_to_that_truth(name):
-    bias, scale, share = ERRORS[name]
+    bias, scale, share = ESTIMATOR_ERRORS[name]
     read = (1.0 + bias) * 2.4
-    found = corrected(name, Estimate(read, read - 0.196, read + 0.196, "ok"))
+    found = correct_estimate(name, Estimate(read, read - 0.196, read + 0.196, "ok"))
     assert found.value == pytest.approx(2.4)
     assert found.sd == pytest.approx(np.hypot(scale * 0.1, share * 2.4), rel=0.1)
 
@@ -27,6 +27,8 @@ def test_what_is_read_of_a_truth_is_corrected_to_that_truth(name):
 def test_a_dimension_is_corrected_for_a_force_or_a_moved_base(model, beat, kind):
     rng, registry = np.random.default_rng(5), default()
     values = {"m": 1.0, "c": 0.04, "k0": 1.0, "x0": 1.0, "mgl" if model == "robot_joint" else "k1": 0.0}
-    read = read_level(rehearsed(registry.make("model", model), values, beat, Bench(), rng)[0], registry, rng)
+    read = read_level(
+        simulate_signals(registry.make("model", model), values, beat, RecordingPlan(), rng)[0], registry, rng
+    )
     assert read.level.motion == "chaotic"
-    assert read.level.d2 == corrected(kind, read.dimension)
+    assert read.level.d2 == correct_estimate(kind, read.dimension)

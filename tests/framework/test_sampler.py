@@ -8,7 +8,7 @@ from scipy.stats import norm
 from toys import Toy, free_of, task_at
 
 from lostmotion.identification.normal_scores import Scores
-from lostmotion.identification.population import effective, tempered
+from lostmotion.identification.population import count_effective, temper_weights
 from lostmotion.identification.sampling import SamplingPlan, ShownCoordinate, Task, identify
 from lostmotion.identification.t_mixture import TMixture
 from lostmotion.likelihood.problem import FreeParameter
@@ -165,14 +165,14 @@ def test_scores_go_to_and_fro():
     low, high = np.array([0.0, -14.0]), np.array([1.0, 6.0])
     for scale in (Scores.flat(low, high), Scores.piled(low, high, low, np.array([0.1, 0.5]))):
         points = low + (high - low) * np.random.default_rng(1).random((500, 2))
-        np.testing.assert_allclose(scale.points(scale.of(points)), points, rtol=1e-6)
+        np.testing.assert_allclose(scale.to_points(scale.to_scores(points)), points, rtol=1e-6)
         step = 1e-6 * (high - low)
-        slope = (scale.of(points + step / 2) - scale.of(points - step / 2)) / step
-        np.testing.assert_allclose(np.log(slope), scale.log_slopes(points), atol=1e-3)
+        slope = (scale.to_scores(points + step / 2) - scale.to_scores(points - step / 2)) / step
+        np.testing.assert_allclose(np.log(slope), scale.compute_log_slopes(points), atol=1e-3)
 
 
 def test_weights_are_flattened_no_more_than_needed():
     log_weights = np.array([0.0, -1.0, -2.0, -50.0, -math.inf])
-    assert effective(tempered(log_weights, 1.0)) < 3.0
-    assert effective(tempered(log_weights, 3.5)) == pytest.approx(3.5, rel=1e-3)
-    np.testing.assert_allclose(tempered(log_weights, 9.0), [0.25, 0.25, 0.25, 0.25, 0.0])
+    assert count_effective(temper_weights(log_weights, 1.0)) < 3.0
+    assert count_effective(temper_weights(log_weights, 3.5)) == pytest.approx(3.5, rel=1e-3)
+    np.testing.assert_allclose(temper_weights(log_weights, 9.0), [0.25, 0.25, 0.25, 0.25, 0.0])

@@ -48,41 +48,41 @@ def ar1(phi, n, rng):
 
 @pytest.mark.real
 def test_mutual_information_is_that_of_the_peers(reference):
-    ami = information.average_mutual_information(reference["L"], 8, bins=64)
+    ami = information.compute_mutual_information(reference["L"], 8, bins=64)
     np.testing.assert_allclose(ami[[0, 1, 8]], [3.968613, 2.406792, 0.933105], atol=5e-7)
 
 
 @pytest.mark.real
 @pytest.mark.parametrize(("name", "lag"), [("L", 8), ("B200", 14), ("B50", 3)])
 def test_the_first_minimum_is_that_of_the_peers(reference, name, lag):
-    assert delay.by_information(reference[name], bins=64).lag == lag
-    assert delay.by_information(reference[name]).lag == lag
+    assert delay.choose_by_information(reference[name], bins=64).lag == lag
+    assert delay.choose_by_information(reference[name]).lag == lag
 
 
 @pytest.mark.real
 def test_shares_of_false_neighbours_are_those_of_the_peers(reference):
     """In the maximum norm they are those of a peer that uses it."""
-    shares = dimension.false_neighbours(reference["L"], 8, theiler=100)
+    shares = dimension.compute_false_neighbours(reference["L"], 8, theiler=100)
     np.testing.assert_allclose(shares, [0.9977491, 0.075410328, 0.00085102123, 0, 0, 0, 0, 0], rtol=1e-7)
-    shares = dimension.false_neighbours(reference["L"], 8, dims=3, theiler=100, norm="max")
+    shares = dimension.compute_false_neighbours(reference["L"], 8, dims=3, theiler=100, norm="max")
     np.testing.assert_allclose(shares, [0.9977, 0.0796, 0.0021], atol=5e-5)
-    shares = dimension.false_neighbours(reference["B200"], 14, dims=4, theiler=200)
+    shares = dimension.compute_false_neighbours(reference["B200"], 14, dims=4, theiler=200)
     np.testing.assert_allclose(shares, [0.99859902, 0.62187062, 0.063282894, 0.0], rtol=1e-7)
-    shares = dimension.false_neighbours(reference["B50"], 3, dims=4, theiler=50)
+    shares = dimension.compute_false_neighbours(reference["B50"], 3, dims=4, theiler=50)
     np.testing.assert_allclose(shares, [0.99704956, 0.49449835, 0.034265419, 0.0], rtol=1e-7)
 
 
 @pytest.mark.real
 def test_curves_of_cao_are_those_of_the_peers(reference):
-    e1, e2 = dimension.cao(reference["L"], 8, theiler=100)
+    e1, e2 = dimension.compute_cao_curves(reference["L"], 8, theiler=100)
     wanted = [0.00018532298, 0.16697681, 0.91408942, 0.94629835, 0.96777956, 0.9660818, 0.97726662, 0.99435905]
     np.testing.assert_allclose(e1, wanted, rtol=1e-7)
     wanted = [0.051370154, 0.56159676, 1.1812669, 1.1588649, 1.1185944, 1.1013544, 1.0873007, 1.0890956]
     np.testing.assert_allclose(e2, wanted, rtol=1e-7)
-    e1, e2 = dimension.cao(reference["B200"], 14, dims=4, theiler=200)
+    e1, e2 = dimension.compute_cao_curves(reference["B200"], 14, dims=4, theiler=200)
     np.testing.assert_allclose(e1, [0.00065054239, 0.055732582, 0.31145999, 0.90001036], rtol=1e-7)
     np.testing.assert_allclose(e2, [0.5521586, 0.2106935, 0.41132232, 0.96184661], rtol=1e-7)
-    e1, e2 = dimension.cao(reference["B50"], 3, dims=5, theiler=50)
+    e1, e2 = dimension.compute_cao_curves(reference["B50"], 3, dims=5, theiler=50)
     np.testing.assert_allclose(e1, [0.00042088074, 0.045385026, 0.41372684, 0.94397604, 0.98901243], rtol=1e-7)
     np.testing.assert_allclose(e2, [0.39908543, 0.1360789, 0.47418153, 0.94570117, 1.0000793], rtol=1e-7)
 
@@ -120,19 +120,19 @@ def slow_ami(x, lag, bins):
 
 def test_counting_in_bins_is_what_histogram2d_does(lorenz):
     for bins, lags in [(64, 30), (7, 3), (16, 0)]:
-        ami = information.average_mutual_information(lorenz, lags, bins=bins)
+        ami = information.compute_mutual_information(lorenz, lags, bins=bins)
         np.testing.assert_allclose(ami, [slow_ami(lorenz, k, bins) for k in range(lags + 1)], rtol=1e-9)
 
 
 def test_bias_correction_counts_full_cells(lorenz):
     """Roulston's correction: (full cells - full rows - full columns + 1) / 2n."""
-    plain = information.average_mutual_information(lorenz, 5, bins=20)
-    codes = information.coded(lorenz, 20)
+    plain = information.compute_mutual_information(lorenz, 5, bins=20)
+    codes = information.assign_bins(lorenz, 20)
     for lag in range(6):
         pairs = np.stack([codes[: len(codes) - lag], codes[lag:]])
         cells = len(np.unique(pairs, axis=1).T)
         bias = (cells - len(np.unique(pairs[0])) - len(np.unique(pairs[1])) + 1) / 2 / pairs.shape[1]
-        fixed = information.average_mutual_information(lorenz, 5, bins=20, corrected=True)[lag]
+        fixed = information.compute_mutual_information(lorenz, 5, bins=20, corrected=True)[lag]
         assert plain[lag] - fixed == pytest.approx(bias)
 
 
@@ -149,7 +149,7 @@ def slow_knn(x, lag, k):
 @pytest.mark.slow
 def test_mutual_information_by_neighbours_is_the_formula_of_its_paper(lorenz):
     x = lorenz[:600]
-    ami, error = information.mutual_information_knn(x, 12, rng=np.random.default_rng(0))
+    ami, error = information.compute_mutual_information_knn(x, 12, rng=np.random.default_rng(0))
     np.testing.assert_allclose(ami[1:], [slow_knn(x, lag, 4) for lag in range(1, 13)], rtol=1e-12)
     assert np.isinf(ami[0])
     assert (error[1:] > 0).all()
@@ -188,7 +188,7 @@ def test_cao_and_false_neighbours_are_those_of_all_distances(lorenz, norm, level
 def test_autocorrelation_is_the_sum_of_products(lorenz):
     x = lorenz[:1000] - lorenz[:1000].mean()
     wanted = [(x[: len(x) - k] * x[k:]).sum() / (x**2).sum() for k in range(50)]
-    np.testing.assert_allclose(delay.autocorrelation(lorenz[:1000], 49), wanted, atol=1e-12)
+    np.testing.assert_allclose(delay.compute_autocorrelation(lorenz[:1000], 49), wanted, atol=1e-12)
 
 
 # --- known answers ----------------------------------------------------------------------------------------------------
@@ -200,9 +200,9 @@ def test_mutual_information_of_a_gaussian_process_is_known(phi):
     x = ar1(phi, 20_000, np.random.default_rng(3))
     lags = np.arange(1, 11)
     wanted = -0.5 * np.log(1 - phi ** (2.0 * lags))
-    ami, error = information.mutual_information_knn(x, 10, rng=np.random.default_rng(0), most=20_000)
+    ami, error = information.compute_mutual_information_knn(x, 10, rng=np.random.default_rng(0), most=20_000)
     assert (np.abs(ami[1:] - wanted) < 5 * error[1:]).all()
-    counted = information.average_mutual_information(x, 10, bins=32, corrected=True, equal_counts=True)[1:]
+    counted = information.compute_mutual_information(x, 10, bins=32, corrected=True, equal_counts=True)[1:]
     np.testing.assert_allclose(counted, wanted, atol=0.03)
 
 
@@ -210,7 +210,7 @@ def test_ties_do_not_spoil_the_neighbours():
     """Quantised to a tenth of the standard deviation, a Gaussian process keeps its mutual information."""
     rng = np.random.default_rng(5)
     x = np.round(ar1(0.9, 5000, rng), 1)
-    ami, _ = information.mutual_information_knn(x, 3, rng=rng)
+    ami, _ = information.compute_mutual_information_knn(x, 3, rng=rng)
     np.testing.assert_allclose(ami[1:], -0.5 * np.log(1 - 0.9 ** (2.0 * np.arange(1, 4))), atol=0.06)
 
 
@@ -221,18 +221,18 @@ def test_independent_samples_stay_below_the_floor(n):
     rng, crossed = np.random.default_rng(n), 0
     for draw in range(400):
         x = rng.normal(size=n) if draw % 2 else rng.uniform(size=n)
-        bins = information.bins_for(n)
-        ami = information.average_mutual_information(x, 1, bins=bins, corrected=True)[1]
-        crossed += ami > information.binned_floor(information.coded(x, bins), bins)
+        bins = information.choose_bin_count(n)
+        ami = information.compute_mutual_information(x, 1, bins=bins, corrected=True)[1]
+        crossed += ami > information.bound_by_chance(information.assign_bins(x, bins), bins)
     assert crossed <= 400 * 0.05
 
 
 def test_a_wiggle_is_no_minimum():
     curve = np.array([5.0, 3.0, 2.0, 2.01, 1.5, 1.0, 0.5, 0.9, 1.4, 0.2, 0.1])
-    assert delay.first_minimum(curve, lambda _: 0.1) == 6
-    assert delay.first_minimum(curve, lambda _: 0.001) == 2
-    assert delay.first_minimum(curve, lambda _: 1.0) is None
-    assert delay.first_minimum(np.linspace(1, 0, 9), lambda _: 0.0) is None
+    assert delay.find_first_minimum(curve, lambda _: 0.1) == 6
+    assert delay.find_first_minimum(curve, lambda _: 0.001) == 2
+    assert delay.find_first_minimum(curve, lambda _: 1.0) is None
+    assert delay.find_first_minimum(np.linspace(1, 0, 9), lambda _: 0.0) is None
 
 
 def test_lorenz_unfolds_in_three_dimensions(lorenz):
@@ -344,7 +344,7 @@ def test_a_spike_does_not_decide_on_the_delay():
 @pytest.mark.parametrize(("noise", "period"), [(0.0, 50), (0.5, 50)])
 def test_the_mean_period_is_that_of_the_motion_also_in_noise(noise, period):
     x = series("sine") + noise * np.random.default_rng(0).normal(size=3000)
-    assert delay.mean_period(x) == pytest.approx(period, abs=1)
+    assert delay.estimate_mean_period(x) == pytest.approx(period, abs=1)
 
 
 def test_methods_and_curves_are_named(lorenz):
@@ -370,9 +370,9 @@ def test_a_given_embedding_is_taken():
 
 def test_what_does_not_fit_is_refused(lorenz):
     with pytest.raises(DataError, match="do not fit"):
-        information.average_mutual_information(lorenz[:50], 50)
+        information.compute_mutual_information(lorenz[:50], 50)
     with pytest.raises(DataError, match="record longer"):
-        dimension.cao(lorenz[:300], 40, theiler=10)
+        dimension.compute_cao_curves(lorenz[:300], 40, theiler=10)
 
 
 @pytest.mark.slow

@@ -12,8 +12,8 @@ from lostmotion.contracts import Series
 from lostmotion.errors import DataError
 from lostmotion.results import Embedding
 from lostmotion_plugins.surrogates._kernels import arrange, impose, walk
-from lostmotion_plugins.surrogates.cycles import PseudoPeriodic, noise_radius
-from lostmotion_plugins.surrogates.ends import piece
+from lostmotion_plugins.surrogates.cycles import PseudoPeriodic, choose_noise_radius
+from lostmotion_plugins.surrogates.ends import find_matching_piece
 from lostmotion_plugins.surrogates.iterated import Iaaft
 from lostmotion_plugins.surrogates.spectral import Aaft, Fourier
 
@@ -149,7 +149,7 @@ def test_ends_meet():
     """A sine is cut to whole periods: value and slope go on where they began (Schreiber, Schmitz 2000)."""
     t = np.arange(1030)
     x = np.sin(2 * np.pi * t / 100.0) + 0.5 * np.cos(4 * np.pi * t / 100.0)
-    part = piece(x)
+    part = find_matching_piece(x)
     assert (part.stop - part.start) % 100 == 0
     assert part.stop - part.start >= 0.9 * len(x)
     lines = sizes(x[part])
@@ -158,7 +158,7 @@ def test_ends_meet():
 
 @pytest.mark.parametrize("n", [20, 21, 200, 1009])
 def test_a_piece_is_always_found(n):
-    part = piece(np.arange(n, dtype=float))
+    part = find_matching_piece(np.arange(n, dtype=float))
     assert 0 <= part.start < part.stop <= n
     assert part.stop - part.start >= 0.85 * n
 
@@ -211,7 +211,7 @@ def test_noise_radius_makes_short_stretches_common():
 
     rows = np.lib.stride_tricks.sliding_window_view(data.x, 17)[:-1, ::8]
     distance = np.sort(np.linalg.norm(rows[:, None] - rows[None], axis=2), axis=1)[:, :49]
-    chosen = noise_radius(distance)
+    chosen = choose_noise_radius(distance)
     assert stretches(chosen) > max(stretches(chosen / 4.0), stretches(chosen * 4.0))
 
 
@@ -257,7 +257,7 @@ def test_periods_that_stay_together():
 def test_what_cannot_be_shuffled_is_said():
     with pytest.raises(DataError, match="period of the drive is not known"):
         PseudoPeriodic(shuffle=True).draw(series(coloured(500)), draws=1, rng=rng())
-    with pytest.raises(DataError, match="4 are wanted"):
+    with pytest.raises(DataError, match="4 are needed"):
         PseudoPeriodic().draw(series(coloured(500), period=200.0), draws=1, rng=rng())
 
 

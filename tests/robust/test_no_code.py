@@ -71,7 +71,7 @@ def test_a_pickle_in_a_map_is_not_opened(tmp_path: Path) -> None:
         '"compressor": null, "filters": [{"id": "pickle", "protocol": 5}]}'
     )
     (store / "a" / "0").write_bytes(chunk.dumps())
-    with pytest.raises(DataError, match="no map of ours"):
+    with pytest.raises(DataError, match="not a map of lostmotion"):
         Map.open(store)
     assert not (tmp_path / "run").exists()
 

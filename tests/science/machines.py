@@ -16,7 +16,7 @@ import numpy as np
 from scipy.signal import decimate
 
 from lostmotion.identification.sampling import SampledPosterior, SamplingPlan, identify
-from lostmotion.identification.trajectory import SampledCase, chosen_terms, sampled, task_for
+from lostmotion.identification.trajectory import SampledCase, choose_terms, make_trajectory_task, sample_case
 from lostmotion.inference.fit import Fit, maximise, robust_covariance
 from lostmotion.inference.modes import distinct
 from lostmotion.inference.setup import problem_of, separated, stepped
@@ -108,8 +108,8 @@ def emps(folder: Path, data: Path, files: Iterable[str] = EMPS_FILES, plan: Samp
     case.write_text("".join(texts) + CARRIAGE)
     registry = default()
     prepared = prepare(case, registry)
-    terms = chosen_terms(prepared, ("coulomb_friction", "offset_force"), registry)
-    return found(sampled(prepared, terms, plan or SamplingPlan(), rng=np.random.default_rng(0), jobs=2))
+    terms = choose_terms(prepared, ("coulomb_friction", "offset_force"), registry)
+    return found(sample_case(prepared, terms, plan or SamplingPlan(), rng=np.random.default_rng(0), jobs=2))
 
 
 def damper(folder: Path, data: Path, names: tuple[str, ...], plan: SamplingPlan | None = None) -> Found:
@@ -119,11 +119,11 @@ def damper(folder: Path, data: Path, names: tuple[str, ...], plan: SamplingPlan 
     case.write_text("".join(texts) + BAND.format(each=", each = true" if several else ""))
     registry = default()
     prepared = prepare(case, registry)
-    terms = chosen_terms(prepared, (), registry)
+    terms = choose_terms(prepared, (), registry)
     rng, system = np.random.default_rng(0), System(prepared.model, terms)
     problem = replace(problem_of(system, prepared.case, prepared.observations), active=frozenset(system.keys))
     fits = [separated(fit, prepared.case.sensor) for fit in hills(problem, rng)]
-    return found(SampledCase(identify(task_for(prepared, fits, terms), rng=rng, plan=plan), tuple(fits)))
+    return found(SampledCase(identify(make_trajectory_task(prepared, fits, terms), rng=rng, plan=plan), tuple(fits)))
 
 
 def hills(problem: Problem, rng: np.random.Generator) -> list[Fit]:

@@ -12,7 +12,7 @@ from lostmotion.flow import Harmonic, Stepped, flow_of, stepped
 from lostmotion.likelihood.system import System
 from lostmotion.rates import exponent_in
 from lostmotion_plugins.models import _kernels
-from lostmotion_plugins.models.exact import ExactBacklash, exact_joint, exact_of
+from lostmotion_plugins.models.exact import ExactBacklash, solve_exactly, solve_joint_exactly
 from lostmotion_plugins.models.joint import RobotJoint
 from lostmotion_plugins.models.lin import LinBacklash
 from lostmotion_plugins.quantifiers.flows import KaplanYorke, LyapunovMax, LyapunovSpectrum
@@ -121,7 +121,15 @@ def test_tangent_equals_the_difference_of_orbits(name):
 def test_strobe_equals_its_slow_twin(monkeypatch):
     """The same functions as plain Python."""
     fast = exact().strobe(START, periods=6, tangents=2)
-    for name in ("propagator", "piece", "leap", "seen", "crossed", "stay", "strobe"):
+    for name in (
+        "propagate_free",
+        "solve_piece",
+        "bound_advance",
+        "evaluate_piece",
+        "find_crossing",
+        "follow_piece",
+        "strobe",
+    ):
         monkeypatch.setattr(_kernels, name, getattr(_kernels, name).py_func)
     states, growth = np.zeros((7, 2)), np.zeros((6, 2))
     assert _kernels.strobe(START, exact().numbers, 1, states, growth) == (7, exact().crossings(START, periods=6), False)
@@ -257,14 +265,14 @@ def test_the_general_flow_agrees():
 def test_a_joint_on_a_moving_base_agrees_with_the_general_flow(phase):
     values = {"m": 1.0, "c": 2.0, "k0": 4e3, "x0": 0.02, "mgl": 0.0}
     drive, start = (0.05, 9.7, phase), np.array([0.03, 0.2])
-    flow = exact_joint(values, drive, start)
+    flow = solve_joint_exactly(values, drive, start)
     general = stepped(System.of(RobotJoint()), values, drive=Harmonic(*drive), start=start, steps=4000)
     np.testing.assert_allclose(
         flow.sample(start, periods=2, looks=6), general.sample(start, periods=2, looks=6), atol=1e-4
     )
     one, other = (f.strobe(start, periods=2, tangents=2).growth for f in (flow, general))
     np.testing.assert_allclose(one.sum(axis=1), other.sum(axis=1), rtol=1e-5)
-    assert exact_joint({**values, "mgl": 3.0}, drive, start) is None
+    assert solve_joint_exactly({**values, "mgl": 3.0}, drive, start) is None
 
 
 @pytest.mark.slow
@@ -273,7 +281,7 @@ def test_what_is_not_exact_goes_to_the_general_flow():
     assert isinstance(flow_of(machine, values, drive=DRIVE), Stepped)
     assert isinstance(flow_of(LinBacklash(), CASE_1, drive=DRIVE, steps=500), Stepped)
     resonance = {**CASE_1, "c": 0.0, "k1": 1600.0}
-    assert exact_of(resonance, (100.0, 40.0, 0.0), None) is None
-    assert exact_of({**CASE_1, "m": -1.0}, (100.0, 40.0, 0.0), None) is None
+    assert solve_exactly(resonance, (100.0, 40.0, 0.0), None) is None
+    assert solve_exactly({**CASE_1, "m": -1.0}, (100.0, 40.0, 0.0), None) is None
     with pytest.raises(ContractError, match="shape"):
         exact().strobe(np.zeros(3), periods=1, tangents=0)

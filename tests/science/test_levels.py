@@ -13,11 +13,11 @@ from lostmotion.case.levels import Level, Measured
 from lostmotion.codec import to_plain
 from lostmotion.contracts import Orbit
 from lostmotion.flow import Harmonic, flow_of
-from lostmotion.identification.levels import Survey, inversion_of
+from lostmotion.identification.levels import MapGrid, make_inversion
 from lostmotion.identification.reading import read_level
-from lostmotion.identification.rehearsal import Bench, rehearsed, rehearsed_levels
-from lostmotion.identification.result import drive_level
-from lostmotion.maps.inversion import predicted
+from lostmotion.identification.rehearsal import RecordingPlan, simulate_levels, simulate_signals
+from lostmotion.identification.result import make_drive_level
+from lostmotion.maps.inversion import predict_levels
 from lostmotion.registry import default
 
 REGISTRY = default()
@@ -91,7 +91,7 @@ def test_a_recording_is_read_as_its_level(inverse, motion):
     model, rng = REGISTRY.make("model", "lin_backlash"), np.random.default_rng(5)
     values = {"m": M, "c": 8.0, "k1": 0.0, "k0": K0, "x0": 0.005}
     beat = Harmonic(K0 * 0.005 / inverse, OMEGA)
-    level = read_level(rehearsed(model, values, beat, Bench(), rng)[0], REGISTRY, rng).level
+    level = read_level(simulate_signals(model, values, beat, RecordingPlan(), rng)[0], REGISTRY, rng).level
     assert (level.motion, level.unit) == (motion, "N")
     assert level.amplitude == pytest.approx(beat.amplitude, rel=1e-3)
     assert level.omega == pytest.approx(OMEGA, rel=1e-5)
@@ -130,17 +130,17 @@ def test_gap_of_a_machine_of_known_damping(tmp_path):
     case = oscillator(x0=Prior(low=0.002, high=0.012))
     truth, amplitudes = {"x0": 0.0047}, (50.0, 75.0, 100.0, 140.0)
     drives = [(a, OMEGA) for a in amplitudes]
-    levels = tuple(r.level for r in rehearsed_levels(case, REGISTRY, truth, drives, np.random.default_rng(7)))
-    inversion = inversion_of(case, levels, REGISTRY, tmp_path, Survey(alpha=120, zeta=1, **QUICK))
+    levels = tuple(r.level for r in simulate_levels(case, REGISTRY, truth, drives, np.random.default_rng(7)))
+    inversion = make_inversion(case, levels, REGISTRY, tmp_path, MapGrid(alpha=120, zeta=1, **QUICK))
     points, weights = grid_of(inversion, (2000,))
     low, high = interval(points[:, 0], weights)
     assert low < truth["x0"] < high
     assert high - low < 0.004
-    expected = predicted(inversion, points[np.random.default_rng(1).choice(2000, 400, p=weights)],
+    expected = predict_levels(inversion, points[np.random.default_rng(1).choice(2000, 400, p=weights)],
                          np.random.default_rng(2))  # fmt: skip
     for level, one in zip(levels, expected, strict=True):
         assert (one.chaotic_share > 0.5) == (level.motion == "chaotic")
-        json.dumps(to_plain(drive_level(one)))
+        json.dumps(to_plain(make_drive_level(one)))
 
 
 @pytest.mark.slow
@@ -148,8 +148,8 @@ def test_gap_and_damping_of_a_simulated_machine(tmp_path):
     case = oscillator(x0=Prior(low=0.002, high=0.012), zeta=Prior(low=0.01, high=0.06))
     truth, amplitudes = {"x0": 0.0052, "zeta": 0.023}, (40.0, 55.0, 75.0, 100.0, 130.0, 170.0)
     drives = [(a, OMEGA) for a in amplitudes]
-    levels = tuple(r.level for r in rehearsed_levels(case, REGISTRY, truth, drives, np.random.default_rng(8)))
-    inversion = inversion_of(case, levels, REGISTRY, tmp_path, Survey(alpha=90, zeta=8, **QUICK))
+    levels = tuple(r.level for r in simulate_levels(case, REGISTRY, truth, drives, np.random.default_rng(8)))
+    inversion = make_inversion(case, levels, REGISTRY, tmp_path, MapGrid(alpha=90, zeta=8, **QUICK))
     points, weights = grid_of(inversion, (400, 60))
     for column, name in enumerate(("x0", "zeta")):
         low, high = interval(points[:, column], weights)
@@ -165,7 +165,7 @@ def test_dimension_decides_between_two_gaps_that_the_exponents_leave(tmp_path):
         Level("75 N", 75.0, OMEGA, "chaotic", Measured(6.20, 0.48), Measured(2.38, 0.08)),
         Level("100 N", 100.0, OMEGA, "periodic"),
     )
-    inversion = inversion_of(case, levels, REGISTRY, tmp_path, Survey(alpha=90, zeta=10, **QUICK))
+    inversion = make_inversion(case, levels, REGISTRY, tmp_path, MapGrid(alpha=90, zeta=10, **QUICK))
     small = {}
     for name, posterior in (("alone", inversion.without_d2()), ("with", inversion)):
         points, weights = grid_of(posterior, (400, 60))
@@ -189,7 +189,7 @@ def test_table_2_of_the_paper_holds_the_joint_that_was_searched_for(tmp_path):
     estimate = {"x0": Prior(low=math.radians(0.3), high=math.radians(1.5)), "zeta": Prior(low=0.01, high=0.12)}
     known = {"m": 1.0, "k0": (omega / RATIO) ** 2}
     case = CaseFile("table 2", Path(), (), "robot_joint", known, estimate, {}, (), "none", levels=levels)
-    inversion = inversion_of(case, levels, REGISTRY, tmp_path, Survey(alpha=80, zeta=10, **QUICK))
+    inversion = make_inversion(case, levels, REGISTRY, tmp_path, MapGrid(alpha=80, zeta=10, **QUICK))
     points, weights = grid_of(inversion, (400, 60))
     for column, value in ((0, math.radians(HALF)), (1, 0.5 * DAMPING)):
         low, high = interval(points[:, column], weights)

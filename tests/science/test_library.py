@@ -24,7 +24,7 @@ from lostmotion.registry import Registry
 from lostmotion_plugins.terms.elastic import CubicStiffness, LinearStiffness, OffsetForce
 from lostmotion_plugins.terms.friction import CoulombFriction
 from lostmotion_plugins.terms.friction_kinds import DirectionalFriction
-from lostmotion_plugins.terms.lag import ActuatorLag, SensorLag, lagged
+from lostmotion_plugins.terms.lag import ActuatorLag, SensorLag, apply_lag
 from lostmotion_plugins.terms.play import Backlash, EndStop
 from lostmotion_plugins.terms.sensor import PositionRipple
 from lostmotion_plugins.terms.viscous import QuadraticDamping
@@ -183,7 +183,7 @@ def test_density_of_bent_readings_is_that_of_the_readings():
 @pytest.mark.parametrize("time", [1e-5, 0.004, 0.03, 0.5, 4.0])
 def test_lag_of_a_drive_is_that_of_the_linear_answer(time):
     t, omega = np.linspace(0.0, 20.0, 2001), 3.0
-    seen = lagged(lambda t, order: np.cos(omega * t), t, time, 0)
+    seen = apply_lag(lambda t, order: np.cos(omega * t), t, time, 0)
     wanted = np.real(np.exp(1j * omega * t) / (1.0 + 1j * omega * time))
     assert np.abs(seen - wanted).max() < 1e-9
 

@@ -11,7 +11,7 @@ import pytest
 from machines import EMPS_FILES, LEVEL, PUBLISHED, damper, emps, travel
 
 from lostmotion.identification.sampling import SamplingPlan
-from lostmotion.identification.trajectory import warnings_of
+from lostmotion.identification.trajectory import write_warnings
 
 pytestmark = [pytest.mark.real, pytest.mark.slow]
 TOLERANCE = {"m": 0.01, "c": 0.08, "coulomb_friction.force": 0.02, "offset_force.force": 0.03}
@@ -50,7 +50,7 @@ def test_intervals_of_one_recording_miss_those_of_the_other_and_the_workflow_war
         usual, robust = (np.hypot(a, b) for a, b in zip(one.deviations(key), other.deviations(key), strict=True))
         assert difference > least * usual, key
         assert difference < most * robust, key
-    assert all(warnings_of(seen.fit) for seen in carriage.values())
+    assert all(write_warnings(seen.fit) for seen in carriage.values())
 
 
 def test_published_values_lie_within_what_a_memory_allows(carriage):

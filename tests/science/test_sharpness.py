@@ -10,7 +10,7 @@ from independent import FINE, Machine, recording
 from scipy.linalg import expm
 from truths import TRUE, case_of, system_of
 
-from lostmotion.identification.sampling import SamplingPlan, identify, task_of
+from lostmotion.identification.sampling import SamplingPlan, identify, make_task
 from lostmotion.inference.fit import maximise
 from lostmotion.inference.setup import problem_of, stepped
 from lostmotion.likelihood.observation import Observation
@@ -122,7 +122,7 @@ def test_chaotic_motion_is_read_as_sharply_as_pieces_of_ten_periods_allow():
 def test_draws_are_as_sharp_as_the_information(level):
     """The posterior as sampled: 300 effective draws know a deviation to 4 %, so that 1.3 is seven of these away."""
     machine, seen, sigma, q, fit = posed(PERIODIC[level], 1e-3)
-    found = identify(task_of([fit]), rng=np.random.default_rng(0), plan=SamplingPlan(ess=300.0))
+    found = identify(make_task([fit]), rng=np.random.default_rng(0), plan=SamplingPlan(ess=300.0))
     assert found.converged
     sd = np.log(found.draws[:, [found.keys.index("c"), found.keys.index("x0")]]).std(axis=0)
     ratio = sd / bounds(machine, seen, sigma, q)

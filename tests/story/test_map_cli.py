@@ -37,7 +37,7 @@ def test_a_map_is_made_drawn_and_told(tmp_path):
     assert "computed" not in again.output
     other = run("--model", "lin_backlash", *X, *Y, *SHORT, "--out", out)
     assert other.exit_code == 2
-    assert "made otherwise (settings unit bit/t_bar, now 1/t_bar)" in other.output
+    assert "with other settings (settings unit bit/t_bar, now 1/t_bar)" in other.output
     assert "--fresh" in other.output
 
 
@@ -75,7 +75,7 @@ def test_three_axes_and_a_refined_map(tmp_path):
         (("--model", "lin_backlash", "--x", "alpha=0.1:0.5", *Y), "NAME=LOW:HIGH:N"),
         (("--model", "lin_backlash", *X, *Y, "--set", "zeta"), "write key=value"),
         (("--model", "lin_backlash", *X, *Y, "--periods", "10"), "periods"),
-        (("--model", "lin_backlash", *X, *Y, "--dask", "nonsense://x"), "no cluster answers at nonsense://x"),
+        (("--model", "lin_backlash", *X, *Y, "--dask", "nonsense://x"), "there is no cluster at nonsense://x"),
     ],
 )
 def test_what_cannot_be_meant_is_one_sentence(tmp_path, args, says):

@@ -55,11 +55,11 @@ def command(
     cut short goes on where it stopped. Exit status 0 when the sampling ended, converged or not; no interval is given of
     a chain that has not converged. 2 for a case that cannot be used.
     """
-    from lostmotion.identification.run import Order, run_identification
+    from lostmotion.identification.run import IdentificationRequest, run_identification
     from lostmotion.identification.sampling import SamplingPlan
 
     plan = SamplingPlan(**{key: given.pop(key) for key in ("ess", "max_steps", "walkers")}, limits=settings.chain)  # type: ignore[arg-type]
-    order = Order(seed=seed, jobs=jobs, plan=plan, settings=settings, **given)  # type: ignore[arg-type]
+    order = IdentificationRequest(seed=seed, jobs=jobs, plan=plan, settings=settings, **given)  # type: ignore[arg-type]
     with _bar(plan.max_steps, quiet=quiet) as watch:
         done = run_identification(case, out, registry_of(ctx), order, watch)
     if done.posterior.replaced:

@@ -94,13 +94,13 @@ def command(
     and exponents are per t_bar. The same command continues a map that was interrupted, at any moment; the bytes do not
     depend on that, nor on the number of workers. Exit status 0 when the map is whole, 2 when it cannot be made.
     """  # noqa: D301 - click wants the character itself
-    from lostmotion.maps.run import How, Request, make_map, study_of
-    from lostmotion.maps.sweep import Crew
+    from lostmotion.maps.run import Request, RunOptions, make_map, make_study
+    from lostmotion.maps.sweep import Workers
 
     own = {key: settings.pop(key) for key in ("refine", "jobs", "address", "figure", "fresh", "quiet")}
     axes = tuple(text for text in (x, y, *more) if text)
-    study = study_of(Request(axes=axes, **settings), registry_of(ctx))  # type: ignore[arg-type]
-    how = How(Crew(own["jobs"], own["address"]), own["refine"], own["fresh"])  # type: ignore[arg-type]
+    study = make_study(Request(axes=axes, **settings), registry_of(ctx))  # type: ignore[arg-type]
+    how = RunOptions(Workers(own["jobs"], own["address"]), own["refine"], own["fresh"])  # type: ignore[arg-type]
     begin = time.perf_counter()
     with _bar(bool(own["quiet"])) as say:
         found = make_map(study, out, how, say)

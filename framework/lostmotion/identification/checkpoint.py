@@ -1,4 +1,4 @@
-"""A chain on the disk, in the layout of emcee's HDF5 backend: whole or not there, and to be continued."""
+"""A chain on the disk in the layout of emcee's HDF5 backend, written completely or not at all, to be continued."""
 
 from __future__ import annotations
 
@@ -18,20 +18,20 @@ from lostmotion.recording.subprocess_reader import walk_in_subprocess
 from lostmotion.recording.unpacked import RESULT, check_hdf5
 from lostmotion.storage import save_bytes
 
-EMCEE = "mcmc"
+EMCEE_GROUP = "mcmc"
 """The group that emcee reads."""
-OURS = "lostmotion"
-"""The group with what else is needed to go on."""
-_MIXTURE = ("weights", "centres", "roots")
-_SCALE = ("low", "high", "middle", "breadth")
+EXTRA_GROUP = "lostmotion"
+"""The group with the additional data that a continued run needs."""
+_MIXTURE_FIELDS = ("weights", "centres", "roots")
+_SCALE_FIELDS = ("low", "high", "middle", "breadth")
 
 
 @dataclass(frozen=True)
-class Kept:
-    """A chain as emcee's `backend` holds it, and what else its next step depends on: the mixture, and where it began.
+class StoredChain:
+    """A chain in emcee's `backend`, with the proposal mixture and the start that its next step depends on.
 
-    `evaluations` counts the runs of the likelihood up to when it was read or begun, `fits` how often the mixture was
-    fitted to an earlier chain.
+    `evaluations` counts the evaluations of the likelihood until the chain was read or begun, and `fits` how often the
+    mixture was fitted to an earlier chain.
     """
 
     backend: Any
@@ -42,11 +42,11 @@ class Kept:
 
     @property
     def state(self) -> Any:
-        """Return emcee's state to go on from."""
+        """The state of emcee from which the chain continues."""
         return self.backend.get_last_sample() if self.backend.iteration else self.start
 
 
-def fingerprint(parts: Iterable[object]) -> str:
+def compute_digest(parts: Iterable[object]) -> str:
     """Return the SHA-256 of texts, numbers and arrays as 64 hexadecimal digits."""
     seen = hashlib.sha256()
     for part in parts:
@@ -55,18 +55,18 @@ def fingerprint(parts: Iterable[object]) -> str:
     return seen.hexdigest()
 
 
-def save(path: Path, digest: str, keys: tuple[str, ...], kept: Kept, evaluations: int) -> None:
-    """Write a chain of coordinates `keys` to a file that appears whole or not at all."""
+def save(path: Path, digest: str, keys: tuple[str, ...], kept: StoredChain, evaluations: int) -> None:
+    """Write a chain of the coordinates `keys` to a file, completely or not at all."""
     import h5py
 
     memory = io.BytesIO()
     with h5py.File(memory, "w") as file:
-        _write_chain(file.create_group(EMCEE), kept.backend, kept.state.random_state)
-        ours = file.create_group(OURS)
+        _write_chain(file.create_group(EMCEE_GROUP), kept.backend, kept.state.random_state)
+        ours = file.create_group(EXTRA_GROUP)
         ours.attrs.update(digest=digest, keys=list(keys), evaluations=evaluations, fits=kept.fits)
-        for name in _MIXTURE:
+        for name in _MIXTURE_FIELDS:
             ours[f"mixture/{name}"] = getattr(kept.mixture, name)
-        for name in _SCALE:
+        for name in _SCALE_FIELDS:
             ours[f"scale/{name}"] = getattr(kept.mixture.scale, name)
         ours["start/coords"], ours["start/log_prob"] = kept.start.coords, kept.start.log_prob
         _write_random(ours["start"], kept.start.random_state)
@@ -90,10 +90,10 @@ def _write_random(group: Any, random_state: Any) -> None:
         group.attrs[f"random_state_{i}"] = part
 
 
-def load(path: Path, digest: str) -> Kept | None:
-    """Return the chain that was kept, or None if it was made from something else than `digest` tells.
+def load(path: Path, digest: str) -> StoredChain | None:
+    """Return the stored chain, or None if its inputs differ from those of `digest`.
 
-    Raises `DataError` when the file is none of ours, so that nothing else is written over.
+    Raises `DataError` when the file is not a chain of lostmotion, so that no other file is overwritten.
     """
     import h5py
 
@@ -101,16 +101,16 @@ def load(path: Path, digest: str) -> Kept | None:
         walk_in_subprocess(path)
         check_hdf5(path, RESULT)
         with h5py.File(path, "r") as file:
-            ours = file[OURS]
+            ours = file[EXTRA_GROUP]
             if ours.attrs["digest"] != digest:
                 return None
-            scale = Scores(*(ours[f"scale/{name}"][...] for name in _SCALE))
-            mixture = TMixture(**{name: ours[f"mixture/{name}"][...] for name in _MIXTURE}, scale=scale)
-            backend = _read_chain(file[EMCEE])
+            scale = Scores(*(ours[f"scale/{name}"][...] for name in _SCALE_FIELDS))
+            mixture = TMixture(**{name: ours[f"mixture/{name}"][...] for name in _MIXTURE_FIELDS}, scale=scale)
+            backend = _read_chain(file[EMCEE_GROUP])
             counts = (int(ours.attrs[name]) for name in ("evaluations", "fits"))
-            return Kept(backend, mixture, _read_start(ours["start"]), *counts)
-    except Exception as err:  # HDF5 fails in every way there is
-        raise DataError(f"{path} is no chain of an identification that can be read: give another place") from err
+            return StoredChain(backend, mixture, _read_start(ours["start"]), *counts)
+    except Exception as err:  # h5py raises many types of exceptions
+        raise DataError(f"{path} is not a readable chain of an identification: choose another place") from err
 
 
 def _read_chain(group: Any) -> Any:
@@ -134,7 +134,7 @@ def _read_random(group: Any) -> tuple[Any, ...]:
     return tuple(group.attrs[f"random_state_{i}"] for i in range(5))
 
 
-def cleared(path: Path) -> None:
-    """Remove what runs that were killed left beside the chain."""
+def remove_temporary_files(path: Path) -> None:
+    """Remove temporary files that interrupted runs have left beside the chain."""
     for spare in path.parent.glob(f".{path.stem}.*{path.suffix}"):
         spare.unlink(missing_ok=True)

@@ -1,7 +1,7 @@
-"""A mixture for a posterior of many narrow modes, found from the prior: it must cost little to ask.
+"""A proposal mixture for a posterior with many narrow modes, found from the prior; the likelihood must be cheap.
 
-Incremental mixture importance sampling: Raftery, Bao, Biometrics 66 (2010) 1162-1173. It draws from the prior, puts
-kernels where the weights say that too few draws were made, draws from them, and so on; population Monte Carlo then
+Incremental mixture importance sampling: Raftery, Bao, Biometrics 66 (2010) 1162-1173. It draws from the prior, adds
+kernels where the weights show too few draws, draws from these kernels, and repeats this. Population Monte Carlo then
 fits all kernels together.
 """
 
@@ -15,36 +15,36 @@ from scipy.stats import qmc
 
 from lostmotion.contracts import Array
 from lostmotion.identification.moves import Density, Posterior
-from lostmotion.identification.population import Population, new_kernels
+from lostmotion.identification.population import Population, place_kernels
 from lostmotion.identification.t_mixture import TMixture
 from lostmotion.likelihood.problem import FreeParameter
 
-FIRST = 4096
+PRIOR_DRAWS = 4096
 """Draws from the prior."""
-TURNS = 20
-NEW = 8
-"""Kernels that are added in each turn, at most."""
-NEAR = 60
-"""Draws around a new kernel that give it its scale, and draws that are then made from it."""
-SURE = 20.0
-"""Weights are flattened until this many draws are effective, so that no early draw takes all kernels to itself."""
-POLISH = 10
-FILL = 2000
-DONE = 0.6
-"""The search ends when this share of the draws of a round is effective."""
-PRIOR = 0.1
-"""The share of proposals that come from the whole prior, whatever was found."""
+MAX_ROUNDS = 20
+KERNELS_PER_ROUND = 8
+"""Largest number of kernels that are added in each round."""
+NEIGHBOURS = 60
+"""Number of nearest draws that set the scale of a new kernel, and number of draws from the new kernel."""
+LEAST_EFFECTIVE = 20.0
+"""Weights are flattened until this many draws are effective, so that one early draw does not attract all kernels."""
+FIT_ROUNDS = 10
+FIT_DRAWS = 2000
+EFFICIENCY_GOAL = 0.6
+"""The fit ends when this share of the draws of a round is effective."""
+PRIOR_SHARE = 0.1
+"""Share of proposals from the whole prior."""
 
 
 @dataclass(frozen=True)
-class Before:
-    """The prior as something to draw from, evenly spread."""
+class PriorSource:
+    """The prior as a source of evenly distributed draws."""
 
     posterior: Posterior
     free: tuple[FreeParameter, ...]
 
     def draw(self, count: int, random: Any) -> Array:
-        """Return points (count, parameters): a Sobol sequence, scrambled."""
+        """Return points (count, parameters) from a scrambled Sobol sequence."""
         shares = qmc.Sobol(len(self.free), rng=random).random(count)
         return np.array([[f.quantile(float(s)) for f, s in zip(self.free, row, strict=True)] for row in shares])
 
@@ -53,44 +53,52 @@ class Before:
         return np.array([self.posterior.log_prior(p) for p in points])
 
 
-def incremental_mixture(posterior: Posterior, rng: np.random.Generator) -> TMixture:
+def find_mixture(posterior: Posterior, rng: np.random.Generator) -> TMixture:
     """Return a mixture of up to `TURNS * NEW` kernels and the prior, fitted to the posterior."""
     free = tuple(posterior.free)
     whole = TMixture.of_prior(free)
     population = Population.empty(Density(posterior), whole.size)
-    population.grow(Before(posterior, free), FIRST, rng)
-    mixture = _spread(whole, population, rng)
-    for _ in range(POLISH):
-        share = population.grow(mixture.beside(whole, PRIOR), FILL, rng)
-        mixture = _fitted(mixture, population)
-        if share > DONE:
+    population.grow(PriorSource(posterior, free), PRIOR_DRAWS, rng)
+    mixture = _place_kernels(whole, population, rng)
+    for _ in range(FIT_ROUNDS):
+        share = population.grow(mixture.mix_with(whole, PRIOR_SHARE), FIT_DRAWS, rng)
+        mixture = _fit_mixture(mixture, population)
+        if share > EFFICIENCY_GOAL:
             break
-    return mixture.beside(whole, PRIOR)
+    return mixture.mix_with(whole, PRIOR_SHARE)
 
 
-def _spread(whole: TMixture, population: Population, rng: np.random.Generator) -> TMixture:
-    """Return the kernels that were put, turn by turn, where draws were too few."""
+def _place_kernels(whole: TMixture, population: Population, rng: np.random.Generator) -> TMixture:
+    """Return the kernels added, round by round, where there were too few draws."""
     found: list[TMixture] = []
     unit = np.diag(whole.roots[0])
-    for _ in range(TURNS):
-        fresh = list(new_kernels(whole.scale, unit, population.points, population.shares(SURE), (NEW, NEAR)))
+    for _ in range(MAX_ROUNDS):
+        fresh = list(
+            place_kernels(
+                whole.scale,
+                unit,
+                population.points,
+                population.compute_weights(LEAST_EFFECTIVE),
+                (KERNELS_PER_ROUND, NEIGHBOURS),
+            )
+        )
         if not fresh:
             break
         for kernel in fresh:
-            population.grow(kernel, NEAR, rng)
+            population.grow(kernel, NEIGHBOURS, rng)
         found += fresh
-    return _joined(found or [whole])
+    return _join_mixtures(found or [whole])
 
 
-def _joined(mixtures: list[TMixture]) -> TMixture:
+def _join_mixtures(mixtures: list[TMixture]) -> TMixture:
     """Return all kernels as one mixture, with equal weights."""
     count = len(mixtures)
     centres, roots = (np.concatenate([getattr(c, name) for c in mixtures]) for name in ("centres", "roots"))
     return TMixture(np.full(count, 1.0 / count), centres, roots, mixtures[0].scale)
 
 
-def _fitted(mixture: TMixture, population: Population) -> TMixture:
-    """Return the mixture fitted to the draws that matter."""
-    shares = population.shares(SURE)
+def _fit_mixture(mixture: TMixture, population: Population) -> TMixture:
+    """Return the mixture fitted to the draws with noticeable weight."""
+    shares = population.compute_weights(LEAST_EFFECTIVE)
     kept = shares > 1e-9
-    return mixture.fitted(population.points[kept], shares[kept] / shares[kept].sum(), steps=3)
+    return mixture.fit(population.points[kept], shares[kept] / shares[kept].sum(), steps=3)

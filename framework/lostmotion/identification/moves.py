@@ -1,4 +1,4 @@
-"""How an ensemble moves: mostly jumps drawn from a mixture fitted to the posterior, some walks."""
+"""Proposals of the ensemble sampler: mostly independent draws from a mixture fitted to the posterior, some walks."""
 
 from __future__ import annotations
 
@@ -12,12 +12,14 @@ from lostmotion.contracts import Array
 from lostmotion.identification.t_mixture import TMixture
 from lostmotion.likelihood.problem import FreeParameter
 
-JUMPS, FEWER = 0.95, 0.5
-"""The share of jumps, and that in a chain that mixed badly with so many. The rest are walks, which need no mixture."""
+JUMP_SHARE, JUMP_SHARE_AFTER_FIT = 0.95, 0.5
+"""Share of independent proposals, and their share after the mixture was fitted to a chain that mixed badly.
+
+The other proposals are differential evolution and snooker steps, which need no mixture."""
 
 
 class Posterior(Protocol):
-    """What is asked of a problem that is to be sampled."""
+    """The interface of a posterior that can be sampled."""
 
     @property
     def free(self) -> tuple[FreeParameter, ...]:
@@ -32,7 +34,7 @@ class Posterior(Protocol):
 
 @dataclass
 class Density:
-    """The log posterior density of many points at once; `evaluations` counts the runs of the likelihood."""
+    """The log posterior density of many points at once; `evaluations` counts the evaluations of the likelihood."""
 
     posterior: Posterior
     evaluations: int = field(default=0)
@@ -47,12 +49,12 @@ class Density:
         return np.where(np.isfinite(log_densities), log_densities, -np.inf)
 
 
-def moves(mixture: TMixture, jumps: float = JUMPS) -> list[tuple[Any, float]]:
+def make_moves(mixture: TMixture, jumps: float = JUMP_SHARE) -> list[tuple[Any, float]]:
     """Return emcee's moves with their weights: independent jumps, differential evolution, and snooker steps."""
     from emcee.moves import DEMove, DESnookerMove, RedBlueMove
 
     class Jump(RedBlueMove):  # type: ignore[misc]
-        """Propose from one fixed density, whatever the walker: Tierney, Annals of Statistics 22 (1994) 1701-1728."""
+        """Propose from one fixed density for all walkers: Tierney, Annals of Statistics 22 (1994) 1701-1728."""
 
         def get_proposal(self, sample: Array, _complement: Any, random: Any) -> tuple[Array, Array]:
             points = mixture.draw(len(sample), random)
@@ -61,17 +63,17 @@ def moves(mixture: TMixture, jumps: float = JUMPS) -> list[tuple[Any, float]]:
     return [(Jump(), jumps), (DEMove(), 0.75 * (1.0 - jumps)), (DESnookerMove(), 0.25 * (1.0 - jumps))]
 
 
-def sampler_of(moves: list[tuple[Any, float]], density: Callable[[Array], Array], backend: Any) -> Any:
-    """Return an emcee sampler over the coordinates, which hands over half of the walkers at a time."""
+def make_sampler(moves: list[tuple[Any, float]], density: Callable[[Array], Array], backend: Any) -> Any:
+    """Return an emcee sampler over the coordinates, which evaluates half of the walkers at a time."""
     import emcee
 
     return emcee.EnsembleSampler(*backend.shape, density, moves=moves, vectorize=True, backend=backend)
 
 
-def state_of(points: Array, log_densities: Array, rng: np.random.Generator) -> Any:
-    """Return emcee's state for walkers at `points` of log density `heights`.
+def make_state(points: Array, log_densities: Array, rng: np.random.Generator) -> Any:
+    """Return emcee's state for walkers at `points` with these log densities.
 
-    emcee would silently pass over a seed in any other form.
+    emcee silently ignores a seed in any other form.
     """
     import emcee
 

@@ -1,4 +1,4 @@
-"""Population Monte Carlo: weighted draws from a mixture, and a mixture fitted to them, in turns.
+"""Population Monte Carlo: weighted draws from a mixture, and a mixture fitted to the draws, alternately.
 
 Cappe et al., J. Computational and Graphical Statistics 13 (2004) 907-929; all draws so far share one weight function as
 in Cornuet et al., Scandinavian J. Statistics 39 (2012) 798-812.
@@ -15,26 +15,27 @@ import numpy as np
 
 from lostmotion.contracts import Array
 from lostmotion.identification.normal_scores import Scores
-from lostmotion.identification.t_mixture import TMixture, root_of
+from lostmotion.identification.t_mixture import TMixture, compute_root
 
-ROUNDS = 12
-GOOD = 0.82
+MAX_ROUNDS = 12
+EFFICIENCY_GOAL = 0.82
 """The rounds end when this share of the draws of a round is effective."""
-FAIR = 0.15
-"""From this share on the kernels are where the posterior is, and can follow its shape."""
-LATE, ENOUGH = 5, 0.6
-"""After so many rounds this share is good enough."""
-MANY = 20
-"""With more kernels than that a mixture has been fitted before, and that share is good enough at once."""
-WAIT = 2
-"""After so many rounds a shape that is still not matched gets further kernels."""
-NEW = 2
-"""Kernels that are added in a round."""
-TIMES = 4
-"""Times that kernels are added to a mixture that is fitted to a chain."""
-GUARD, WIDER = 0.05, 4.0
-"""The share of a kernel with so many times the covariance of all others together: what a fit overlooked can still be
-proposed."""
+EFFICIENCY_LEAST = 0.15
+"""From this share on, the kernels cover the posterior, and further kernels can improve its shape."""
+LATE_ROUND, LATE_EFFICIENCY_GOAL = 5, 0.6
+"""After this many rounds, this lower share is sufficient."""
+MANY_KERNELS = 20
+"""A mixture with more kernels than this has been fitted before; the lower share is then sufficient from the start."""
+FIRST_GROWTH_ROUND = 2
+"""From this round on, kernels are added where the shape of the posterior is not matched."""
+KERNELS_PER_ROUND = 2
+"""Kernels added in a round."""
+REFIT_ROUNDS = 4
+"""Number of times that kernels are added to a mixture that is fitted to a chain."""
+GUARD_SHARE, GUARD_SCALE = 0.05, 4.0
+"""Share of a wide kernel, and its covariance relative to that of the whole mixture.
+
+With it, regions that the fit has missed can still be proposed."""
 
 
 class ProposalSource(Protocol):
@@ -49,15 +50,15 @@ class ProposalSource(Protocol):
 
 @dataclass
 class Population:
-    """Draws from several sources in turn with their log posterior density.
+    """Draws from several sources with their log posterior density.
 
-    `drawn` is the logarithm of the density from which all of them were drawn, times their number.
+    `log_proposal` is the log density of the mixture from which all of them were drawn, times their number.
     """
 
     density: Callable[[Array], Array]
     points: Array
     log_densities: Array
-    drawn: Array
+    log_proposal: Array
     sources: list[tuple[int, ProposalSource]] = field(default_factory=list)
 
     @classmethod
@@ -66,56 +67,56 @@ class Population:
         return cls(density, np.empty((0, size)), np.empty(0), np.empty(0))
 
     def grow(self, source: ProposalSource, count: int, rng: np.random.Generator) -> float:
-        """Take draws from a source; return the share of them that is effective."""
+        """Add draws from a source; return the share of them that is effective."""
         points = source.draw(count, rng)
         log_densities, here = self.density(points), source.log_density(points)
         earlier = [math.log(n) + one.log_density(points) for n, one in self.sources]
-        older = np.logaddexp(self.drawn, math.log(count) + source.log_density(self.points))
+        older = np.logaddexp(self.log_proposal, math.log(count) + source.log_density(self.points))
         newer = np.logaddexp.reduce([*earlier, math.log(count) + here], axis=0)
         self.points, self.log_densities = (
             np.concatenate([self.points, points]),
             np.concatenate([self.log_densities, log_densities]),
         )
-        self.drawn = np.concatenate([older, newer])
+        self.log_proposal = np.concatenate([older, newer])
         self.sources.append((count, source))
-        return effective(_scaled(log_densities - here, 1.0)) / count
+        return count_effective(_scale_weights(log_densities - here, 1.0)) / count
 
-    def log_weights(self) -> Array:
-        """Return the log weights (draws,) against the mixture of all that was drawn from."""
-        return np.asarray(self.log_densities - self.drawn)
+    def compute_log_weights(self) -> Array:
+        """Return the log importance weights (draws,) relative to the mixture of all sources."""
+        return np.asarray(self.log_densities - self.log_proposal)
 
-    def shares(self, least: float) -> Array:
+    def compute_weights(self, least: float) -> Array:
         """Return weights (draws,) that add up to one, flattened until `least` draws or more are effective."""
-        return tempered(self.log_weights(), least)
+        return temper_weights(self.compute_log_weights(), least)
 
-    def chosen(self, count: int, rng: np.random.Generator) -> tuple[Array, Array]:
-        """Return `count` points drawn by their weights, no point twice if there are enough, and their heights."""
-        shares = self.shares(2.0 * count)
+    def choose_points(self, count: int, rng: np.random.Generator) -> tuple[Array, Array]:
+        """Return `count` points drawn by their weights, without repetition if possible, and their log densities."""
+        shares = self.compute_weights(2.0 * count)
         again = bool(np.count_nonzero(shares) < count)
         which = rng.choice(len(shares), count, replace=again, p=shares)
         return self.points[which], self.log_densities[which]
 
 
-def effective(shares: Array) -> float:
+def count_effective(shares: Array) -> float:
     """Return the effective number of draws with weights that add up to one: Kong, Univ. of Chicago TR 348 (1992)."""
     total = float(np.sum(shares**2))
     return 1.0 / total if total > 0.0 else 0.0
 
 
-def tempered(log_weights: Array, least: float) -> Array:
+def temper_weights(log_weights: Array, least: float) -> Array:
     """Return weights that add up to one, raised to the highest power up to 1 that leaves `least` draws effective."""
-    shares = _scaled(log_weights, 1.0)
-    if effective(shares) >= least or np.count_nonzero(np.isfinite(log_weights)) <= least:
-        return shares if effective(shares) >= least else _scaled(log_weights, 0.0)
+    shares = _scale_weights(log_weights, 1.0)
+    if count_effective(shares) >= least or np.count_nonzero(np.isfinite(log_weights)) <= least:
+        return shares if count_effective(shares) >= least else _scale_weights(log_weights, 0.0)
     low, high = 0.0, 1.0
     for _ in range(40):
         power = 0.5 * (low + high)
-        enough = effective(_scaled(log_weights, power)) >= least
+        enough = count_effective(_scale_weights(log_weights, power)) >= least
         low, high = (power, high) if enough else (low, power)
-    return _scaled(log_weights, low)
+    return _scale_weights(log_weights, low)
 
 
-def _scaled(log_weights: Array, power: float) -> Array:
+def _scale_weights(log_weights: Array, power: float) -> Array:
     finite = np.isfinite(log_weights)
     if not finite.any():
         return np.zeros(len(log_weights))
@@ -123,65 +124,67 @@ def _scaled(log_weights: Array, power: float) -> Array:
     return np.asarray(weights / weights.sum())
 
 
-def adapted(
+def adapt_mixture(
     mixture: TMixture, population: Population, rng: np.random.Generator, watch: Callable[[int, str], None]
 ) -> TMixture:
-    """Return the mixture fitted to the posterior by rounds of draws, of which `watch` is told."""
+    """Return the mixture fitted to the posterior in rounds of draws; `watch` receives the progress."""
     count, least = max(24 * (mixture.size + 1), 8 * mixture.kernels), 4.0 * (mixture.size + 1)
-    for turn in range(ROUNDS):
-        share = population.grow(guarded(mixture), count, rng)
+    for turn in range(MAX_ROUNDS):
+        share = population.grow(add_guard_kernel(mixture), count, rng)
         watch(0, f"pilot draws, {share:.0%} effective")
-        if share > ENOUGH and mixture.kernels > MANY:
+        if share > LATE_EFFICIENCY_GOAL and mixture.kernels > MANY_KERNELS:
             break
-        shares = population.shares(least)
-        mixture = mixture.fitted(population.points, shares)
-        if share > (GOOD if turn < LATE else ENOUGH):
+        shares = population.compute_weights(least)
+        mixture = mixture.fit(population.points, shares)
+        if share > (EFFICIENCY_GOAL if turn < LATE_ROUND else LATE_EFFICIENCY_GOAL):
             break
-        room = effective(shares) / (5.0 * (mixture.size + 1)) - mixture.kernels
-        if turn >= WAIT and FAIR < share < ENOUGH and room >= NEW:
-            mixture = with_new(mixture, population).fitted(population.points, shares)
-    return guarded(mixture)
+        room = count_effective(shares) / (5.0 * (mixture.size + 1)) - mixture.kernels
+        if turn >= FIRST_GROWTH_ROUND and EFFICIENCY_LEAST < share < LATE_EFFICIENCY_GOAL and room >= KERNELS_PER_ROUND:
+            mixture = add_kernels(mixture, population).fit(population.points, shares)
+    return add_guard_kernel(mixture)
 
 
-def with_new(mixture: TMixture, population: Population) -> TMixture:
-    """Return the mixture with further kernels at draws whose weights say that the mixture is too thin there."""
-    missing = tempered(population.log_densities - mixture.log_density(population.points), 1.0)
-    return thickened(mixture, population.points, missing)
+def add_kernels(mixture: TMixture, population: Population) -> TMixture:
+    """Return the mixture with further kernels at draws where the density of the mixture is too low."""
+    missing = temper_weights(population.log_densities - mixture.log_density(population.points), 1.0)
+    return add_kernels_at(mixture, population.points, missing)
 
 
-def thickened(mixture: TMixture, points: Array, missing: Array) -> TMixture:
-    """Return the mixture with further kernels at the points where most is `missing`, which adds up to one."""
-    wide = mixture.widened(1.0).roots[0]
+def add_kernels_at(mixture: TMixture, points: Array, missing: Array) -> TMixture:
+    """Return the mixture with further kernels at the points with the largest `missing` weights (sum one)."""
+    wide = mixture.widen(1.0).roots[0]
     near = max(4 * (mixture.size + 1), len(points) // 20)
-    for one in list(new_kernels(mixture.scale, np.sqrt(np.sum(wide**2, axis=1)), points, missing, (NEW, near))):
-        mixture = mixture.beside(one, 1.0 / (mixture.kernels + 1.0))
+    for one in list(
+        place_kernels(mixture.scale, np.sqrt(np.sum(wide**2, axis=1)), points, missing, (KERNELS_PER_ROUND, near))
+    ):
+        mixture = mixture.mix_with(one, 1.0 / (mixture.kernels + 1.0))
     return mixture
 
 
-def refitted(mixture: TMixture, points: Array, log_densities: Array) -> TMixture:
+def refit_mixture(mixture: TMixture, points: Array, log_densities: Array) -> TMixture:
     """Return a mixture fitted to draws of the posterior itself, such as those of a chain that mixes badly."""
     points, which, counts = np.unique(points, axis=0, return_index=True, return_counts=True)
     log_densities, shares = log_densities[which], counts / counts.sum()
-    mixture = mixture.fitted(points, shares)
-    for _ in range(TIMES):
-        missing = tempered(log_densities - mixture.log_density(points), 1.0)
-        mixture = thickened(mixture, points, missing).fitted(points, shares)
-    return guarded(mixture)
+    mixture = mixture.fit(points, shares)
+    for _ in range(REFIT_ROUNDS):
+        missing = temper_weights(log_densities - mixture.log_density(points), 1.0)
+        mixture = add_kernels_at(mixture, points, missing).fit(points, shares)
+    return add_guard_kernel(mixture)
 
 
-def guarded(mixture: TMixture) -> TMixture:
-    """Return the mixture with a little of a kernel that is wider than all of it."""
-    return mixture.beside(mixture.widened(WIDER), GUARD)
+def add_guard_kernel(mixture: TMixture) -> TMixture:
+    """Return the mixture with a small share of one kernel that is wider than the whole mixture."""
+    return mixture.mix_with(mixture.widen(GUARD_SCALE), GUARD_SHARE)
 
 
-def new_kernels(
+def place_kernels(
     scale: Scores, unit: Array, points: Array, shares: Array, limits: tuple[int, int]
 ) -> Iterator[TMixture]:
-    """Yield kernels at the points of largest weight, at most `limits[0]`, each as wide as `limits[1]` points about it.
+    """Yield at most `limits[0]` kernels at the points of largest weight, each scaled to its `limits[1]` nearest points.
 
     Distances between scores are measured in `unit`. Raftery, Bao, Biometrics 66 (2010) 1162-1173.
     """
-    scores, left = scale.of(points), shares.copy()
+    scores, left = scale.to_scores(points), shares.copy()
     evenly = 1.0 / len(shares)
     for _ in range(limits[0]):
         top = int(np.argmax(left))
@@ -192,4 +195,4 @@ def new_kernels(
         weights = shares[near] + evenly
         covariance = (weights[:, None] * off[near]).T @ off[near] / weights.sum()
         left[near] = 0.0
-        yield TMixture(np.ones(1), scores[top][None], root_of(covariance)[None], scale)
+        yield TMixture(np.ones(1), scores[top][None], compute_root(covariance)[None], scale)

@@ -1,4 +1,4 @@
-"""What a posterior says of the readings, as ArviZ has it: log-likelihood, observed data, replicates, the prior."""
+"""Groups of a posterior for ArviZ: pointwise log-likelihood, observed data, posterior predictive draws, prior draws."""
 
 from __future__ import annotations
 
@@ -16,20 +16,22 @@ from lostmotion.likelihood.problem import Problem
 if TYPE_CHECKING:
     import xarray as xr
 
-Places = NDArray[np.intp]
+Indices = NDArray[np.intp]
 BLOCKS = 100
-"""Blocks of readings that follow each other, each with its log-likelihood: `arviz.loo` leaves out one of them."""
-SHOWN = 300
-"""Readings of which replicates are kept, evenly over the recordings."""
-PRIOR = 1000
-POINTS = 256
+"""Number of blocks of consecutive readings, each with its log-likelihood: `arviz.loo` leaves out one block."""
+REPLICATED = 300
+"""Number of readings with stored replicates, evenly distributed over the recordings."""
+PRIOR_DRAWS = 1000
+POINTS_PER_CALL = 256
 
 
-def groups_of(task: Task, result: SampledPosterior, case: CaseFile, rng: np.random.Generator) -> dict[str, xr.Dataset]:
+def make_groups(
+    task: Task, result: SampledPosterior, case: CaseFile, rng: np.random.Generator
+) -> dict[str, xr.Dataset]:
     """Return the groups `log_likelihood`, `observed_data`, `posterior_predictive` and `prior` of a sampled posterior.
 
-    A replicate is what the model predicts for a reading from those before it, with its error: the motion is chaotic,
-    and no draw tells readings far ahead.
+    A replicate is the one-step prediction of a reading from those before it, with a random error: the motion may be
+    chaotic, so that readings far ahead cannot be predicted.
     """
     import xarray as xr
 
@@ -38,34 +40,34 @@ def groups_of(task: Task, result: SampledPosterior, case: CaseFile, rng: np.rand
         return {}
     readings = np.concatenate([observation.readings.ravel() for observation in problem.observations])
     taken = np.flatnonzero(np.isfinite(readings))
-    picked = taken[np.unique(np.linspace(0, len(taken) - 1, SHOWN).astype(int))]
+    picked = taken[np.unique(np.linspace(0, len(taken) - 1, REPLICATED).astype(int))]
     edges = np.unique(np.linspace(0, len(readings), BLOCKS + 1).astype(int))[:-1]
     terms, replicates = _predict_blocks(problem, task.coordinates(result.draws), readings, (edges, picked), rng)
     shape = result.chain.shape[:2]
-    told = {
+    groups = {
         "log_likelihood": xr.Dataset({"readings": (("chain", "draw", "block"), terms.reshape(*shape, -1))}),
         "observed_data": xr.Dataset({"readings": (("reading",), readings[picked])}),
         "posterior_predictive": xr.Dataset(
             {"readings": (("chain", "draw", "reading"), replicates.reshape(*shape, -1).astype(np.float32))}
         ),
-        "prior": xr.Dataset(_prior(case, result, rng)),
+        "prior": xr.Dataset(_draw_prior(case, result, rng)),
     }
     return {
         name: data.assign_coords(
             {str(dim): picked if dim == "reading" else np.arange(n) for dim, n in data.sizes.items()}
         )
-        for name, data in told.items()
+        for name, data in groups.items()
     }
 
 
 def _predict_blocks(
-    problem: Problem, thetas: Array, readings: Array, where: tuple[Places, Places], rng: np.random.Generator
+    problem: Problem, thetas: Array, readings: Array, where: tuple[Indices, Indices], rng: np.random.Generator
 ) -> tuple[Array, Array]:
     """Return the log-likelihood of each block (draws, blocks), and replicates of some readings (draws, shown)."""
     edges, picked = where
     terms, replicates = [], []
-    for first in range(0, len(thetas), POINTS):
-        seen = problem.many(thetas[first : first + POINTS])
+    for first in range(0, len(thetas), POINTS_PER_CALL):
+        seen = problem.many(thetas[first : first + POINTS_PER_CALL])
         each = -0.5 * (seen.errors**2 / seen.variances + np.log(2.0 * np.pi * seen.variances))
         terms.append(np.add.reduceat(each, edges, axis=1))
         spread = np.sqrt(seen.variances[:, picked])
@@ -73,12 +75,12 @@ def _predict_blocks(
     return np.concatenate(terms), np.concatenate(replicates)
 
 
-def _prior(
+def _draw_prior(
     case: CaseFile, result: SampledPosterior, rng: np.random.Generator
 ) -> Mapping[str, tuple[tuple[str, str], Array]]:
-    """Return draws (1, PRIOR) of the parameters that the case gives a prior."""
+    """Return draws (1, PRIOR_DRAWS) of the parameters with a prior in the case."""
     named = [name for name in result.keys if name in case.estimate]
-    shares = rng.uniform(size=(len(named), PRIOR))
+    shares = rng.uniform(size=(len(named), PRIOR_DRAWS))
     return {
         name: (("chain", "draw"), np.array([[case.estimate[name].quantile(share) for share in row]]))
         for name, row in zip(named, shares, strict=True)

@@ -1,7 +1,7 @@
-"""What one recording says of its level: the drive, the kind of motion, the exponent and the correlation dimension.
+"""Read one level from a recording: the drive, the kind of motion, the exponent and the correlation dimension.
 
-The chain is that of `analyse` without noise reduction and surrogate tests, which cost most and serve other questions:
-of a machine whose model is believed nobody asks whether it is noise.
+The steps are those of `analyse` without noise reduction and surrogate tests. These cost most of the time, and the
+question whether the motion is noise does not arise where a model of the machine is given.
 """
 
 from __future__ import annotations
@@ -22,31 +22,29 @@ from lostmotion.errors import CaseError
 from lostmotion.recording import Recording, load_recording
 from lostmotion.registry import Registry
 from lostmotion.results import Estimate, percent
+from lostmotion.settings import DEFAULT, LevelSettings, Settings
 from lostmotion.signals import checked, refined_period
 
 PAIRS = 8_000_000
-"""Pairs of points for a dimension: a fifth of the time of `analyse`, and an interval that is hardly wider."""
-ERRORS = {
+"""Pairs of points for a dimension: a fifth of the computing time of `analyse`, with nearly the same interval."""
+ESTIMATOR_ERRORS = {
     "lyapunov": (0.054, 0.74, 0.063),
     "d2": (-0.019, 0.51, 0.032),
     "d2 of a moved base": (0.034, 0.51, 0.032),
 }
-"""Of each estimator: how much too large it is as a share of its value; by what the standard deviation that it claims is
-to be multiplied; and an error beside that, as a share of the value: `benchmarks/levels.py chaos --machines 358`, of
-which 114 exponents and 105 dimensions could be read.
+"""For each estimator: its relative bias, the factor on its stated standard deviation, and an additional relative error.
 
-Dimensions of machines that a force drives come out too small, which passes for more damping; those of machines on a
-base that moves too large. There the motion of the base is most of what is seen, and noise that is small beside it is
-four times as large beside the part that is chaotic."""
-FORCES = ("N", "N m")
-"""Units of a drive that is no motion of the base."""
-HARMONIC = 0.1
-"""Share of the excitation (standard deviation) that may be no sine of one frequency: its noise and small harmonics."""
+Measured with `benchmarks/levels.py chaos --machines 358`, where 114 exponents and 105 dimensions could be estimated.
+Dimensions of machines driven by a force are estimated too small, which looks like more damping. Those of machines on a
+moving base are estimated too large: most of the response is the motion of the base, and noise that is small relative to
+it is four times as large relative to the chaotic part."""
+FORCE_UNITS = ("N", "N m")
+"""Units of a drive that is a force or torque, not a motion of the base."""
 
 
 @dataclass(frozen=True, eq=False)
 class Signals:
-    """A response `x` (n,) and what drove it, `u` (n,), both in SI units, sampled every `dt` s."""
+    """A response `x` (n,) and its excitation `u` (n,), both in SI units, sampled every `dt` s."""
 
     name: str
     x: Array
@@ -56,20 +54,20 @@ class Signals:
 
 
 @dataclass(frozen=True, eq=False)
-class Read:
-    """A level as it was read, with the estimates behind it, as far as they were made."""
+class ReadLevel:
+    """A level read from a recording, with the estimates it is based on, as far as they were made."""
 
     level: Level
     exponent: Estimate | None = None
     dimension: Estimate | None = None
 
 
-def signals_of(recording: Recording) -> Signals:
-    """Return the longest stretch of a recording without a lost sample."""
+def extract_signals(recording: Recording) -> Signals:
+    """Return the longest section of a recording without a lost sample."""
     if not recording.inputs:
         raise CaseError(
-            f"nothing drives the machine in {recording.name}: the quantifier route wants a harmonic drive at one level"
-            " in each recording"
+            f"{recording.name} has no excitation: the quantifier route needs a harmonic drive at one level in each"
+            " recording"
         )
     response, drive = recording.sensors[0], recording.inputs[0]
     x = np.asarray(response.to_numpy(), dtype=float)
@@ -80,19 +78,25 @@ def signals_of(recording: Recording) -> Signals:
     return Signals(recording.name, x[keep], u, recording.dt, str(drive.attrs["units"]))
 
 
-def read_levels(case: CaseFile, registry: Registry, rng: np.random.Generator) -> tuple[Read, ...]:
-    """Return what the recordings of a case say, one level each."""
+def read_levels(
+    case: CaseFile, registry: Registry, rng: np.random.Generator, settings: Settings = DEFAULT
+) -> tuple[ReadLevel, ...]:
+    """Return the levels read from the recordings of a case, one for each recording."""
     streams = rng.spawn(len(case.recordings))
     loaded = (load_recording(spec, case.folder) for spec in case.recordings)
-    return tuple(read_level(signals_of(one), registry, own) for one, own in zip(loaded, streams, strict=True))
+    return tuple(
+        read_level(extract_signals(one), registry, own, settings) for one, own in zip(loaded, streams, strict=True)
+    )
 
 
-def read_level(signals: Signals, registry: Registry, rng: np.random.Generator) -> Read:
-    """Return what a recording says of its level; raises `CaseError` where the drive is no harmonic one.
+def read_level(
+    signals: Signals, registry: Registry, rng: np.random.Generator, settings: Settings = DEFAULT
+) -> ReadLevel:
+    """Return the level read from a recording; raise `CaseError` where the drive is not harmonic.
 
-    A motion that comes back to within its noise is periodic; of any other one the exponent decides.
+    A motion that repeats to within its noise is periodic; otherwise the exponent decides.
     """
-    amplitude, omega = harmonic_of(signals)
+    amplitude, omega = fit_harmonic(signals, settings.levels)
     level = Level(signals.name, amplitude, omega, unit=signals.unit)
     period = 2.0 * math.pi / omega
     series = embed(checked(signals.x), registry.make("embedder", EMBEDDER), dt=signals.dt, period=period)
@@ -100,36 +104,36 @@ def read_level(signals: Signals, registry: Registry, rng: np.random.Generator) -
     def measured(name: str, **options: int) -> Estimate:
         return quantify(series, registry.make("quantifier", name, **options), rng=rng)
 
-    if returned(series, period, LOUDEST)[0] and returned(series, period, _loudness(measured(METER)))[0]:
-        return Read(replace(level, motion="periodic"))
+    if returned(series, period, LOUDEST)[0] and returned(series, period, _bound_noise(measured(METER)))[0]:
+        return ReadLevel(replace(level, motion="periodic"))
     exponent = measured(EXPONENT)
     if exponent.status not in ("ok", "uncertain") or exponent.low <= 0.0:
-        return Read(level, exponent)
+        return ReadLevel(level, exponent)
     dimension = measured(DIMENSION, pairs=PAIRS)
-    seen_as = "d2" if signals.unit in FORCES else "d2 of a moved base"
-    found = corrected(seen_as, dimension) if dimension.ok else None
-    level = replace(level, motion="chaotic", lyapunov=corrected("lyapunov", exponent), d2=found)
-    return Read(level, exponent, dimension)
+    seen_as = "d2" if signals.unit in FORCE_UNITS else "d2 of a moved base"
+    found = correct_estimate(seen_as, dimension) if dimension.ok else None
+    level = replace(level, motion="chaotic", lyapunov=correct_estimate("lyapunov", exponent), d2=found)
+    return ReadLevel(level, exponent, dimension)
 
 
-def _loudness(noise: Estimate) -> float:
-    """Return the upper end of the noise level, no more than can pass for noise."""
+def _bound_noise(noise: Estimate) -> float:
+    """Return the upper end of the noise level, limited to the largest level that is accepted as noise."""
     return min(noise.high, LOUDEST) if math.isfinite(noise.high) else 0.0
 
 
-def corrected(name: str, estimate: Estimate) -> Measured:
-    """Return an estimate without its bias, and with the standard deviation that it has been found to have."""
-    bias, scale, share = ERRORS[name]
+def correct_estimate(name: str, estimate: Estimate) -> Measured:
+    """Return an estimate corrected for its measured bias, with its measured standard deviation."""
+    bias, scale, share = ESTIMATOR_ERRORS[name]
     value, claimed = estimate.value / (1.0 + bias), (estimate.high - estimate.low) / 3.92
     return Measured(value, math.hypot(scale * claimed, share * estimate.value))
 
 
-def harmonic_of(signals: Signals) -> tuple[float, float]:
+def fit_harmonic(signals: Signals, limits: LevelSettings = DEFAULT.levels) -> tuple[float, float]:
     """Return amplitude and angular frequency (rad/s) of the drive, by least squares on the measured excitation."""
     period = refined_period(signals.u, signals.dt)
     if period is None:
         raise CaseError(
-            f"the excitation of {signals.name} is not periodic: the quantifier route wants a harmonic drive at one "
+            f"the excitation of {signals.name} is not periodic: the quantifier route needs a harmonic drive at one "
             "level in each recording"
         )
     omega = 2.0 * math.pi / period
@@ -137,9 +141,9 @@ def harmonic_of(signals: Signals) -> tuple[float, float]:
     waves = np.stack([np.cos(angle), np.sin(angle), np.ones_like(angle)], axis=1)
     found = np.linalg.lstsq(waves, signals.u, rcond=None)[0]
     rest = float(np.std(signals.u - waves @ found)) / max(float(np.std(signals.u)), 1e-300)
-    if rest > HARMONIC:
+    if rest > limits.harmonic:
         raise CaseError(
-            f"the excitation of {signals.name} is no sine: {percent(rest)} of it is left, {100 * HARMONIC:g} % at "
-            "most are wanted by the quantifier route"
+            f"the excitation of {signals.name} is not a sine: {percent(rest)} of it remain beside the best sine, and "
+            f"the quantifier route allows {100 * limits.harmonic:g} %"
         )
     return float(math.hypot(found[0], found[1])), omega

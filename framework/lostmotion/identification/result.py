@@ -1,4 +1,4 @@
-"""What was drawn of a posterior as a result: rows of parameters, levels of the drive, sentences."""
+"""The result of a sampled posterior: rows of parameters, levels of the drive, sentences."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 from lostmotion.case import CaseFile
 from lostmotion.case.levels import Measured
 from lostmotion.contracts import Array
-from lostmotion.identification.levels import derived
+from lostmotion.identification.levels import compute_derived
 from lostmotion.identification.sampling import NOISES, SampledPosterior
 from lostmotion.likelihood.space import parted
 from lostmotion.maps.inversion import Inversion, Predicted
@@ -25,24 +25,24 @@ from lostmotion.results.identification import (
     Sampling,
 )
 
-SENSOR = (*NOISES.values(), "offset")
-"""What is told apart from the parameters of the machine: noise levels, and the zero of a sensor."""
+SENSOR_PARAMETERS = (*NOISES.values(), "offset")
+"""Parameters that are listed separately from those of the machine: noise levels, and the offset of a sensor."""
 
 
-def statement(found: SampledPosterior, route: RouteName, case: CaseFile, origin: Origin) -> Identification:
-    """Return what the draws say of a case, without notes and without what belongs to one route alone."""
-    rows = _parameters(found)
-    noise = {name for name in rows if parted(name)[0] in SENSOR}
+def make_result(found: SampledPosterior, route: RouteName, case: CaseFile, origin: Origin) -> Identification:
+    """Return the result of the draws, without notes and without the parts that belong to one route only."""
+    rows = _make_parameter_rows(found)
+    noise = {name for name in rows if parted(name)[0] in SENSOR_PARAMETERS}
     return Identification(
         route=route,
         converged=found.converged,
-        says=says(found),
+        says=write_sentences(found),
         ess_min=float(found.quality.ess.min()),
         ess_tail_min=float(found.quality.ess_tail.min()),
         rhat_max=float(found.quality.rhat.max()),
         parameters={k: row for k, row in rows.items() if k not in noise},
         noise={k: row for k, row in rows.items() if k in noise},
-        sampling=_sampling(found),
+        sampling=_summarise_sampling(found),
         log_likelihood_evaluations=found.evaluations,
         title=case.title,
         model=case.model,
@@ -52,8 +52,8 @@ def statement(found: SampledPosterior, route: RouteName, case: CaseFile, origin:
     )
 
 
-def _parameters(found: SampledPosterior) -> Mapping[str, Parameter]:
-    """Return a row for each parameter; without convergence none has an interval."""
+def _make_parameter_rows(found: SampledPosterior) -> Mapping[str, Parameter]:
+    """Return a row for each parameter; without convergence the rows have no intervals."""
     intervals, sd, quality, nothing = found.intervals, found.sd, found.quality, float("nan")
     rows = {}
     for i, (key, unit) in enumerate(zip(found.keys, found.units, strict=True)):
@@ -72,7 +72,7 @@ def _parameters(found: SampledPosterior) -> Mapping[str, Parameter]:
     return rows
 
 
-def _sampling(found: SampledPosterior) -> Sampling:
+def _summarise_sampling(found: SampledPosterior) -> Sampling:
     walkers, steps, _ = found.chain.shape
     return Sampling(
         walkers=walkers,
@@ -84,13 +84,14 @@ def _sampling(found: SampledPosterior) -> Sampling:
     )
 
 
-def says(found: SampledPosterior) -> tuple[str, ...]:
-    """Return what the report opens with."""
+def write_sentences(found: SampledPosterior) -> tuple[str, ...]:
+    """Return the first sentences of the report."""
     quality = found.quality
     if not found.converged:
         return (
             "The chain has not converged, so no interval is given.",
-            f"What is missing: {'; '.join(found.lacks)}. Give more steps with --max-steps, or look at the trace.",
+            f"Criteria that are not met: {'; '.join(found.lacks)}. Give more steps with --max-steps, or look at the"
+            " trace.",
         )
     return (
         f"The chain has converged: {quality.ess.min():.0f} effective draws or more of each parameter.",
@@ -99,18 +100,18 @@ def says(found: SampledPosterior) -> tuple[str, ...]:
     )
 
 
-def mode_notes(modes: int) -> list[str]:
+def write_mode_notes(modes: int) -> list[str]:
     """Return a sentence where the posterior has more than one mode."""
     if modes < 2:
         return []
     return [
-        f"The posterior has {modes} separate modes: the recording is explained by {modes} sets of parameters. The draws"
-        " hold each with its weight; look at the figure of pairs before you quote a single interval."
+        f"The posterior has {modes} separate modes: {modes} different sets of parameters explain the recording. The"
+        " draws contain each mode with its weight; look at the figure of pairs before you quote a single interval."
     ]
 
 
-def drive_level(one: Predicted) -> DriveLevel:
-    """Return a level with what was measured there and what the posterior expects."""
+def make_drive_level(one: Predicted) -> DriveLevel:
+    """Return a level with the measured values and the prediction of the posterior."""
     level = one.level
     return DriveLevel(
         name=level.name,
@@ -118,25 +119,25 @@ def drive_level(one: Predicted) -> DriveLevel:
         unit=level.unit,
         omega=level.omega,
         motion=level.motion,
-        lyapunov=_measured(level.lyapunov, "1/s"),
-        d2=_measured(level.d2, "1"),
+        lyapunov=_make_measured_range(level.lyapunov, "1/s"),
+        d2=_make_measured_range(level.d2, "1"),
         predicted=ExpectedMotion(chaotic_share=one.chaotic_share, lyapunov=one.lyapunov, d2=one.d2),
     )
 
 
-def _measured(seen: Measured | None, unit: str) -> MeasuredRange | None:
+def _make_measured_range(seen: Measured | None, unit: str) -> MeasuredRange | None:
     if seen is None:
         return None
     half = 1.96 * seen.sd
     return MeasuredRange(value=seen.value, low=seen.value - half, high=seen.value + half, unit=unit)
 
 
-def derived_intervals(posterior: Inversion, points: Array, found: SampledPosterior) -> Mapping[str, Interval]:
-    """Return the intervals of what follows from the parameters; none from a chain that has not converged."""
+def compute_derived_intervals(posterior: Inversion, points: Array, found: SampledPosterior) -> Mapping[str, Interval]:
+    """Return the intervals of derived numbers; none from a chain that has not converged."""
     if not found.converged:
         return {}
     rows = {}
-    for name, values in derived(posterior, points).items():
+    for name, values in compute_derived(posterior, points).items():
         low, median, high = np.quantile(values, [0.025, 0.5, 0.975]).tolist()
         rows[name] = Interval(median, low, high, "1")
     return rows

@@ -1,7 +1,7 @@
-"""The whole way of an identification: case in, `identification.json`, `posterior.nc` and `report.html` out.
+"""Run an identification: from a case to `identification.json`, `posterior.nc` and `report.html`.
 
-Two routes lead to one posterior: by trajectory, the recordings themselves; by quantifiers, chaos measures at several
-levels of the drive. Sampling, statement and page are the same.
+There are two routes to the posterior: "trajectory" uses the recordings themselves, "quantifiers" uses chaos measures at
+several levels of the drive. Sampling, result and page are the same.
 """
 
 from __future__ import annotations
@@ -18,15 +18,15 @@ from lostmotion.case import CaseFile
 from lostmotion.codec import to_plain
 from lostmotion.contracts import Array
 from lostmotion.errors import CaseError
-from lostmotion.identification.levels import Survey, quantifier_task
-from lostmotion.identification.predictive import groups_of
+from lostmotion.identification.levels import MapGrid, make_quantifier_task
+from lostmotion.identification.predictive import make_groups
 from lostmotion.identification.report.page import write_identification
-from lostmotion.identification.result import derived_intervals, drive_level, mode_notes, statement
+from lostmotion.identification.result import compute_derived_intervals, make_drive_level, make_result, write_mode_notes
 from lostmotion.identification.sampling import SampledPosterior, SamplingPlan, Task, Watch, identify
-from lostmotion.identification.trajectory import best_fits, chosen_terms, task_for, warnings_of
+from lostmotion.identification.trajectory import choose_terms, find_best_fits, make_trajectory_task, write_warnings
 from lostmotion.inference.contacts import short_contacts
 from lostmotion.likelihood.space import FreeParameter
-from lostmotion.maps.inversion import Inversion, predicted
+from lostmotion.maps.inversion import Inversion, predict_levels
 from lostmotion.preparation.prepare import Prepared, case_of, prepared_of
 from lostmotion.preparation.vetting import within_numbers
 from lostmotion.provenance import origin_of
@@ -40,16 +40,16 @@ if TYPE_CHECKING:
     import xarray as xr
 
 ROUTES = ("trajectory", "quantifiers")
-CHAIN = "chain.h5"
-EXPECTED = 4000
-"""Draws from which is told what the posterior expects at each level."""
+CHAIN_FILE = "chain.h5"
+PREDICTION_DRAWS = 4000
+"""Number of draws used for the predictions at each level."""
 
 
 @dataclass(frozen=True)
-class Order:
-    """What is asked for beyond the case: route, terms (`NAME` or `NAME@PLACE`), seed, cores, how long to sample.
+class IdentificationRequest:
+    """Options of an identification: route, terms (`NAME` or `NAME@PLACE`), seed, cores, length of the sampling.
 
-    Without a route it is the trajectory where the case has recordings. `maps` are files for the quantifier route.
+    Without a route, a case with recordings uses the trajectory. `maps` are files for the quantifier route.
     """
 
     terms: tuple[str, ...] = ()
@@ -64,7 +64,7 @@ class Order:
 
 @dataclass(frozen=True)
 class Identified:
-    """The draws, the result that `identification.json` holds, the time (s) of the sampling, and `groups` for ArviZ."""
+    """The draws, the result stored in `identification.json`, the sampling time (s), and the `groups` for ArviZ."""
 
     posterior: SampledPosterior
     result: Identification
@@ -73,125 +73,129 @@ class Identified:
 
 
 @dataclass(frozen=True)
-class Way:
-    """A task, and what makes the result of its draws."""
+class Route:
+    """A sampling task, and the function that makes the result from its draws."""
 
     task: Task
-    tell: Callable[[SampledPosterior], Identification]
+    make_result: Callable[[SampledPosterior], Identification]
 
 
 @within_numbers()
 def run_identification(
-    path: Path, out: Path, registry: Registry, order: Order, watch: Watch = lambda _steps, _says: None
+    path: Path, out: Path, registry: Registry, order: IdentificationRequest, watch: Watch = lambda _steps, _says: None
 ) -> Identified:
-    """Return what was identified after writing it into the folder `out`; all recordings of the case are used.
+    """Return the identification of a case after writing its files into the folder `out`; all recordings are used.
 
-    A chain that an interrupted run has left there is continued.
+    A chain that an interrupted run has left in `out` is continued.
     """
     watch(0, "reading the case")
-    done = identified(case_of(path, registry), None, out, registry, order, watch)
+    done = identify_case(case_of(path, registry), None, out, registry, order, watch)
     watch(0, "report")
-    _write(out, done)
+    _write_files(out, done)
     return done
 
 
-def identified(
+def identify_case(
     case: CaseFile,
     prepared: Prepared | None,
     out: Path,
     registry: Registry,
-    order: Order,
+    order: IdentificationRequest,
     watch: Watch = lambda _steps, _says: None,
 ) -> Identified:
-    """Return what was identified of a case, `prepared` where its recordings are at hand; the chain is kept in `out`."""
+    """Return the identification of a case, `prepared` if its recordings are loaded; the chain is stored in `out`."""
     rng = np.random.default_rng(order.seed)
     asked = (order, rng, watch)
-    if prepared or route_of(case, order) == "trajectory":
-        way = _by_trajectory(prepared or prepared_of(case, registry), out, registry, asked)
+    if prepared or choose_route(case, order) == "trajectory":
+        way = _prepare_trajectory(prepared or prepared_of(case, registry), out, registry, asked)
     else:
-        way = _by_quantifiers(case, out, registry, asked)
+        way = _prepare_quantifiers(case, out, registry, asked)
     if order.fresh:
-        (out / CHAIN).unlink(missing_ok=True)
+        (out / CHAIN_FILE).unlink(missing_ok=True)
     begin = time.perf_counter()
-    found = identify(way.task, rng=rng, plan=order.plan, watch=watch, keep=out / CHAIN)
+    found = identify(way.task, rng=rng, plan=order.plan, watch=watch, keep=out / CHAIN_FILE)
     seconds = time.perf_counter() - begin
-    watch(0, "what the posterior says of the readings")
-    groups = groups_of(way.task, found, case, np.random.default_rng([order.seed, 1]))
-    return Identified(found, way.tell(found), seconds, groups)
+    watch(0, "predicting the readings from the posterior")
+    groups = make_groups(way.task, found, case, np.random.default_rng([order.seed, 1]))
+    return Identified(found, way.make_result(found), seconds, groups)
 
 
-def route_of(case: CaseFile, order: Order) -> str:
-    """Return the route that is asked for, or else the one that the case offers."""
+def choose_route(case: CaseFile, order: IdentificationRequest) -> str:
+    """Return the requested route, or else the one that the case allows."""
     if order.route == "trajectory" and case.levels and not case.recordings:
         raise CaseError("the case has [[levels]] and no [[recordings]]: take --route quantifiers, or add a recording")
     if order.route == "quantifiers" and order.terms:
-        raise CaseError("the quantifier route knows no terms, since its maps have none: leave --term out")
+        raise CaseError("the quantifier route supports no terms, since its maps have none: leave --term out")
     return order.route or ("quantifiers" if case.levels and not case.recordings else "trajectory")
 
 
-Asked = tuple[Order, np.random.Generator, Watch]
+Asked = tuple[IdentificationRequest, np.random.Generator, Watch]
 
 
-def _by_trajectory(prepared: Prepared, out: Path, registry: Registry, asked: Asked) -> Way:
+def _prepare_trajectory(prepared: Prepared, out: Path, registry: Registry, asked: Asked) -> Route:
     order, rng, watch = asked
     case = prepared.case
-    terms = chosen_terms(prepared, order.terms, registry)
+    terms = choose_terms(prepared, order.terms, registry)
     folder_for(out)
     watch(0, "looking for the maximum")
-    fits = best_fits(prepared, terms, rng, order.jobs, order.settings)
+    fits = find_best_fits(prepared, terms, rng, order.jobs, order.settings)
     problem = fits[0].problem
     settings = {"terms": sorted(problem.active), "steps_between_samples": problem.nsub, "sensor": asdict(case.sensor)}
-    origin = _origin(case, order, settings, prepared.inputs)
-    notes = (*prepared.notes, *mode_notes(len(fits)), *short_contacts(fits[0]), *warnings_of(fits[0]))
+    origin = _make_origin(case, order, settings, prepared.inputs)
+    notes = (*prepared.notes, *write_mode_notes(len(fits)), *short_contacts(fits[0]), *write_warnings(fits[0]))
     model = " + ".join([case.model, *sorted(problem.active)])
 
-    def tell(found: SampledPosterior) -> Identification:
-        told = statement(found, "trajectory", case, origin)
-        return replace(told, model=model, modes=len(fits), notes=notes)
+    def complete(found: SampledPosterior) -> Identification:
+        result = make_result(found, "trajectory", case, origin)
+        return replace(result, model=model, modes=len(fits), notes=notes)
 
-    return Way(task_for(prepared, fits, terms), tell)
+    return Route(make_trajectory_task(prepared, fits, terms), complete)
 
 
-def _by_quantifiers(case: CaseFile, out: Path, registry: Registry, asked: Asked) -> Way:
+def _prepare_quantifiers(case: CaseFile, out: Path, registry: Registry, asked: Asked) -> Route:
     order, rng, watch = asked
     folder_for(out)
-    survey = Survey(maps=order.maps, jobs=order.jobs)
+    grid = MapGrid(maps=order.maps, jobs=order.jobs)
     watch(0, "reading the levels")
 
     def say(done: int, cells: int) -> None:
         watch(0, f"map: {done} of {cells} cells")
 
-    task = quantifier_task(case, registry, out, rng, survey, say=say)
+    task = make_quantifier_task(case, registry, out, rng, grid, say=say, settings=order.settings)
     posterior = task.posterior
     assert isinstance(posterior, Inversion)  # noqa: S101 - it is what a quantifier task holds
     inputs = {**registry.origins(("model", case.model)), "case": case.digest}
-    origin = _origin(case, order, {"maps": [asdict(survey)["maps"]]}, inputs)
+    origin = _make_origin(case, order, {"maps": [asdict(grid)["maps"]]}, inputs)
 
-    def tell(found: SampledPosterior) -> Identification:
-        points = coordinates(posterior.free, found.draws)
-        some = points[:: max(1, len(points) // EXPECTED)]
-        expected = predicted(posterior, some, np.random.default_rng(order.seed))
-        told = statement(found, "quantifiers", case, origin)
+    def complete(found: SampledPosterior) -> Identification:
+        points = compute_coordinates(posterior.free, found.draws)
+        some = points[:: max(1, len(points) // PREDICTION_DRAWS)]
+        expected = predict_levels(posterior, some, np.random.default_rng(order.seed))
+        result = make_result(found, "quantifiers", case, origin)
         return replace(
-            told, levels=tuple(map(drive_level, expected)), derived=derived_intervals(posterior, points, found)
+            result,
+            levels=tuple(map(make_drive_level, expected)),
+            derived=compute_derived_intervals(posterior, points, found),
         )
 
-    return Way(task, tell)
+    return Route(task, complete)
 
 
-def coordinates(free: tuple[FreeParameter, ...], values: Array) -> Array:
+def compute_coordinates(free: tuple[FreeParameter, ...], values: Array) -> Array:
     """Return the coordinates (count, parameters) of parameter values (count, parameters)."""
     return np.stack([np.log(values[:, i]) if f.log else values[:, i] for i, f in enumerate(free)], axis=1)
 
 
-def _origin(case: CaseFile, order: Order, settings: Mapping[str, object], inputs: Mapping[str, str]) -> Origin:
-    told = {"model": case.model, "known": dict(case.known), **settings, **asdict(order.plan)}
-    told["thresholds"] = order.settings.as_dict()
-    del told["limits"]
-    return origin_of("identify", told, order.seed, inputs)
+def _make_origin(
+    case: CaseFile, order: IdentificationRequest, settings: Mapping[str, object], inputs: Mapping[str, str]
+) -> Origin:
+    used = {"model": case.model, "known": dict(case.known), **settings, **asdict(order.plan)}
+    used["thresholds"] = order.settings.as_dict()
+    del used["limits"]
+    return origin_of("identify", used, order.seed, inputs)
 
 
-def inference_of(done: Identified) -> Any:
+def make_inference_data(done: Identified) -> Any:
     """Return the draws of an identification as ArviZ's `InferenceData`."""
     attrs: dict[str, str | int] = {
         "title": done.result.title,
@@ -204,8 +208,8 @@ def inference_of(done: Identified) -> Any:
     return data
 
 
-def _write(folder: Path, done: Identified) -> None:
-    told = inference_of(done)
-    save_datasets(folder / "posterior.nc", {name: told[name] for name in told.groups()}, told.attrs)
+def _write_files(folder: Path, done: Identified) -> None:
+    data = make_inference_data(done)
+    save_datasets(folder / "posterior.nc", {name: data[name] for name in data.groups()}, data.attrs)
     save_json(folder / "identification.json", to_plain(done.result))
     write_identification(folder)

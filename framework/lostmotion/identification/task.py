@@ -1,4 +1,4 @@
-"""What is to be sampled, and how it is told: tasks made of fits, coordinates told as numbers in SI units."""
+"""Sampling tasks made of fits, and the conversion of their coordinates to values in SI units."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ from lostmotion.quantities import unit_of
 
 OFFSET = "offset"
 NOISES = {RANDOM: "random_force", PACE: "random_pace", NOISE: "measurement_noise"}
-"""What the noise levels are called once they are numbers and no longer logarithms."""
-LEAST = 0.05
-"""No mode gets a smaller share of the first proposals: Laplace's method may be far off where a mode is not normal."""
+"""The names of the noise levels as values; the coordinates are their logarithms."""
+LEAST_WEIGHT = 0.05
+"""Smallest weight of a mode in the first proposal: Laplace's method is inaccurate where a mode is not normal."""
 
 
 @dataclass(frozen=True)
 class ShownCoordinate:
-    """How a coordinate is told: `exp(power * coordinate) * factor` in `unit`, or as it is where `power` is 0."""
+    """How a coordinate is shown: `exp(power * coordinate) * factor` in `unit`, or unchanged where `power` is 0."""
 
     name: str
     unit: str
@@ -34,19 +34,19 @@ class ShownCoordinate:
     factor: float = 1.0
 
     def value(self, coordinate: Array) -> Array:
-        """Return numbers in SI units of coordinates of any shape."""
+        """Return the values in SI units of coordinates of any shape."""
         return np.asarray(self.factor * np.exp(self.power * coordinate) if self.power else coordinate)
 
     def coordinate(self, value: Array) -> Array:
-        """Return coordinates of numbers in SI units of any shape."""
+        """Return the coordinates of values in SI units of any shape."""
         return np.asarray(np.log(value / self.factor) / self.power if self.power else value)
 
 
 @dataclass(frozen=True)
 class Task:
-    """What is to be sampled: a posterior, where to look for it, how its coordinates are told, and its maximum.
+    """A sampling task: a posterior, a first proposal mixture, how its coordinates are shown, and its maximum.
 
-    `digest` is a text that changes with the case and its recordings: a kept chain is continued only if it is the same.
+    `digest` is a text that changes with the case and its recordings: a stored chain is continued only if it is equal.
     """
 
     posterior: Posterior
@@ -56,18 +56,18 @@ class Task:
     digest: str = ""
 
     def values(self, coordinates: Array) -> Array:
-        """Return coordinates (..., parameters) as numbers in SI units."""
+        """Return the values in SI units of coordinates (..., parameters)."""
         return np.stack([one.value(coordinates[..., i]) for i, one in enumerate(self.shown)], axis=-1)
 
     def coordinates(self, values: Array) -> Array:
-        """Return the coordinates of numbers in SI units (..., parameters)."""
+        """Return the coordinates of values in SI units (..., parameters)."""
         return np.stack([one.coordinate(values[..., i]) for i, one in enumerate(self.shown)], axis=-1)
 
 
-def task_of(fits: Sequence[Fit], digest: str = "") -> Task:
-    """Return the task of sampling the posterior around the distinct maxima `fits`, the posterior being the first one's.
+def make_task(fits: Sequence[Fit], digest: str = "") -> Task:
+    """Return the task of sampling the posterior of the first fit; the distinct maxima `fits` give the first proposal.
 
-    The modes are weighted by their evidence, and none is left out.
+    The modes are weighted by their evidence, and each has a smallest weight.
     """
     found = [f for f in fits if np.isfinite(f.local.log_posterior)]
     if not found:
@@ -76,40 +76,42 @@ def task_of(fits: Sequence[Fit], digest: str = "") -> Task:
     highest = max(found, key=lambda f: f.local.log_posterior)
     mixture = TMixture.of_modes(
         np.array([f.theta for f in found]),
-        [within(f.local.covariance, problem.free) for f in found],
-        mode_weights(np.array([f.log_evidence for f in found])),
+        [limit_covariance(f.local.covariance, problem.free) for f in found],
+        compute_mode_weights(np.array([f.log_evidence for f in found])),
         problem.free,
     )
-    return Task(problem, mixture, tuple(_shown(f, problem) for f in problem.free), highest.theta, digest)
+    return Task(
+        problem, mixture, tuple(_make_shown_coordinate(f, problem) for f in problem.free), highest.theta, digest
+    )
 
 
-def within(covariance: Array, free: tuple[FreeParameter, ...]) -> Array:
-    """Return the covariance with no deviation wider than that of a uniform density between the bounds.
+def limit_covariance(covariance: Array, free: tuple[FreeParameter, ...]) -> Array:
+    """Return the covariance with standard deviations no wider than those of uniform densities between the bounds.
 
-    The data may be silent about a parameter, as about a measurement noise far below the random force: its variance
-    would come out as good as infinite, and no draw would fall between the bounds.
+    The data may contain no information about a parameter, for example about a measurement noise far below the random
+    force. Its variance would be almost infinite, and no draw would lie between the bounds.
     """
     widest = np.array([f.high - f.low for f in free]) / math.sqrt(12.0)
     shrink = np.minimum(1.0, widest / np.sqrt(np.maximum(np.diag(covariance), 1e-300)))
     return np.asarray(covariance * np.outer(shrink, shrink))
 
 
-def mode_weights(log_evidence: Array) -> Array:
-    """Return the weights (modes,) of modes with a log evidence, each at least `LEAST` before they are made to add up.
+def compute_mode_weights(log_evidence: Array) -> Array:
+    """Return the weights (modes,) of modes with a log evidence, each at least `LEAST_WEIGHT` before normalisation.
 
-    A mode whose evidence is not a number, where the information is singular, counts as the least.
+    A mode with NaN as evidence (singular information) gets the smallest weight.
     """
     known = np.where(np.isfinite(log_evidence), log_evidence, -np.inf)
     if not np.isfinite(known).any():
         return np.full(len(known), 1.0 / len(known))
     weights = np.exp(known - np.max(known))
-    weights = np.maximum(weights / weights.sum(), LEAST)
+    weights = np.maximum(weights / weights.sum(), LEAST_WEIGHT)
     return np.asarray(weights / weights.sum())
 
 
-def _shown(free: FreeParameter, problem: Problem) -> ShownCoordinate:
-    """Return how a parameter is told; a random force as the rms (N, N m) of one that is held from sample to sample."""
-    observation = _track(problem, free.recording or "")
+def _make_shown_coordinate(free: FreeParameter, problem: Problem) -> ShownCoordinate:
+    """Return how a parameter is shown; a random force as the rms (N, N m) of a force held from sample to sample."""
+    observation = _find_observation(problem, free.recording or "")
     motion = problem.system.model.motion
     if free.level not in (OFFSET, *NOISES):
         return ShownCoordinate(free.key, free.unit, 1.0 if free.log else 0.0)
@@ -126,6 +128,6 @@ def _shown(free: FreeParameter, problem: Problem) -> ShownCoordinate:
     return ShownCoordinate(NOISES[NOISE] + free.key[len(NOISE) :], unit_of(channel, motion), 1.0)
 
 
-def _track(problem: Problem, name: str) -> Observation:
+def _find_observation(problem: Problem, name: str) -> Observation:
     """Return the recording that a key names, or the first."""
     return next((t for t in problem.observations if t.name == name), problem.observations[0])

@@ -1,4 +1,4 @@
-"""From a case with recordings to what is to be sampled: its terms, the maxima, and what speaks against them."""
+"""The trajectory route from a case with recordings to a sampling task: its terms, the maxima, and warnings."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import numpy as np
 from lostmotion.case import CaseFile
 from lostmotion.contracts import Term
 from lostmotion.errors import CaseError, nearest
-from lostmotion.identification.sampling import SampledPosterior, SamplingPlan, Task, identify, task_of
+from lostmotion.identification.sampling import SampledPosterior, SamplingPlan, Task, identify, make_task
 from lostmotion.inference.candidates import fit_with, screen, slopes_of
 from lostmotion.inference.fit import Fit, maximise, restarted
 from lostmotion.inference.leftovers import significant_random_force
@@ -25,13 +25,13 @@ from lostmotion.settings import DEFAULT, Settings
 
 @dataclass(frozen=True)
 class SampledCase:
-    """A posterior that was sampled, and the fits of its modes, best first."""
+    """A sampled posterior, and the fits of its modes, best first."""
 
     result: SampledPosterior
     fits: tuple[Fit, ...]
 
 
-def sampled(
+def sample_case(
     prepared: Prepared,
     terms: tuple[Term, ...],
     plan: SamplingPlan,
@@ -39,19 +39,19 @@ def sampled(
     rng: np.random.Generator,
     jobs: int = 1,
 ) -> SampledCase:
-    """Return the posterior of a case, its model with the terms, from all of its recordings; nothing is written."""
-    fits = best_fits(prepared, terms, rng, jobs)
-    return SampledCase(identify(task_for(prepared, fits, terms), rng=rng, plan=plan), tuple(fits))
+    """Return the sampled posterior of a case with the terms, from all of its recordings; no file is written."""
+    fits = find_best_fits(prepared, terms, rng, jobs)
+    return SampledCase(identify(make_trajectory_task(prepared, fits, terms), rng=rng, plan=plan), tuple(fits))
 
 
-def task_for(prepared: Prepared, fits: Sequence[Fit], terms: tuple[Term, ...]) -> Task:
+def make_trajectory_task(prepared: Prepared, fits: Sequence[Fit], terms: tuple[Term, ...]) -> Task:
     """Return the task of sampling around the fits; its digest changes with the case, its recordings and the terms."""
-    told = {"inputs": prepared.inputs, "terms": [key_of(term) for term in terms], "steps": fits[0].problem.nsub}
-    return task_of(fits, json.dumps(told, sort_keys=True))
+    used = {"inputs": prepared.inputs, "terms": [key_of(term) for term in terms], "steps": fits[0].problem.nsub}
+    return make_task(fits, json.dumps(used, sort_keys=True))
 
 
-def chosen_terms(prepared: Prepared, asked: tuple[str, ...], registry: Registry) -> tuple[Term, ...]:
-    """Return the terms asked for and those whose parameters the case names, each once."""
+def choose_terms(prepared: Prepared, asked: tuple[str, ...], registry: Registry) -> tuple[Term, ...]:
+    """Return the requested terms and those whose parameters appear in the case, each once."""
     offered = {key_of(term): term for term in prepared.terms}
     named = [key.rpartition(".")[0] for key in (*prepared.case.known, *prepared.case.estimate) if "." in key]
     keys = dict.fromkeys(text.removesuffix("@ground") for text in (*asked, *named))
@@ -60,36 +60,36 @@ def chosen_terms(prepared: Prepared, asked: tuple[str, ...], registry: Registry)
         if key not in offered:
             raise CaseError(
                 f"the term {key!r} has no place in {prepared.case.model}{nearest(key, offered)}:"
-                f" the terms that have are {', '.join(offered)}"
+                f" possible terms are {', '.join(offered)}"
             )
     return tuple(offered[key] for key in keys)
 
 
-def best_fits(
+def find_best_fits(
     prepared: Prepared, terms: tuple[Term, ...], rng: np.random.Generator, jobs: int, settings: Settings = DEFAULT
 ) -> list[Fit]:
     """Return the distinct maxima of the posterior on all recordings, with the terms, best first.
 
-    They are those of one problem in fine integration steps.
+    All belong to one problem with fine integration steps.
     """
     case = prepared.case
     bare = replace(case, estimate={k: v for k, v in case.estimate.items() if "." not in k})
     problem = problem_of(System(prepared.model, terms), bare, prepared.observations, jobs=jobs, settings=settings)
     found = modes(problem, rng, sensor=SHARED if terms else case.sensor)
-    return polished([_with_terms(fit, terms, case) for fit in found])
+    return polished([_add_terms(fit, terms, case) for fit in found])
 
 
-def _with_terms(fit: Fit, terms: tuple[Term, ...], case: CaseFile) -> Fit:
-    """Return the fit with the terms, and with the priors and the sensor that the case gives."""
+def _add_terms(fit: Fit, terms: tuple[Term, ...], case: CaseFile) -> Fit:
+    """Return the fit with the terms, and with the priors and the sensor of the case."""
     for term in terms:
         fit = fit_with(fit, screen(fit, slopes_of(fit), key_of(term)))
     if any("." in key for key in (*case.known, *case.estimate)):
-        fit = _as_the_case_says(fit, case)
+        fit = _apply_case_priors(fit, case)
     return separated(fit, case.sensor)
 
 
-def _as_the_case_says(fit: Fit, case: CaseFile) -> Fit:
-    """Return the fit with the priors and the known values that the case gives to parameters of terms."""
+def _apply_case_priors(fit: Fit, case: CaseFile) -> Fit:
+    """Return the fit with the priors and the known values of the case for parameters of terms."""
     problem = restarted(fit)
     names = [observation.name for observation in problem.observations]
     frees = []
@@ -102,11 +102,11 @@ def _as_the_case_says(fit: Fit, case: CaseFile) -> Fit:
     return maximise(replace(problem, free=tuple(frees)))
 
 
-def warnings_of(fit: Fit) -> list[str]:
-    """Return what makes the intervals too narrow although the chain has converged."""
+def write_warnings(fit: Fit) -> list[str]:
+    """Return a warning where the intervals are too narrow although the chain has converged."""
     if significant_random_force(fit) <= fit.problem.settings.locate.significant:
         return []
     return [
-        "A force is left over that this model does not explain. The intervals hold only if the model is right: they are"
-        " then too narrow, and may miss the truth. `lostmotion diagnose` looks for what was left out."
+        "A force remains that this model does not explain. The intervals assume that the model is right: here they are"
+        " too narrow and may miss the true values. `lostmotion diagnose` searches for the missing physics."
     ]

@@ -1,4 +1,5 @@
-"""Compiled loops: numbers in lanes, the filter through a model, free motion, the smoother, neighbours.
+"""Compiled loops: arithmetic on vector lanes, the filter, free simulation, the smoother, and nearest neighbours.
 
-Nothing here knows of models or plugins: `lostmotion.likelihood` writes their functions into one and hands it over.
+Nothing in this package depends on models or plugins. `lostmotion.likelihood` writes the functions of models and terms
+into source text, compiles it, and passes it to these kernels.
 """

@@ -1,16 +1,17 @@
-"""How the states of a filter go over one sample, at many parameter points in lock-step; for a model of `N` states.
+"""The time update of the filter over one sample, at many parameter points in lock-step, for a model of `N` states.
 
-A sample is crossed in one step where the force is straight, and in halves of it, down to the fine grid, where it bends
-within sqrt(3) standard deviations of the way: while second differences of the force, along the way, in its middle and
-at its end, would move the state by more than `BENDS` times that width, or the step is long against the motion
-(h^2 |A^2| > `LONG`). The states of laws that bound their own pace by the step may be off by `OWN` of that share of what
-they are (with all of it a posterior gets so rough that no chain mixes), and a step is long for them beyond `PACED`.
-Each point halves by its own tests alone and waits while others do, so that its result does not depend on them. The
-linearisation at hand makes RK4 one of fifth order; noise enters at two Gauss points.
+A sample is crossed in one step where the force is close to linear, and in halved steps, down to the fine grid, where it
+bends within sqrt(3) standard deviations of the path. A step is halved while second differences of the force (along the
+path, in its middle and at its end) would move the state by more than `BEND_LIMIT` times that width, or while the step
+is long compared with the motion (h^2 |A^2| > `STEP_LIMIT`). States of laws that limit their own rate by the step may in
+addition be wrong by `BEND_LIMIT * PACED_SHARE` of their value (with the full value, a posterior becomes so rough that
+no chain mixes), and their limit on the length of a step is `PACED_LIMIT`. Each point is halved by its own tests alone
+and waits while others are halved, so its result does not depend on the other points. The Jacobian, which is computed
+anyway, raises RK4 to fifth order. Process noise enters at two Gauss points.
 
-A block is an array (rows, STRIDE), rows by the names below; the functions of a model read and write a block of their
-own (`space`), of which `wires` begins with the rows of time, states, derivatives, inputs and channels. Between two
-calls of a model there is one loop over the points.
+A block is an array (rows, STRIDE) with the rows named below. The functions of a model read and write a block of their
+own (`space`); `wires` begins with its rows of time, states, derivatives, inputs and channels. Between two calls of a
+model there is one loop over the points.
 """
 
 from __future__ import annotations
@@ -18,28 +19,28 @@ from __future__ import annotations
 from lostmotion.kernels.inputs import (
     PACES,
     STEP,
-    driven,
-    mirrored,
+    set_inputs,
+    set_mirrored_inputs,
 )  # fmt: skip
 from lostmotion.kernels.vector import (
     WIDTH,
+    absolute,
+    any_lane,
     call,
     jit,
+    largest_lane,
     load,
-    root,
     select,
-    size,
-    some,
+    square_root,
     store,
-    top,
     value,
 )  # fmt: skip
 
 N = 2
-BENDS, LONG, PACED, OWN = 0.0023, 0.05, 1.05, 0.1
+BEND_LIMIT, STEP_LIMIT, PACED_LIMIT, PACED_SHARE = 0.0023, 0.05, 1.05, 0.1
 TINY = 1e-14
-SOON = 0.21132486540518712
-"""The first of two Gauss points on a step of one."""
+GAUSS_POINT = 0.21132486540518712
+"""The first of the two Gauss points on a step of length one."""
 
 # Rows of the work block.
 Y = 0
@@ -62,20 +63,20 @@ BEND = KINK + N
 UP = BEND + N
 H = UP + N
 AT = H + N
-WANT = AT + 1
-WISH = WANT + 1
-ALIVE = WISH + 1
-HOPE = ALIVE + 1
-EXPECTED = HOPE + 1
+TRIAL_STEP = AT + 1
+NEXT_STEP = TRIAL_STEP + 1
+ALIVE = NEXT_STEP + 1
+STRAIGHT = ALIVE + 1
+EXPECTED = STRAIGHT + 1
 SEEN = EXPECTED + 1
 LOOSE = SEEN + 1
 NOISE = LOOSE + 1
-"""Intensities of the noise that enters the states: as many rows as there are sources; behind them the slow noise."""
+"""Intensities of the process noise that enters the states, two rows for each source; then the impulse responses."""
 
 
 @jit
-def staged(space, wires, work, slopes, share, target, lanes):  # type: ignore[no-untyped-def]
-    """Note derivatives as `slopes`, and go a step of length `share` along them from `Y` to `target`."""
+def take_stage(space, wires, work, slopes, share, target, lanes):  # type: ignore[no-untyped-def]
+    """Store derivatives as `slopes`, and write the state a step of length `share` along them from `Y` into `target`."""
     for o in range(0, lanes, WIDTH):
         for a in range(N):
             slope = load(space, wires[2] + a, o)
@@ -86,8 +87,8 @@ def staged(space, wires, work, slopes, share, target, lanes):  # type: ignore[no
 
 
 @jit
-def beside(space, wires, work, slopes, side, lanes):  # type: ignore[no-untyped-def]
-    """Note derivatives as `slopes`, and go a reach to one side of `END`."""
+def probe_end(space, wires, work, slopes, side, lanes):  # type: ignore[no-untyped-def]
+    """Store derivatives as `slopes`, and set the state one reach to one side of `END`."""
     for o in range(0, lanes, WIDTH):
         for a in range(N):
             store(work, slopes + a, o, load(space, wires[2] + a, o))
@@ -95,55 +96,55 @@ def beside(space, wires, work, slopes, side, lanes):  # type: ignore[no-untyped-
 
 
 @jit
-def borne(work, a, o, paced):  # type: ignore[no-untyped-def]
-    """Return how far off a state may be: a share of its reach, and for a paced one of what it is."""
+def compute_tolerance(work, a, o, paced):  # type: ignore[no-untyped-def]
+    """Return the error that a state may have: a share of its reach, and for a paced state also a share of its value."""
     reach = load(work, REACH + a, o)
     if (paced >> a) & 1:
-        reach = reach + OWN * size(load(work, Y + a, o))
-    return BENDS * reach
+        reach = reach + PACED_SHARE * absolute(load(work, Y + a, o))
+    return BEND_LIMIT * reach
 
 
 @jit
-def hopeful(space, wires, work, place, wide, h, lanes):  # type: ignore[no-untyped-def]
-    """Note how far the force bends about `END`, and go to `MIDDLE`; return whether any point may take the step."""
-    hope = False
+def check_end(space, wires, work, place, wide, h, lanes):  # type: ignore[no-untyped-def]
+    """Store how far the force bends about `END`, set the state to `MIDDLE`; return whether any point may step."""
+    possible = False
     for o in range(0, lanes, WIDTH):
-        good = (load(work, AT, o) == place) & (load(work, WANT, o) == wide)
+        good = (load(work, AT, o) == place) & (load(work, TRIAL_STEP, o) == wide)
         for a in range(N):
-            far = size(0.5 * (load(work, UP + a, o) + load(space, wires[2] + a, o)) - load(work, K4 + a, o))
-            good = good & (h * far <= borne(work, a, o, wires[PACES]))
+            far = absolute(0.5 * (load(work, UP + a, o) + load(space, wires[2] + a, o)) - load(work, K4 + a, o))
+            good = good & (h * far <= compute_tolerance(work, a, o, wires[PACES]))
             store(work, FAR + a, o, far)
             store(space, wires[1] + a, o, load(work, MIDDLE + a, o))
         good = good | (load(work, ALIVE, o) < 0.5)
-        store(work, HOPE, o, select(good, 1.0, 0.0))
-        hope = hope or some(good)
-    return hope
+        store(work, STRAIGHT, o, select(good, 1.0, 0.0))
+        possible = possible or any_lane(good)
+    return possible
 
 
 @jit
-def probing(space, wires, work, c, lanes):  # type: ignore[no-untyped-def]
-    """Go from `MIDDLE` a reach up in one state."""
+def probe_above(space, wires, work, c, lanes):  # type: ignore[no-untyped-def]
+    """Set the state to `MIDDLE` with state `c` one reach higher."""
     for o in range(0, lanes, WIDTH):
         y = load(work, MIDDLE + c, o)
-        store(space, wires[1] + c, o, y + (load(work, REACH + c, o) + TINY * (1.0 + size(y))))
+        store(space, wires[1] + c, o, y + (load(work, REACH + c, o) + TINY * (1.0 + absolute(y))))
 
 
 @jit
-def probed(space, wires, work, c, lanes):  # type: ignore[no-untyped-def]
-    """Note derivatives above `MIDDLE`, and go as far below."""
+def probe_below(space, wires, work, c, lanes):  # type: ignore[no-untyped-def]
+    """Store the derivatives above `MIDDLE`, and set the state as far below it."""
     for o in range(0, lanes, WIDTH):
         y = load(work, MIDDLE + c, o)
-        store(space, wires[1] + c, o, y - (load(work, REACH + c, o) + TINY * (1.0 + size(y))))
+        store(space, wires[1] + c, o, y - (load(work, REACH + c, o) + TINY * (1.0 + absolute(y))))
         for a in range(N):
             store(work, UP + a, o, load(space, wires[2] + a, o))
 
 
 @jit
-def sloped(space, wires, work, c, lanes):  # type: ignore[no-untyped-def]
-    """Note the slopes over one state in `A`, and what the force bends in `BEND`; go up in the next state."""
+def store_slopes(space, wires, work, c, lanes):  # type: ignore[no-untyped-def]
+    """Store the derivatives over one state in `A` and the curvature of the force in `BEND`; go up in the next state."""
     for o in range(0, lanes, WIDTH):
         y = load(work, MIDDLE + c, o)
-        half = 0.5 / (load(work, REACH + c, o) + TINY * (1.0 + size(y)))
+        half = 0.5 / (load(work, REACH + c, o) + TINY * (1.0 + absolute(y)))
         share = 2.0 * load(work, P + c * N + c, o) * half * half
         for a in range(N):
             up, down = load(work, UP + a, o), load(space, wires[2] + a, o)
@@ -153,15 +154,15 @@ def sloped(space, wires, work, c, lanes):  # type: ignore[no-untyped-def]
         store(space, wires[1] + c, o, y)
         if c + 1 < N:
             y = load(work, MIDDLE + c + 1, o)
-            store(space, wires[1] + c + 1, o, y + (load(work, REACH + c + 1, o) + TINY * (1.0 + size(y))))
+            store(space, wires[1] + c + 1, o, y + (load(work, REACH + c + 1, o) + TINY * (1.0 + absolute(y))))
 
 
 @jit
-def attempted(derive, space, wires, work, u, which, begin, k, place, wide, nsub, dt, lanes):  # type: ignore[no-untyped-def]
-    """Try a step of `wide` fine ones from the states `Y`; return a failure.
+def try_step(derive, space, wires, work, u, which, begin, k, place, wide, nsub, dt, lanes):  # type: ignore[no-untyped-def]
+    """Try a step of `wide` fine steps from the states `Y`; return nonzero if a law raised an error.
 
-    It begins at `place` of the `nsub` fine ones of sample `k`. `HOPE` tells which points may take it, `KINK` how far
-    the derivatives at both ends are off those in the middle.
+    It begins at fine step `place` of the `nsub` ones of sample `k`. `STRAIGHT` marks the points that may take it;
+    `KINK` is the difference between the derivatives at both ends and those in the middle.
     """
     share, width = place / nsub, wide / nsub
     h = width * dt
@@ -169,24 +170,24 @@ def attempted(derive, space, wires, work, u, which, begin, k, place, wide, nsub,
         store(space, wires[STEP], o, h)
         for a in range(N):
             store(space, wires[1] + a, o, load(work, Y + a, o))
-    driven(space, wires, u, which, begin, k, share, dt, lanes)
+    set_inputs(space, wires, u, which, begin, k, share, dt, lanes)
     failed = call(derive, space, wires, lanes)
-    staged(space, wires, work, K1, 0.5 * h, MIDDLE, lanes)
-    driven(space, wires, u, which, begin, k, share + 0.5 * width, dt, lanes)
+    take_stage(space, wires, work, K1, 0.5 * h, MIDDLE, lanes)
+    set_inputs(space, wires, u, which, begin, k, share + 0.5 * width, dt, lanes)
     failed |= call(derive, space, wires, lanes)
-    staged(space, wires, work, K2, 0.5 * h, END, lanes)
+    take_stage(space, wires, work, K2, 0.5 * h, END, lanes)
     failed |= call(derive, space, wires, lanes)
-    staged(space, wires, work, K3, h, END, lanes)
-    driven(space, wires, u, which, begin, k, share + width, dt, lanes)
+    take_stage(space, wires, work, K3, h, END, lanes)
+    set_inputs(space, wires, u, which, begin, k, share + width, dt, lanes)
     failed |= call(derive, space, wires, lanes)
     if wide > 1:
-        beside(space, wires, work, K4, 1.0, lanes)
+        probe_end(space, wires, work, K4, 1.0, lanes)
         failed |= call(derive, space, wires, lanes)
-        beside(space, wires, work, UP, -1.0, lanes)
+        probe_end(space, wires, work, UP, -1.0, lanes)
         failed |= call(derive, space, wires, lanes)
-        if not hopeful(space, wires, work, place, wide, h, lanes):
+        if not check_end(space, wires, work, place, wide, h, lanes):
             return failed
-        mirrored(space, wires, u, which, k, share, width, lanes)
+        set_mirrored_inputs(space, wires, u, which, k, share, width, lanes)
         failed |= call(derive, space, wires, lanes)
         for o in range(0, lanes, WIDTH):
             for a in range(N):
@@ -197,50 +198,50 @@ def attempted(derive, space, wires, work, u, which, begin, k, place, wide, nsub,
             for a in range(N):
                 store(work, K4 + a, o, load(space, wires[2] + a, o))
                 store(space, wires[1] + a, o, load(work, MIDDLE + a, o))
-    driven(space, wires, u, which, begin, k, share + 0.5 * width, dt, lanes)
-    probing(space, wires, work, 0, lanes)
+    set_inputs(space, wires, u, which, begin, k, share + 0.5 * width, dt, lanes)
+    probe_above(space, wires, work, 0, lanes)
     for c in range(N):
         failed |= call(derive, space, wires, lanes)
-        probed(space, wires, work, c, lanes)
+        probe_below(space, wires, work, c, lanes)
         failed |= call(derive, space, wires, lanes)
-        sloped(space, wires, work, c, lanes)
+        store_slopes(space, wires, work, c, lanes)
     return failed
 
 
 @jit
-def accepted(work, o, place, wide, h, paced):  # type: ignore[no-untyped-def]
-    """Note which points take the step that was tried, where they wait, and how far they would go next: twice as far.
+def accept_step(work, o, place, wide, h, paced):  # type: ignore[no-untyped-def]
+    """Store which points take the step that was tried, where they wait, and their next step: twice as long.
 
-    They do not wish for a step of which it can be told now that it will be too long against the motion.
-    `F` holds the square of the slopes `A`. Return a mask of the points that take it.
+    The next step is not doubled where the limit on its length would reject it. `F` holds the square of the Jacobian
+    `A`. Return a mask of the points that take the step.
     """
     at = load(work, AT, o)
-    waits = (at == place) & (load(work, WANT, o) == wide)
-    taken, wish = waits, 2.0 * wide + 0.0 * at
+    waits = (at == place) & (load(work, TRIAL_STEP, o) == wide)
+    taken, following = waits, 2.0 * wide + 0.0 * at
     for a in range(N):
         if not (paced >> a) & 1:
-            wish = select(4.0 * h * h * size(load(work, F + a * N + a, o)) <= LONG, wish, wide)
+            following = select(4.0 * h * h * absolute(load(work, F + a * N + a, o)) <= STEP_LIMIT, following, wide)
     if wide > 1:
-        taken = waits & (load(work, HOPE, o) > 0.5)
+        taken = waits & (load(work, STRAIGHT, o) > 0.5)
         dead = load(work, ALIVE, o) < 0.5
         for a in range(N):
             kink = load(work, KINK + a, o)
             for c in range(N):
                 way = load(work, Y + c, o) + load(work, END + c, o) - 2.0 * load(work, MIDDLE + c, o)
                 kink = kink - load(work, A + a * N + c, o) * way
-            bent = load(work, NEAR + a, o) + load(work, FAR + a, o) + 3.0 * size(load(work, BEND + a, o))
-            taken = taken & ((h * (size(kink) + bent) <= borne(work, a, o, paced)) | dead)
-            limit = PACED if (paced >> a) & 1 else LONG
-            taken = taken & ((h * h * size(load(work, F + a * N + a, o)) <= limit) | dead)
+            bent = load(work, NEAR + a, o) + load(work, FAR + a, o) + 3.0 * absolute(load(work, BEND + a, o))
+            taken = taken & ((h * (absolute(kink) + bent) <= compute_tolerance(work, a, o, paced)) | dead)
+            limit = PACED_LIMIT if (paced >> a) & 1 else STEP_LIMIT
+            taken = taken & ((h * h * absolute(load(work, F + a * N + a, o)) <= limit) | dead)
     store(work, AT, o, select(taken, place + wide, at))
-    store(work, WANT, o, select(waits, 0.5 * wide, load(work, WANT, o)))
-    store(work, WISH, o, select(taken, wish, load(work, WISH, o)))
+    store(work, TRIAL_STEP, o, select(waits, 0.5 * wide, load(work, TRIAL_STEP, o)))
+    store(work, NEXT_STEP, o, select(taken, following, load(work, NEXT_STEP, o)))
     return taken
 
 
 @jit
-def product(work, into, left, right, o):  # type: ignore[no-untyped-def]
-    """Write the product of two matrices into a third."""
+def multiply(work, into, left, right, o):  # type: ignore[no-untyped-def]
+    """Write the product of two matrices (N, N) into a third."""
     for a in range(N):
         for b in range(N):
             s = load(work, left + a * N, o) * load(work, right + b, o)
@@ -250,7 +251,7 @@ def product(work, into, left, right, o):  # type: ignore[no-untyped-def]
 
 
 @jit
-def moved(work, o, taken, wide, h):  # type: ignore[no-untyped-def]
+def move_states(work, o, taken, wide, h):  # type: ignore[no-untyped-def]
     """Move the states of the points that take the step."""
     for a in range(N):
         s = load(work, F + a * N, o) * (load(work, K3, o) - load(work, K2, o))
@@ -265,8 +266,8 @@ def moved(work, o, taken, wide, h):  # type: ignore[no-untyped-def]
 
 
 @jit
-def transition(work, o, h):  # type: ignore[no-untyped-def]
-    """Write the transition over the step into `G`: the exponential of h A, to fourth order."""
+def compute_transition(work, o, h):  # type: ignore[no-untyped-def]
+    """Write the transition matrix over the step into `G`: the exponential of h A, to fourth order."""
     for a in range(N):
         for b in range(N):
             third = load(work, F + a * N, o) * load(work, A + b, o)
@@ -280,9 +281,9 @@ def transition(work, o, h):  # type: ignore[no-untyped-def]
 
 
 @jit
-def kicked(work, o, sources, h):  # type: ignore[no-untyped-def]
-    """Write what is left at the end of the step of kicks at its two Gauss points, for each source of noise."""
-    soon, late = SOON * h, h - SOON * h
+def propagate_impulses(work, o, sources, h):  # type: ignore[no-untyped-def]
+    """Write the responses at the end of the step to unit impulses at its two Gauss points, for each source of noise."""
+    soon, late = GAUSS_POINT * h, h - GAUSS_POINT * h
     for source in range(sources):
         row = int(value(work, NOISE + 2 * source, 0))
         first = NOISE + 2 * sources + 2 * N * source
@@ -294,9 +295,9 @@ def kicked(work, o, sources, h):  # type: ignore[no-untyped-def]
 
 
 @jit
-def widened(work, o, taken, sources, h):  # type: ignore[no-untyped-def]
-    """Carry the covariance of the points that take the step, by the transition `G`, and add the noise."""
-    product(work, F, G, P, o)
+def propagate_covariance(work, o, taken, sources, h):  # type: ignore[no-untyped-def]
+    """Propagate the covariance of the points that take the step by the transition `G`, and add the process noise."""
+    multiply(work, F, G, P, o)
     for a in range(N):
         for b in range(a, N):
             s = load(work, F + a * N, o) * load(work, G + b * N, o)
@@ -313,63 +314,63 @@ def widened(work, o, taken, sources, h):  # type: ignore[no-untyped-def]
 
 
 @jit
-def carried(work, slow, sources, many, paced, h, wide, place, keep, lanes):  # type: ignore[no-untyped-def]
-    """Carry all that is known over the step that was tried, at those points that take it: they go on from its end."""
+def carry_step(work, ar1, sources, many, paced, h, wide, place, keep, lanes):  # type: ignore[no-untyped-def]
+    """Carry states, covariances and AR(1) noise over the step that was tried, at those points that accept it."""
     for o in range(0, lanes, WIDTH):
-        product(work, F, A, A, o)
-        taken = accepted(work, o, place, wide, h, paced)
-        if not some(taken):
+        multiply(work, F, A, A, o)
+        taken = accept_step(work, o, place, wide, h, paced)
+        if not any_lane(taken):
             continue
-        moved(work, o, taken, wide, h)
-        kicked(work, o, sources, h)
-        transition(work, o, h)
-        widened(work, o, taken, sources, h)
+        move_states(work, o, taken, wide, h)
+        propagate_impulses(work, o, sources, h)
+        compute_transition(work, o, h)
+        propagate_covariance(work, o, taken, sources, h)
         for j in range(many):
             first = j * (1 + N + many) + 1
             for a in range(N):
-                s = load(work, G + a * N, o) * load(slow, first, o)
+                s = load(work, G + a * N, o) * load(ar1, first, o)
                 for c in range(1, N):
-                    s = s + load(work, G + a * N + c, o) * load(slow, first + c, o)
+                    s = s + load(work, G + a * N + c, o) * load(ar1, first + c, o)
                 store(work, UP + a, o, s)
             for a in range(N):
-                store(slow, first + a, o, select(taken, load(work, UP + a, o), load(slow, first + a, o)))
+                store(ar1, first + a, o, select(taken, load(work, UP + a, o), load(ar1, first + a, o)))
         if keep:
-            product(work, F, G, T, o)
+            multiply(work, F, G, T, o)
             for a in range(N * N):
                 store(work, T + a, o, load(work, F + a, o))
 
 
 @jit
-def wanted(work, place, aligned, step, paced, lanes):  # type: ignore[no-untyped-def]
-    """Write how far the points at `place` would step, by how the force bends there; return the farthest of them."""
+def choose_step(work, place, aligned, step, paced, lanes):  # type: ignore[no-untyped-def]
+    """Write the step of each point at `place`, limited by the last curvature of the force; return the longest."""
     for o in range(0, lanes, WIDTH):
         for a in range(N):
-            store(work, REACH + a, o, root(3.0 * load(work, P + a * N + a, o)))
-        want = load(work, WISH, o)
+            store(work, REACH + a, o, square_root(3.0 * load(work, P + a * N + a, o)))
+        want = load(work, NEXT_STEP, o)
         want = select(want > aligned, aligned, want)
         wide = aligned
         while wide > 1:
             bent = want < 0.0
             for a in range(N):
-                bent = bent | (wide * step * load(work, NEAR + a, o) > borne(work, a, o, paced))
+                bent = bent | (wide * step * load(work, NEAR + a, o) > compute_tolerance(work, a, o, paced))
             want = select(bent & (want == wide) & (load(work, ALIVE, o) > 0.5), 0.5 * wide, want)
             wide = wide // 2
-        store(work, WANT, o, want)
-    return widest(work, place, lanes)
+        store(work, TRIAL_STEP, o, want)
+    return find_widest(work, place, lanes)
 
 
 @jit
-def widest(work, place, lanes):  # type: ignore[no-untyped-def]
-    """Return the widest step that a point which waits at `place` would take, 0 where none waits there."""
+def find_widest(work, place, lanes):  # type: ignore[no-untyped-def]
+    """Return the longest step of the points that wait at `place`, 0 where none waits there."""
     most = 0.0
     for o in range(0, lanes, WIDTH):
-        most = max(most, top(select(load(work, AT, o) == place, load(work, WANT, o), 0.0)))
+        most = max(most, largest_lane(select(load(work, AT, o) == place, load(work, TRIAL_STEP, o), 0.0)))
     return int(most)
 
 
 @jit
-def crossed(derive, space, wires, work, slow, u, which, begin, k, nsub, dt, sources, many, keep, lanes):  # type: ignore[no-untyped-def]
-    """Carry all points over sample `k`, of which `u` holds the inputs; return a failure."""
+def cross_sample(derive, space, wires, work, ar1, u, which, begin, k, nsub, dt, sources, many, keep, lanes):  # type: ignore[no-untyped-def]
+    """Carry all points over sample `k`, with the inputs in `u`; return nonzero if a law raised an error."""
     failed, place, step = 0, 0 * nsub, dt / nsub  # numba compiles a call anew for a literal
     for o in range(0, lanes, WIDTH):
         store(work, AT, o, 0.0)
@@ -377,16 +378,16 @@ def crossed(derive, space, wires, work, slow, u, which, begin, k, nsub, dt, sour
         aligned = place & -place if place else nsub
         waiting = place == 0
         for o in range(0, lanes, WIDTH):
-            waiting = waiting or some(load(work, AT, o) == place)
+            waiting = waiting or any_lane(load(work, AT, o) == place)
         if not waiting:
             place += aligned
             continue
-        wide = wanted(work, place, aligned, step, wires[PACES], lanes)
+        wide = choose_step(work, place, aligned, step, wires[PACES], lanes)
         done = wide
         while wide > 0:
-            failed |= attempted(derive, space, wires, work, u, which, begin, k, place, wide, nsub, dt, lanes)
-            carried(work, slow, sources, many, wires[PACES], wide * step, wide, place, keep, lanes)
+            failed |= try_step(derive, space, wires, work, u, which, begin, k, place, wide, nsub, dt, lanes)
+            carry_step(work, ar1, sources, many, wires[PACES], wide * step, wide, place, keep, lanes)
             done = wide
-            wide = widest(work, place, lanes)
+            wide = find_widest(work, place, lanes)
         place += done
     return failed

@@ -1,8 +1,8 @@
-"""Elementary functions that a compiler can turn into vector instructions, which calls into the C library forbid.
+"""Elementary functions that the compiler can turn into vector instructions; calls into the C library cannot be.
 
-They take the place of those of `math` in the laws of models and terms while these are compiled. Errors, relative to the
-larger of the value and 1e-300, over the ranges that are stated: `exp` 3e-16 (results below 1e-307 become 0), `tanh`
-2e-15, `sin` and `cos` 3e-16 of one for arguments up to 1e6.
+They replace the functions of `math` in the laws of models and terms when these are compiled. Errors, relative to the
+larger of the value and 1e-300, over the stated ranges: `exp` 3e-16 (results below 1e-307 become 0), `tanh` 2e-15, `sin`
+and `cos` 3e-16 relative to one for arguments up to 1e6.
 """
 
 from __future__ import annotations
@@ -20,21 +20,21 @@ from lostmotion.kernels.vector import BARE
 
 _part = numba.njit(**BARE, forceinline=True)
 _SHIFT = 6755399441055744.0
-"""1.5 * 2^52: added to a double it moves the nearest whole number into the last bits."""
+"""1.5 * 2^52: adding it to a double moves the nearest whole number into the lowest bits."""
 
 
-def _power(k):  # type: ignore[no-untyped-def]
+def _raise_two(k):  # type: ignore[no-untyped-def]
     """Return 2^k for a whole number k from -1022 to 1023."""
     return math.ldexp(1.0, int(k))
 
 
-def _whole(x):  # type: ignore[no-untyped-def]
-    """Return the largest whole number that is not above x."""
+def _round_down(x):  # type: ignore[no-untyped-def]
+    """Return the largest whole number that is not greater than x."""
     return float(math.floor(x))
 
 
 @intrinsic
-def _shifted(typingctx: Any, k: Any) -> Any:
+def _build_power(typingctx: Any, k: Any) -> Any:
     def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
         bits = ir.IntType(64)
         moved = builder.fadd(args[0], ir.Constant(ir.DoubleType(), _SHIFT + 1023.0))
@@ -52,13 +52,13 @@ def _floor(typingctx: Any, x: Any) -> Any:
     return types.float64(types.float64), codegen
 
 
-@overload(_power)  # type: ignore[untyped-decorator]
-def _compiled_power(k):  # type: ignore[no-untyped-def]
-    return lambda k: _shifted(k)
+@overload(_raise_two)  # type: ignore[untyped-decorator]
+def _compile_raise_two(k):  # type: ignore[no-untyped-def]
+    return lambda k: _build_power(k)
 
 
-@overload(_whole)  # type: ignore[untyped-decorator]
-def _compiled_whole(x):  # type: ignore[no-untyped-def]
+@overload(_round_down)  # type: ignore[untyped-decorator]
+def _compile_round_down(x):  # type: ignore[no-untyped-def]
     return lambda x: _floor(x)
 
 
@@ -66,7 +66,7 @@ def _compiled_whole(x):  # type: ignore[no-untyped-def]
 def exp(x: float) -> float:
     """Return e^x."""
     y = min(max(x, -708.0), 709.7)
-    k = _whole(y * 1.4426950408889634 + 0.5)
+    k = _round_down(y * 1.4426950408889634 + 0.5)
     r = (y - k * 6.93145751953125e-1) - k * 1.42860682030941723212e-6
     s = 1.0 / 6227020800.0
     s = s * r + 1.0 / 479001600.0
@@ -80,22 +80,22 @@ def exp(x: float) -> float:
     s = s * r + 1.0 / 24.0
     s = s * r + 1.0 / 6.0
     s = s * r + 0.5
-    half = _whole(0.5 * k)
-    grown = (1.0 + (r + s * r * r)) * _power(half) * _power(k - half)
+    half = _round_down(0.5 * k)
+    grown = (1.0 + (r + s * r * r)) * _raise_two(half) * _raise_two(k - half)
     grown = grown if x > -708.0 else 0.0
     grown = grown if x < 709.7 else math.inf
     return grown if x == x else x
 
 
 @_part
-def _wave(x: float, quarter: float) -> float:
+def _compute_sine(x: float, quarter: float) -> float:
     """Return the sine of x plus a number of quarter turns."""
-    q = _whole(x * 0.6366197723675814 + 0.5)
+    q = _round_down(x * 0.6366197723675814 + 0.5)
     r = ((x - q * 1.57079632673412561417) - q * 6.07710050630396597660e-11) - q * 2.02226624879595063154e-21
     q = q + quarter
-    odd = q - 2.0 * _whole(0.5 * q)
+    odd = q - 2.0 * _round_down(0.5 * q)
     down = 0.5 * q - 0.5 * odd
-    down = down - 2.0 * _whole(0.5 * down)
+    down = down - 2.0 * _round_down(0.5 * down)
     z = r * r
     s = -1.0 / 1307674368000.0
     s = s * z + 1.0 / 6227020800.0
@@ -120,13 +120,13 @@ def _wave(x: float, quarter: float) -> float:
 @_part
 def sin(x: float) -> float:
     """Return the sine of x (rad)."""
-    return _wave(x, 0.0)
+    return _compute_sine(x, 0.0)
 
 
 @_part
 def cos(x: float) -> float:
     """Return the cosine of x (rad)."""
-    return _wave(x, 1.0)
+    return _compute_sine(x, 1.0)
 
 
 @_part
@@ -147,4 +147,4 @@ def tanh(x: float) -> float:
 
 
 QUICK = {math.exp: exp, math.sin: sin, math.cos: cos, math.tanh: tanh}
-"""What takes the place of each function of `math` in a law."""
+"""The replacement for each function of `math` in a compiled law."""

@@ -1,13 +1,14 @@
-"""The filter through a model at many parameter points at once, in lock-step; for a model of `N` states.
+"""The filter through a model at many parameter points at once, in lock-step, for a model of `N` states.
 
-Statistical linearisation by divided differences over sqrt(3) standard deviations (Norgaard, Poulsen, Ravn,
-Automatica 36 (2000) 1627-1638): the mean takes the curvature of the force into account, so a kink or a jump is seen as
-wide as the state is uncertain. Sensors are taken one after the other, a scalar update each. What one shows is
-linearised over five points in each state (Arasaratnam, Haykin, Elliott, Proc. IEEE 95 (2007) 953-977), and is less
-certain by what the line leaves over: a sensor of force, with a kink which the state may or may not have reached, tells
-little of the place. With three points a gain jumps where the last of them reaches the kink.
+Statistical linearisation by divided differences over sqrt(3) standard deviations (Norgaard, Poulsen, Ravn, Automatica
+36 (2000) 1627-1638). The mean includes the curvature of the force, so a kink or a jump is smoothed over the uncertainty
+of the state. Sensors are processed sequentially, with one scalar measurement update each. The output of a sensor is
+linearised over five points in each state (Gauss-Hermite; Arasaratnam, Haykin, Elliott, Proc. IEEE 95 (2007) 953-977),
+and the residual of the linearisation is added to its variance: a force sensor with a kink that the state may or may not
+have reached gives little information on the position. With three points the gain would jump where the outermost point
+reaches the kink.
 
-`lostmotion.likelihood.kernels` compiles this text, behind that of `crossing.py`, once for each number of states.
+`lostmotion.likelihood.kernels` compiles this text, after that of `crossing.py`, once for each number of states.
 """
 
 from __future__ import annotations
@@ -21,68 +22,68 @@ from lostmotion.kernels.crossing import (
     LOOSE,
     MIDDLE,
     NEAR,
+    NEXT_STEP,
     NOISE,
     REACH,
     SEEN,
     TINY,
     UP,
-    WISH,
     H,
     N,
     P,
     T,
     Y,
-    crossed,
+    cross_sample,
 )  # fmt: skip
 from lostmotion.kernels.inputs import (
     DRAWN,
     INPUTS,
     SOURCES,
     STEP,
-    between,
-    driven,
+    interpolate_input,
+    set_inputs,
 )  # fmt: skip
 from lostmotion.kernels.vector import (
     WIDTH,
+    absolute,
     assign,
     call,
-    finite,
+    is_finite,
     jit,
     load,
     pointer,
-    root,
     select,
-    size,
+    square_root,
     store,
     value,
     whole,
 )  # fmt: skip
 
 LEVELS = 6
-"""Rows that tell of a sensor: variances of white and slow noise, how the slow one fades, gain, offset and lag (s)."""
-NEARER, FARTHER = 1.355626179974266, 2.8569700138728056
-NEARLY, FARLY = 0.22207592200561263, 0.011257411327720683
+"""Rows for each sensor: variances of white and AR(1) noise, AR(1) coefficient, gain, offset and lag (s)."""
+INNER_POINT, OUTER_POINT = 1.355626179974266, 2.8569700138728056
+INNER_WEIGHT, OUTER_WEIGHT = 0.22207592200561263, 0.011257411327720683
 """Gauss-Hermite points beside the mean, in standard deviations, and their weights (Abramowitz, Stegun, table 25.10)."""
-SILENT = 1.0 / (2.0 * math.pi)
-"""The variance noted where nothing was read: with an error of zero it adds nothing to a log-likelihood."""
+UNREAD_VARIANCE = 1.0 / (2.0 * math.pi)
+"""The variance that is stored where nothing was read: with an error of zero it adds nothing to a log-likelihood."""
 
 
 @jit
-def driven_late(space, wires, u, which, begin, k, levels, row, share, dt, lanes):  # type: ignore[no-untyped-def]
-    """Hand the inputs at a `share` of the lag of each point before sample `k`, and the time, to the model."""
+def set_inputs_late(space, wires, u, which, begin, k, levels, row, share, dt, lanes):  # type: ignore[no-untyped-def]
+    """Set the model's inputs and time to those a `share` of each point's lag before sample `k`."""
     for lane in range(lanes):
         past = share * value(levels, row, lane)
         sample = which[lane] + k
         for i in range(wires[INPUTS]):
-            assign(space, wires[3] + i, lane, between(u, sample, wires[INPUTS], i, -past / dt))
+            assign(space, wires[3] + i, lane, interpolate_input(u, sample, wires[INPUTS], i, -past / dt))
         assign(space, wires[0], lane, value(begin, 0, lane) + k * dt - past)
 
 
 @jit
-def rewound(derive, space, wires, work, inputs, lanes):  # type: ignore[no-untyped-def]
-    """Take the states in the block back by the lag of a sensor, a midpoint step against time; return a failure."""
+def rewind_states(derive, space, wires, work, inputs, lanes):  # type: ignore[no-untyped-def]
+    """Move the states in the block back by the lag of a sensor, by one midpoint step; return nonzero on failure."""
     u, which, begin, k, levels, row, dt, _ = inputs
-    driven_late(space, wires, u, which, begin, k, levels, row, 0.0, dt, lanes)
+    set_inputs_late(space, wires, u, which, begin, k, levels, row, 0.0, dt, lanes)
     failed = call(derive, space, wires, lanes)
     for o in range(0, lanes, WIDTH):
         lag = load(levels, row, o)
@@ -90,44 +91,44 @@ def rewound(derive, space, wires, work, inputs, lanes):  # type: ignore[no-untyp
             y = load(space, wires[1] + a, o)
             store(work, T + a, o, y)
             store(space, wires[1] + a, o, y - 0.5 * lag * load(space, wires[2] + a, o))
-    driven_late(space, wires, u, which, begin, k, levels, row, 0.5, dt, lanes)
+    set_inputs_late(space, wires, u, which, begin, k, levels, row, 0.5, dt, lanes)
     failed |= call(derive, space, wires, lanes)
     for o in range(0, lanes, WIDTH):
         lag = load(levels, row, o)
         for a in range(N):
             store(space, wires[1] + a, o, load(work, T + a, o) - lag * load(space, wires[2] + a, o))
-    driven_late(space, wires, u, which, begin, k, levels, row, 1.0, dt, lanes)
+    set_inputs_late(space, wires, u, which, begin, k, levels, row, 1.0, dt, lanes)
     return failed
 
 
 @jit
-def shown_at(functions, space, wires, work, column, side, inputs, lanes):  # type: ignore[no-untyped-def]
-    """Let the model show its channels with state `column` so many deviations to a side (none if -1), or say no."""
+def observe_at(functions, space, wires, work, column, side, inputs, lanes):  # type: ignore[no-untyped-def]
+    """Evaluate the channels with state `column` moved by `side` deviations (-1: none); return nonzero on failure."""
     derive, observe = functions
     for o in range(0, lanes, WIDTH):
         for a in range(N):
             y = load(work, Y + a, o)
             if a == column:
-                y = y + side * load(work, REACH + a, o) + (TINY if side > 0.0 else -TINY) * (1.0 + size(y))
+                y = y + side * load(work, REACH + a, o) + (TINY if side > 0.0 else -TINY) * (1.0 + absolute(y))
             store(space, wires[1] + a, o, y)
     failed = False
     if inputs[7]:
-        failed |= rewound(derive, space, wires, work, inputs, lanes)
+        failed |= rewind_states(derive, space, wires, work, inputs, lanes)
     return failed | call(derive, space, wires, lanes) | call(observe, space, wires, lanes)
 
 
 @jit
-def linearised(functions, space, wires, work, channel, step, inputs, lanes):  # type: ignore[no-untyped-def]
-    """Write what a sensor should show, and its slopes over the states, into `EXPECTED` and `H`; return a failure.
+def linearise_sensor(functions, space, wires, work, channel, step, inputs, lanes):  # type: ignore[no-untyped-def]
+    """Write the expected output of a sensor into `EXPECTED` and its slopes over the states into `H`; return a failure.
 
-    `LOOSE` gets the variance that bends add.
+    `LOOSE` receives the variance that the nonlinearity adds.
     """
     row = wires[4] + channel
     for o in range(0, lanes, WIDTH):
         store(space, wires[STEP], o, step)
         for a in range(N):
-            store(work, REACH + a, o, root(load(work, P + a * N + a, o)))
-    failed = shown_at(functions, space, wires, work, -1, 0.0, inputs, lanes)
+            store(work, REACH + a, o, square_root(load(work, P + a * N + a, o)))
+    failed = observe_at(functions, space, wires, work, -1, 0.0, inputs, lanes)
     for o in range(0, lanes, WIDTH):
         store(work, SEEN, o, load(space, row, o))
         store(work, EXPECTED, o, load(space, row, o))
@@ -138,13 +139,13 @@ def linearised(functions, space, wires, work, channel, step, inputs, lanes):  # 
             store(work, MIDDLE, o, 0.0)
             store(work, END, o, 0.0)
         for ring in range(2):
-            reach, weight = (NEARER, NEARLY) if ring == 0 else (FARTHER, FARLY)
+            reach, weight = (INNER_POINT, INNER_WEIGHT) if ring == 0 else (OUTER_POINT, OUTER_WEIGHT)
             for side in range(2):
-                failed |= shown_at(functions, space, wires, work, c, reach * (1.0 - 2.0 * side), inputs, lanes)
+                failed |= observe_at(functions, space, wires, work, c, reach * (1.0 - 2.0 * side), inputs, lanes)
                 for o in range(0, lanes, WIDTH):
                     store(work, UP + side, o, load(space, row, o) - load(work, SEEN, o))
             for o in range(0, lanes, WIDTH):
-                d = reach * load(work, REACH + c, o) + TINY * (1.0 + size(load(work, Y + c, o)))
+                d = reach * load(work, REACH + c, o) + TINY * (1.0 + absolute(load(work, Y + c, o)))
                 up, down = load(work, UP, o), load(work, UP + 1, o)
                 store(work, H + c, o, load(work, H + c, o) + weight * reach * reach * (up - down) / d)
                 store(work, MIDDLE, o, load(work, MIDDLE, o) + weight * (up + down))
@@ -158,8 +159,8 @@ def linearised(functions, space, wires, work, channel, step, inputs, lanes):  # 
 
 
 @jit
-def corrected_ar1(work, ar1, gauge, many, own, precision, miss, o):  # type: ignore[no-untyped-def]
-    """Correct the slow noise of all sensors by the reading of one; `UP` holds what it has to do with the states."""
+def update_ar1(work, ar1, gauge, many, own, precision, miss, o):  # type: ignore[no-untyped-def]
+    """Update the AR(1) noise of all sensors by one reading; `UP` holds its covariance with the states."""
     wide = 1 + N + many
     for j in range(many):
         s = 0.0 * gauge
@@ -180,13 +181,12 @@ def corrected_ar1(work, ar1, gauge, many, own, precision, miss, o):  # type: ign
 
 
 @jit
-def corrected(work, ar1, levels, sensor, z, many, own, errors, variances, k, lanes):  # type: ignore[no-untyped-def]
-    """Correct the states by one reading of a sensor, of which `EXPECTED` and `H` tell what the model thinks.
+def update_states(work, ar1, levels, sensor, z, many, own, errors, variances, k, lanes):  # type: ignore[no-untyped-def]
+    """Update the states by one reading of a sensor; `EXPECTED` and `H` hold its prediction and its slopes.
 
-    `levels` has for each sensor the variances of white and of slow noise, by how much the slow one fades in a sample,
-    its gain, its offset and its lag. `slow` holds for each of `many` sensors with slow noise its mean, its covariance
-    with the states (N rows) and with the slow noise of each sensor; `own` is the place of this sensor among them, or
-    -1.
+    `levels` has for each sensor the variances of white and of AR(1) noise, the AR(1) coefficient per sample, gain,
+    offset and lag. `ar1` holds for each of the `many` sensors with AR(1) noise its mean, its covariance with the states
+    (N rows) and with the AR(1) noise of each sensor; `own` is the place of this sensor among them, or -1.
     """
     first = LEVELS * sensor
     wide = 1 + N + many
@@ -211,7 +211,7 @@ def corrected(work, ar1, levels, sensor, z, many, own, errors, variances, k, lan
                 pulled = pulled + gauge * load(work, H + a, o) * load(ar1, own * wide + 1 + a, o)
             var = var + pulled
         precision = 1.0 / var
-        corrected_ar1(work, ar1, gauge, many, own, precision, miss, o)
+        update_ar1(work, ar1, gauge, many, own, precision, miss, o)
         for a in range(N):
             store(work, Y + a, o, load(work, Y + a, o) + load(work, UP + a, o) * (precision * miss))
         for a in range(N):
@@ -222,7 +222,7 @@ def corrected(work, ar1, levels, sensor, z, many, own, errors, variances, k, lan
                 store(work, P + a * N + b, o, s)
                 store(work, P + b * N + a, o, s)
         alive = load(work, ALIVE, o) > 0.5
-        alive = alive & finite(load(work, Y, o)) & (var > 0.0) & finite(load(work, P + N + 1, o))
+        alive = alive & is_finite(load(work, Y, o)) & (var > 0.0) & is_finite(load(work, P + N + 1, o))
         store(work, ALIVE, o, select(alive, 1.0, 0.0))
         store(work, MIDDLE, o, miss)
         store(work, END, o, var)
@@ -232,8 +232,8 @@ def corrected(work, ar1, levels, sensor, z, many, own, errors, variances, k, lan
 
 
 @jit
-def propagated_ar1(ar1, levels, sensor, own, many, lanes):  # type: ignore[no-untyped-def]
-    """Let the slow noise of a sensor fade over one sample, and add what is new of it."""
+def propagate_ar1(ar1, levels, sensor, own, many, lanes):  # type: ignore[no-untyped-def]
+    """Propagate the AR(1) noise of a sensor over one sample, and add its driving noise."""
     wide = 1 + N + many
     for o in range(0, lanes, WIDTH):
         ar1_share = load(levels, LEVELS * sensor + 2, o)
@@ -249,8 +249,8 @@ def propagated_ar1(ar1, levels, sensor, own, many, lanes):  # type: ignore[no-un
 
 
 @jit
-def begun(work, ar1, start, noise, levels, sensors, sources, many, nsub, lanes):  # type: ignore[no-untyped-def]
-    """Set everything to what it is before the first sample."""
+def initialise(work, ar1, start, noise, levels, sensors, sources, many, nsub, lanes):  # type: ignore[no-untyped-def]
+    """Set everything to its value before the first sample."""
     wide = 1 + N + many
     for o in range(0, lanes, WIDTH):
         for a in range(N + N * N):
@@ -264,14 +264,14 @@ def begun(work, ar1, start, noise, levels, sensors, sources, many, nsub, lanes):
             if own >= 0:
                 store(ar1, own * wide + 1 + N + own, o, load(levels, LEVELS * s + 1, o))
         store(work, ALIVE, o, 1.0)
-        store(work, WISH, o, float(nsub))
+        store(work, NEXT_STEP, o, float(nsub))
         for a in range(N):
             store(work, NEAR + a, o, 0.0)
 
 
 @jit
-def redrawn(work, noise, sources, drawn, lanes):  # type: ignore[no-untyped-def]
-    """Draw the forces anew that are held over a sample."""
+def redraw_forces(work, noise, sources, drawn, lanes):  # type: ignore[no-untyped-def]
+    """Reset the forces that are held over a sample to their prior."""
     for d in range(drawn):
         row = int(value(noise, 2 * (sources + d), 0))
         for o in range(0, lanes, WIDTH):
@@ -283,8 +283,8 @@ def redrawn(work, noise, sources, drawn, lanes):  # type: ignore[no-untyped-def]
 
 
 @jit
-def loosened(work, noise, sources, drawn, unsure, lanes):  # type: ignore[no-untyped-def]
-    """Let the first force that is held be less certain on its way to the next sample."""
+def add_input_uncertainty(work, noise, sources, drawn, unsure, lanes):  # type: ignore[no-untyped-def]
+    """Add the uncertainty of the measured input to the variance of the first held force, up to the next sample."""
     if drawn > 0 and unsure > 0.0:
         row = int(value(noise, 2 * sources, 0))
         for o in range(0, lanes, WIDTH):
@@ -292,24 +292,24 @@ def loosened(work, noise, sources, drawn, unsure, lanes):  # type: ignore[no-unt
 
 
 @whole
-def filtered(functions, blocks, wiring, inputs, drives, z, sensors, unsure, dt, nsub, told, kept, lanes):  # type: ignore[no-untyped-def]
-    """Filter `z` (samples, sensors) at `lanes` points; write innovations, return 0 or another number if a law raised.
+def run_filter(functions, blocks, wiring, inputs, drives, z, sensors, unsure, dt, nsub, written, kept, lanes):  # type: ignore[no-untyped-def]
+    """Filter `z` (samples, sensors) at `lanes` points; write innovations; return nonzero if a law raised an error.
 
-    `functions` are the addresses of what derives and what observes; `blocks` those of the model, of work, of slow
-    noise, and what each point brings: its time at the first sample (1 row); for each sensor the variances of white
-    and of slow noise, how much the slow one fades in a sample, gain, offset and lag (6 rows each); for each source
-    of noise the number of the state that it enters and its intensity, then for each force that is drawn anew at each
-    sample its state and variance (2 rows each); states and covariances to begin with (N + N * N rows). `wiring` holds
-    the wires of the model, with the numbers of sources, of drawn forces, of inputs and of drives at `SOURCES` and
-    behind. `inputs` (rows, 4, inputs) holds a cubic for each sample, and `drives` (lanes,) the first row of each
-    point. `sensors` (sensors, 4) holds the channel of each, the state that it shows directly or -1, its place
-    among those with slow noise or -1, and whether it is late; `unsure` (samples,) the variance of a force that is held,
-    of how the input goes up to the next sample. Of what is `told`, errors and variances are (lanes, samples, sensors);
-    `reached` (lanes,) counts the samples that were got through. `kept` is what a smoother needs of the first point:
-    states and covariances after and before each sample and the steps between, empty if not wanted.
+    `functions` are the addresses of `derive` and `observe`. `blocks` are those of the model, of work and of AR(1)
+    noise, then the data of each point: its time at the first sample (1 row); for each sensor the variances of white and
+    of AR(1) noise, the AR(1) coefficient per sample, gain, offset and lag (6 rows each); for each source of process
+    noise the number of the state that it enters and its intensity, then for each force that is redrawn at each sample
+    its state and variance (2 rows each); initial states and covariances (N + N * N rows). `wiring` holds the wires of
+    the model, with the numbers of sources, of redrawn forces, of inputs and of drives from `SOURCES` on. `inputs`
+    (rows, 4, inputs) holds a cubic for each sample, and `drives` (lanes,) the first row of each point. `sensors`
+    (sensors, 4) holds the channel of each, the state that it shows directly or -1, its place among those with AR(1)
+    noise or -1, and whether it is late; `unsure` (samples,) is the variance that the measured input adds to a held
+    force up to the next sample. The arrays in `written` are errors and variances (lanes, samples, sensors), and
+    `reached` (lanes,), the number of samples that were computed. `kept` is what a smoother needs of the first point:
+    states and covariances after and before each sample and the transition matrices between, empty if not wanted.
     """
     derive, observe = functions[0], functions[1]
-    errors, variances, reached = told
+    errors, variances, reached = written
     space, work, ar1, begin = pointer(blocks[0]), pointer(blocks[1]), pointer(blocks[2]), pointer(blocks[3])
     levels, noise, start = pointer(blocks[4]), pointer(blocks[5]), pointer(blocks[6])
     wires, u, which = pointer(wiring), pointer(inputs), pointer(drives)
@@ -319,9 +319,9 @@ def filtered(functions, blocks, wiring, inputs, drives, z, sensors, unsure, dt, 
     many = 0 * z.shape[0]
     for s in range(z.shape[1]):
         many = max(many, sensors[s, 2] + 1)
-    begun(work, ar1, start, noise, levels, sensors, sources, many, nsub, lanes)
+    initialise(work, ar1, start, noise, levels, sensors, sources, many, nsub, lanes)
     for k in range(samples):
-        redrawn(work, noise, sources, drawn, lanes)
+        redraw_forces(work, noise, sources, drawn, lanes)
         if keep:
             for a in range(N):
                 ahead_states[k, a] = value(work, Y + a, 0)
@@ -331,7 +331,7 @@ def filtered(functions, blocks, wiring, inputs, drives, z, sensors, unsure, dt, 
             if math.isnan(z[k, s]):
                 for lane in range(lanes):
                     errors[lane, k, s] = 0.0
-                    variances[lane, k, s] = SILENT
+                    variances[lane, k, s] = UNREAD_VARIANCE
                 continue
             direct, lagging = sensors[s, 1], sensors[s, 3] > 0
             if direct >= 0 and not lagging:
@@ -341,10 +341,12 @@ def filtered(functions, blocks, wiring, inputs, drives, z, sensors, unsure, dt, 
                     store(work, EXPECTED, o, load(work, Y + direct, o))
                     store(work, LOOSE, o, 0.0)
             else:
-                driven(space, wires, u, which, begin, k, 0.0, dt, lanes)
+                set_inputs(space, wires, u, which, begin, k, 0.0, dt, lanes)
                 given = (u, which, begin, k, levels, LEVELS * s + 5, dt, lagging)
-                failed |= linearised((derive, observe), space, wires, work, sensors[s, 0], dt / nsub, given, lanes)
-            corrected(work, ar1, levels, s, z[k, s], many, sensors[s, 2], errors, variances, k, lanes)
+                failed |= linearise_sensor(
+                    (derive, observe), space, wires, work, sensors[s, 0], dt / nsub, given, lanes
+                )
+            update_states(work, ar1, levels, s, z[k, s], many, sensors[s, 2], errors, variances, k, lanes)
         living = False
         for lane in range(lanes):
             if value(work, ALIVE, lane) > 0.5:
@@ -360,12 +362,14 @@ def filtered(functions, blocks, wiring, inputs, drives, z, sensors, unsure, dt, 
                     assign(work, T + a * N + b, 0, 1.0 if a == b else 0.0)
         if k == samples - 1:
             break
-        loosened(work, noise, sources, drawn, unsure[k], lanes)
-        failed |= crossed(derive, space, wires, work, ar1, u, which, begin, k, nsub, dt, sources, many, keep, lanes)
+        add_input_uncertainty(work, noise, sources, drawn, unsure[k], lanes)
+        failed |= cross_sample(
+            derive, space, wires, work, ar1, u, which, begin, k, nsub, dt, sources, many, keep, lanes
+        )
         for s in range(z.shape[1]):
             own = sensors[s, 2]
             if own >= 0:
-                propagated_ar1(ar1, levels, s, own, many, lanes)
+                propagate_ar1(ar1, levels, s, own, many, lanes)
         if keep:
             for a in range(N):
                 for b in range(N):

@@ -1,8 +1,8 @@
 """A bucket k-d tree over delay vectors: built once, searched by kernels that allocate nothing.
 
-Friedman, Bentley, Finkel, ACM Trans. Math. Software 3 (1977) 209-226, with tight boxes, and with what recordings ask
-for: each node knows the first and last time in it, so that the strand around the query itself is passed over at once
-(Theiler window), and points that repeat exactly share one bucket, however many they are.
+Friedman, Bentley, Finkel, ACM Trans. Math. Software 3 (1977) 209-226, with tight boxes, and with two additions for
+recordings: each node stores its first and last time, so that the points within the Theiler window of a query are
+skipped at once, and points that repeat exactly share one bucket, however many they are.
 
 The searches are in `seek.py`.
 """
@@ -43,7 +43,7 @@ SAME = -(2**62)
 
 @numba.njit(cache=True, nogil=True)
 def _select(keys, order, begin, end, middle):  # type: ignore[no-untyped-def]
-    """Reorder keys and order between begin and end so that none before `middle` is larger than any behind it."""
+    """Sort keys and order between begin and end in part: none before `middle` is larger than any after it."""
     low, high = begin, end - 1
     while low < high:
         pivot = keys[(low + high) // 2]
@@ -67,7 +67,7 @@ def _select(keys, order, begin, end, middle):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(cache=True, nogil=True)
-def _bound(points, order, begin, end, box):  # type: ignore[no-untyped-def]
+def _compute_bounds(points, order, begin, end, box):  # type: ignore[no-untyped-def]
     """Write the tight bounds of some points into `box` (2, dim), and return the widest dimension and its width."""
     dim = points.shape[1]
     for k in range(dim):
@@ -86,10 +86,10 @@ def _bound(points, order, begin, end, box):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(cache=True, nogil=True)
-def _cut(keys, order, begin, end):  # type: ignore[no-untyped-def]
+def _choose_cut(keys, order, begin, end):  # type: ignore[no-untyped-def]
     """Reorder between begin and end and return where to cut, near the middle, with equal keys on one side of it.
 
-    Were they on both, points that repeat would be strewn over the tree in many small heaps.
+    With equal keys on both sides, repeated points would be spread over many small leaves.
     """
     middle = (begin + end) // 2
     _select(keys, order, begin, end, middle)
@@ -110,8 +110,8 @@ def _cut(keys, order, begin, end):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(cache=True, nogil=True)
-def _roomier(array, rows):  # type: ignore[no-untyped-def]
-    """Return an array with the same rows and as many again; copied one by one, for slices take seconds to compile."""
+def _enlarge(array, rows):  # type: ignore[no-untyped-def]
+    """Return an array of twice as many rows that begins with the old ones (a loop: slices compile slowly)."""
     grown = np.empty((2 * rows, *array.shape[1:]), array.dtype)
     old, new = array.reshape(-1), grown.reshape(-1)
     for i in range(len(old)):
@@ -120,8 +120,8 @@ def _roomier(array, rows):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(cache=True, nogil=True)
-def _divide(points, order):  # type: ignore[no-untyped-def]
-    """Return span, link, axis and box of all nodes and the number of buckets, with `order` put in order."""
+def _divide_nodes(points, order):  # type: ignore[no-untyped-def]
+    """Return span, link, axis and box of all nodes and the number of buckets; `order` is sorted by node."""
     n, dim = points.shape
     keys = np.empty(n)
     room = 4 * (n // BUCKET) + 3
@@ -130,10 +130,10 @@ def _divide(points, order):  # type: ignore[no-untyped-def]
     nodes, buckets, a = 1, 0, 0
     while a < nodes:
         if nodes + 2 > room:
-            span, link, box = _roomier(span, room), _roomier(link, room), _roomier(box, room)
+            span, link, box = _enlarge(span, room), _enlarge(link, room), _enlarge(box, room)
             room *= 2
         begin, end = span[a]
-        widest, width = _bound(points, order, begin, end, box[a])
+        widest, width = _compute_bounds(points, order, begin, end, box[a])
         if width == 0.0:
             link[a, 0] = SAME
             order[begin:end].sort()
@@ -143,7 +143,7 @@ def _divide(points, order):  # type: ignore[no-untyped-def]
         else:
             for p in range(begin, end):
                 keys[p] = points[order[p], widest]
-            middle = _cut(keys, order, begin, end)
+            middle = _choose_cut(keys, order, begin, end)
             link[a, 0], link[a, 1] = nodes, widest
             span[nodes, 0], span[nodes, 1] = begin, middle
             span[nodes + 1, 0], span[nodes + 1, 1] = middle, end
@@ -153,7 +153,7 @@ def _divide(points, order):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(cache=True, nogil=True)
-def _settle(points, order, span, link, ages, buckets):  # type: ignore[no-untyped-def]
+def _fill_leaves(points, order, span, link, ages, buckets):  # type: ignore[no-untyped-def]
     """Fill `ages` from the leaves up, and `buckets` (buckets, dim, BUCKET), padded with infinity."""
     for a in range(len(span) - 1, -1, -1):
         begin, end = span[a]
@@ -170,12 +170,12 @@ def _settle(points, order, span, link, ages, buckets):  # type: ignore[no-untype
 
 
 @numba.njit(cache=True, nogil=True)
-def plant(points):  # type: ignore[no-untyped-def]
+def build_tree(points):  # type: ignore[no-untyped-def]
     """Return the arrays of the tree of `points` (n, dim), n >= 1: order, span, link, axis, ages, box, buckets."""
     n, dim = points.shape
     order = np.arange(n)
-    span, link, axis, box, full = _divide(points, order)
+    span, link, axis, box, full = _divide_nodes(points, order)
     ages = np.empty((len(span), 2), np.int64)
     buckets = np.full((full, dim, BUCKET), np.inf)
-    _settle(points, order, span, link, ages, buckets)
+    _fill_leaves(points, order, span, link, ages, buckets)
     return order, span, link, axis, ages, box, buckets

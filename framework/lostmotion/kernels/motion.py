@@ -1,7 +1,7 @@
-"""Free motion of a model from many starts at once, and its derivatives at many points: no filter, no recording.
+"""Free simulation of a model from many starts at once, and its derivatives at many points, without a filter.
 
-Written with the numbers in lanes of `vector.py`; `lostmotion.likelihood.kernels` compiles it once. `space` is the block
-of a model, of which `wires` begins with the rows of time, states, derivatives, inputs and channels.
+Written with the vector lanes of `vector.py`; `lostmotion.likelihood.kernels` compiles it once. `space` is the block of
+a model; `wires` begins with its rows of time, states, derivatives, inputs and channels.
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 
 from lostmotion.kernels.inputs import (
-    driven,
+    set_inputs,
 )  # fmt: skip
 from lostmotion.kernels.vector import (
     WIDTH,
@@ -25,7 +25,7 @@ from lostmotion.kernels.vector import (
 
 
 @jit
-def slope(derive, space, wires, work, n, share, base, weight, lanes):  # type: ignore[no-untyped-def]
+def add_slope(derive, space, wires, work, n, share, base, weight, lanes):  # type: ignore[no-untyped-def]
     """Call the model, add `weight` times the slopes to the sum, and go a step `share` along them from `base`."""
     failed = call(derive, space, wires, lanes)
     for a in range(n):
@@ -37,14 +37,13 @@ def slope(derive, space, wires, work, n, share, base, weight, lanes):  # type: i
 
 
 @whole
-def run(functions, blocks, wiring, inputs, drives, dt, nsub, states, kicks, reached, lanes):  # type: ignore[no-untyped-def]
+def run_freely(functions, blocks, wiring, inputs, drives, dt, nsub, states, kicks, reached, lanes):  # type: ignore[no-untyped-def]
     """Write the states (lanes, steps, n) of free runs by RK4, `nsub` steps to a sample; return 0 unless a law raised.
 
-    They begin at what stands in `states` at the first sample; `kicks`, as large or with no steps at all, are added at
-    the others. `blocks` are those of the model, of work (2 n rows),
-    and of the time of each lane at its first sample (1 row); `inputs` (rows, 4, inputs) holds a cubic for each
-    sample, `drives` (lanes,) the row at which each lane begins. `reached` (lanes,) counts the samples with finite
-    states.
+    They begin at the first row of `states`; `kicks`, of the same shape or with no steps at all, are added at the other
+    samples. `blocks` are those of the model, of work (2 n rows), and of the time of each lane at its first sample (1
+    row); `inputs` (rows, 4, inputs) holds a cubic for each sample, `drives` (lanes,) the row at which each lane begins.
+    `reached` (lanes,) counts the samples with finite states.
     """
     derive = functions[0]
     space, work, begin = pointer(blocks[0]), pointer(blocks[1]), pointer(blocks[2])
@@ -74,13 +73,13 @@ def run(functions, blocks, wiring, inputs, drives, dt, nsub, states, kicks, reac
                 for o in range(0, lanes, WIDTH):
                     store(space, wires[1] + a, o, load(work, a, o))
                     store(work, n + a, o, 0.0)
-            driven(space, wires, u, which, begin, k, j / nsub, dt, lanes)
-            failed |= slope(derive, space, wires, work, n, 0.5 * h, 0, 1.0, lanes)
-            driven(space, wires, u, which, begin, k, (j + 0.5) / nsub, dt, lanes)
-            failed |= slope(derive, space, wires, work, n, 0.5 * h, 0, 2.0, lanes)
-            failed |= slope(derive, space, wires, work, n, h, 0, 2.0, lanes)
-            driven(space, wires, u, which, begin, k, (j + 1.0) / nsub, dt, lanes)
-            failed |= slope(derive, space, wires, work, n, 0.0, 0, 1.0, lanes)
+            set_inputs(space, wires, u, which, begin, k, j / nsub, dt, lanes)
+            failed |= add_slope(derive, space, wires, work, n, 0.5 * h, 0, 1.0, lanes)
+            set_inputs(space, wires, u, which, begin, k, (j + 0.5) / nsub, dt, lanes)
+            failed |= add_slope(derive, space, wires, work, n, 0.5 * h, 0, 2.0, lanes)
+            failed |= add_slope(derive, space, wires, work, n, h, 0, 2.0, lanes)
+            set_inputs(space, wires, u, which, begin, k, (j + 1.0) / nsub, dt, lanes)
+            failed |= add_slope(derive, space, wires, work, n, 0.0, 0, 1.0, lanes)
             for a in range(n):
                 for o in range(0, lanes, WIDTH):
                     store(work, a, o, load(work, a, o) + h / 6.0 * load(work, n + a, o))
@@ -91,8 +90,8 @@ def run(functions, blocks, wiring, inputs, drives, dt, nsub, states, kicks, reac
 def evaluate(functions, blocks, wiring, times, states, inputs, rates, seen):  # type: ignore[no-untyped-def]
     """Write derivatives (points, n) and channels (points, channels) at `times` (points,), `states`, `inputs`.
 
-    The parameters stand in the block of the model, the same for all points; `inputs` is (points, inputs). Returns 0
-    unless a law raised.
+    The parameters in the block of the model are the same for all points; `inputs` is (points, inputs). Return 0 unless
+    a law raised an error.
     """
     derive, observe = functions[0], functions[1]
     space, wires = pointer(blocks[0]), pointer(wiring)

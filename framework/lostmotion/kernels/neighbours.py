@@ -1,9 +1,9 @@
-"""Neighbours in delay space that are not neighbours in time.
+"""Nearest neighbours in delay space that are not neighbours in time.
 
-All functions take points (n, dim), leave out pairs closer in time than `theiler` samples (|i - j| <= theiler) and
-pairs no farther apart than `least` (exact repeats, which quantised recordings are full of), and say distances in the
-maximum norm or the Euclidean one. Of neighbours at the same distance the one recorded first comes first. `tree`, from
-`grow`, saves building it again for further searches among the same points.
+All functions take points (n, dim). They exclude pairs closer in time than `theiler` samples (|i - j| <= theiler) and
+pairs no farther apart than `least` (exact repeats, which are frequent in quantised recordings), and give distances in
+the maximum norm or the Euclidean norm. Neighbours at the same distance are ordered by their time. `tree`, from `grow`,
+avoids building the search tree again for further searches among the same points.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lostmotion.errors import DataError
-from lostmotion.kernels.kdtree import Tree, plant
+from lostmotion.kernels.kdtree import Tree, build_tree
 from lostmotion.kernels.seek import LEAN, apart, bench, collect, seek
 from lostmotion.kernels.threads import spread
 
@@ -33,11 +33,11 @@ def grow(points: Array) -> Tree:
         raise DataError(f"neighbours are sought among points (n, dim), found the shape {held.shape}: give one at least")
     if not np.isfinite(held).all():
         raise DataError("neighbours are sought among points of which some are NaN or infinite: cut these out first")
-    return Tree(held, *plant(held))
+    return Tree(held, *build_tree(held))
 
 
 def rules(theiler: int, least: float, norm: Norm) -> tuple[int, float, bool]:
-    """Return `rules` as `seek` and `collect` want them: with the Euclidean norm they work with squares."""
+    """Return `rules` in the form that `seek` and `collect` take; with the Euclidean norm distances are squared."""
     far = norm == "euclidean"
     return int(theiler), float(least * least if far and least > 0.0 else least), far
 
@@ -54,10 +54,10 @@ def nearest(
 ) -> tuple[Indices, Array]:
     """Return index (q,) and distance (q,) of each query's nearest neighbour; -1 and inf where there is none.
 
-    `guess` (q,) are points thought to be near, -1 for none: what is found is the same, sooner.
+    `guess` (q,) are points that may be near, -1 for none: they speed up the search and do not change its result.
     """
     tree = tree or grow(points)
-    wanted = _wanted(tree, queries)
+    wanted = _select_queries(tree, queries)
     hints = np.full(len(wanted), -1) if guess is None else np.asarray(guess, dtype=np.int64)
     index = np.full(len(wanted), -1)
     distance = np.full(len(wanted), np.inf)
@@ -65,7 +65,7 @@ def nearest(
 
     def work(begin: int, end: int) -> None:
         part = slice(begin, end)
-        _nearest(tree, wanted[part], hints[part], law, index[part], distance[part], bench())
+        _search_nearest(tree, wanted[part], hints[part], law, index[part], distance[part], bench())
 
     spread(work, len(wanted))
     return index, np.sqrt(distance) if law[2] else distance
@@ -83,13 +83,13 @@ def several(
 ) -> tuple[Indices, Array]:
     """Return indices (q, k) and distances (q, k) of the k nearest neighbours, the nearest first; -1 and inf pad."""
     tree = tree or grow(points)
-    wanted = _wanted(tree, queries)
+    wanted = _select_queries(tree, queries)
     index = np.full((len(wanted), k), -1)
     distance = np.full((len(wanted), k), np.inf)
     law = rules(theiler, least, norm)
 
     def work(begin: int, end: int) -> None:
-        _several(tree, wanted[begin:end], law, index[begin:end], distance[begin:end], bench())
+        _search_several(tree, wanted[begin:end], law, index[begin:end], distance[begin:end], bench())
 
     spread(work, len(wanted) if k > 0 else 0)
     return index, np.sqrt(distance) if law[2] else distance
@@ -107,14 +107,14 @@ def within(
 ) -> tuple[Indices, Indices]:
     """Return offsets (q + 1,) and indices (total,): those of query a are indices[offsets[a]:offsets[a + 1]], sorted."""
     tree = tree or grow(points)
-    wanted = _wanted(tree, queries)
+    wanted = _select_queries(tree, queries)
     counts = np.zeros(len(wanted), dtype=np.int64)
     law = rules(theiler, least, norm)
     ball = float(radius * radius if law[2] else radius)
     found: dict[int, Indices] = {}
 
     def work(begin: int, end: int) -> None:
-        found[begin] = _within(tree, wanted[begin:end], law, ball, counts[begin:end], bench())
+        found[begin] = _search_within(tree, wanted[begin:end], law, ball, counts[begin:end], bench())
 
     spread(work, len(wanted) if radius >= 0.0 else 0)
     offsets = np.concatenate([[0], np.cumsum(counts)]).astype(np.int64)
@@ -122,13 +122,13 @@ def within(
     return offsets, np.concatenate(parts) if parts else np.zeros(0, dtype=np.int64)
 
 
-def _wanted(tree: Tree, queries: Indices | None) -> Indices:
+def _select_queries(tree: Tree, queries: Indices | None) -> Indices:
     return np.arange(len(tree.points)) if queries is None else np.ascontiguousarray(queries, dtype=np.int64)
 
 
 @numba.njit(**LEAN)
-def _bound(points, i, j, law):  # type: ignore[no-untyped-def]
-    """Return the distance of j from i if j may be its neighbour, else infinity."""
+def _bound_distance(points, i, j, law):  # type: ignore[no-untyped-def]
+    """Return the distance of j from i if j is admissible as its neighbour, else infinity."""
     theiler, least, euclidean = law
     if j < 0 or j >= len(points) or abs(i - j) <= theiler:
         return np.inf
@@ -137,28 +137,28 @@ def _bound(points, i, j, law):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(**LEAN)
-def _nearest(tree, wanted, hints, law, index, distance, work):  # type: ignore[no-untyped-def]
-    """Fill index and distance (q,); where a flow goes on, so do neighbours: the last one's successor is a bound."""
+def _search_nearest(tree, wanted, hints, law, index, distance, work):  # type: ignore[no-untyped-def]
+    """Fill index and distance (q,); in a continuous flow the successor of the last neighbour gives a bound."""
     last, before = -1, -2
     for a in range(len(wanted)):
         i = wanted[a]
-        bound = _bound(tree.points, i, hints[a], law)
+        bound = _bound_distance(tree.points, i, hints[a], law)
         if i == before + 1 and last >= 0:
-            bound = min(bound, _bound(tree.points, i, last + 1, law))
+            bound = min(bound, _bound_distance(tree.points, i, last + 1, law))
         seek(tree, i, law, bound, index[a : a + 1], distance[a : a + 1], work)
         last, before = index[a], i
 
 
 @numba.njit(**LEAN)
-def _several(tree, wanted, law, index, distance, work):  # type: ignore[no-untyped-def]
+def _search_several(tree, wanted, law, index, distance, work):  # type: ignore[no-untyped-def]
     """Fill index and distance (q, k)."""
     for a in range(len(wanted)):
         seek(tree, wanted[a], law, np.inf, index[a], distance[a], work)
 
 
 @numba.njit(**LEAN)
-def _marked(room, many, marks):  # type: ignore[no-untyped-def]
-    """Sort the first `many` of `room`, all different, by marking and sweeping: cheaper where they are most points."""
+def _sort_by_marks(room, many, marks):  # type: ignore[no-untyped-def]
+    """Sort the first `many` of `room`, all different, by marking and sweeping: fast where they are most points."""
     for p in range(many):
         marks[room[p]] = True
     at = 0
@@ -170,7 +170,7 @@ def _marked(room, many, marks):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(cache=True, nogil=True)
-def _within(tree, wanted, law, radius, counts, work):  # type: ignore[no-untyped-def]
+def _search_within(tree, wanted, law, radius, counts, work):  # type: ignore[no-untyped-def]
     """Fill counts (q,) and return the neighbours of all queries, one after the other, sorted for each query."""
     room = np.empty(len(tree.points), np.int64)
     marks = np.zeros(len(tree.points), np.bool_)
@@ -183,7 +183,7 @@ def _within(tree, wanted, law, radius, counts, work):  # type: ignore[no-untyped
             grown[:total] = found[:total]
             found = grown
         if many > len(room) // 16:
-            _marked(room, many, marks)
+            _sort_by_marks(room, many, marks)
         found[total : total + many] = room[:many] if many > len(room) // 16 else np.sort(room[:many])
         counts[a] = many
         total += many

@@ -1,4 +1,4 @@
-"""The names of `vector.py` and `windows.py` for NumPy: with these the source of a kernel runs as its slow twin."""
+"""The names of `vector.py` and `windows.py` for NumPy: with these the source of a kernel runs as plain Python."""
 
 from __future__ import annotations
 
@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 from lostmotion.kernels.vector import STRIDE, WIDTH
 
 Array = NDArray[Any]
-root, size, larger, finite, select, some, top = np.sqrt, np.abs, np.fmax, np.isfinite, np.where, np.any, np.max
+square_root, absolute, larger, is_finite = np.sqrt, np.abs, np.fmax, np.isfinite
+select, any_lane, largest_lane = np.where, np.any, np.max
 
 
 def jit(function: Any) -> Any:
@@ -42,13 +43,13 @@ def column(block: Array, row: int, lane: int, count: int) -> Array:
     return block[row : row + count, lane]
 
 
-def shifted(block: Array, row: int) -> Array:
+def offset_rows(block: Array, row: int) -> Array:
     """Return the block from a row on."""
     return block[row:]
 
 
 def pointer(array: Array) -> Array:
-    """Return the memory of an array: the array itself where it is a block, else its values in a row."""
+    """Return the memory of an array: the array itself where it is a block, else its values in one dimension."""
     return array if array.ndim == 2 and array.shape[1] == STRIDE else array.reshape(-1)
 
 
@@ -68,5 +69,5 @@ def add(block: Array, row: int, lane: int, more: float) -> None:
 
 
 SPACE = {name: made for name, made in list(globals().items()) if not name.startswith("_")}
-"""What the source of a kernel finds under these names."""
+"""The names that the source of a kernel finds."""
 STRIDE = STRIDE

@@ -1,8 +1,8 @@
-"""Searches in a tree of `kdtree.py`: jitted building blocks, which allocate nothing and may be called from any kernel.
+"""Searches in a tree of `kdtree.py`: compiled functions that allocate nothing and may be called from any kernel.
 
-What they find does not depend on the way the search took: neighbours are ordered by distance, then by index.
-`rules` are (theiler, least, euclidean): pairs with |i - j| <= theiler or no farther apart than `least` are left out;
-if `euclidean`, all distances, `least` and bounds among them, are squares, else they are in the maximum norm.
+The result does not depend on the order of the search: neighbours are ordered by distance, then by index. `rules` are
+(theiler, least, euclidean): pairs with |i - j| <= theiler or no farther apart than `least` are excluded; if
+`euclidean`, all distances, including `least` and bounds, are squared, else they are in the maximum norm.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ import numpy as np
 from lostmotion.kernels.kdtree import BUCKET, SAME, Array, Indices
 
 DEPTH = 128
-"""Room on the stack of a search: twice the depth of any tree that fits in memory."""
+"""Size of the stack of a search: twice the depth of any tree that fits in memory."""
 LEAN: dict[str, Any] = {
     "cache": True,
     "nogil": True,
@@ -23,11 +23,11 @@ LEAN: dict[str, Any] = {
     "fastmath": {"nnan", "nsz"},
     "error_model": "numpy",
 }
-"""Without reference counts, which two threads would fight over. NaN must not come in."""
+"""Without reference counts, which threads would contend for. No input may be NaN."""
 
 
 def bench() -> tuple[Indices, Array, Array]:
-    """Return work arrays for one thread: a stack of nodes, of their gaps, and room for the distances of a bucket."""
+    """Return work arrays for one thread: a stack of nodes, of their gaps, and the distances of a bucket."""
     return np.empty(DEPTH, np.int64), np.empty(DEPTH), np.empty(BUCKET)
 
 
@@ -42,8 +42,8 @@ def apart(points, i, j, euclidean):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(**LEAN)
-def _gap(box, a, points, i, euclidean):  # type: ignore[no-untyped-def]
-    """Return how far point i is from the nearest place in box a, squared if `euclidean`."""
+def _compute_gap(box, a, points, i, euclidean):  # type: ignore[no-untyped-def]
+    """Return the distance of point i from the nearest point of box a, squared if `euclidean`."""
     far = 0.0
     for k in range(points.shape[1]):
         step = max(max(box[a, 0, k] - points[i, k], points[i, k] - box[a, 1, k]), 0.0)
@@ -52,16 +52,16 @@ def _gap(box, a, points, i, euclidean):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(**LEAN)
-def _true_gap(tree, a, i, euclidean, gap, bound):  # type: ignore[no-untyped-def]
-    """Return how far point i is from node a, at least `gap`; 0 is left as it is, unless it must be exact."""
+def _refine_gap(tree, a, i, euclidean, gap, bound):  # type: ignore[no-untyped-def]
+    """Return the distance of point i from node a, at least `gap`; 0 is returned unchanged, unless it must be exact."""
     if gap > bound or (gap == 0.0 and tree.link[a] != SAME):
         return gap
-    return _gap(tree.box, a, tree.points, i, euclidean)
+    return _compute_gap(tree.box, a, tree.points, i, euclidean)
 
 
 @numba.njit(**LEAN)
-def _reach(box, a, points, i, euclidean):  # type: ignore[no-untyped-def]
-    """Return how far point i is from the farthest place in box a, squared if `euclidean`."""
+def _compute_reach(box, a, points, i, euclidean):  # type: ignore[no-untyped-def]
+    """Return the distance of point i from the farthest point of box a, squared if `euclidean`."""
     far = 0.0
     for k in range(points.shape[1]):
         step = max(box[a, 1, k] - points[i, k], points[i, k] - box[a, 0, k])
@@ -70,8 +70,8 @@ def _reach(box, a, points, i, euclidean):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(**LEAN)
-def _scan(buckets, b, points, i, euclidean, far):  # type: ignore[no-untyped-def]
-    """Write the distances of bucket b from point i into `far` (BUCKET,), and return the least."""
+def _scan_bucket(buckets, b, points, i, euclidean, far):  # type: ignore[no-untyped-def]
+    """Write the distances of bucket b from point i into `far` (BUCKET,), and return the smallest."""
     for p in range(BUCKET):
         far[p] = 0.0
     for k in range(points.shape[1]):
@@ -90,16 +90,16 @@ def _scan(buckets, b, points, i, euclidean, far):  # type: ignore[no-untyped-def
 
 
 @numba.njit(**LEAN)
-def _beaten(d, j, index, distance, found):  # type: ignore[no-untyped-def]
-    """Return whether a candidate at distance d, with index j or more, comes too late."""
+def _is_beaten(d, j, index, distance, found):  # type: ignore[no-untyped-def]
+    """Return whether a candidate at distance d, with index j or more, is not among the best."""
     k = len(index)
     return found == k and (d > distance[k - 1] or (d == distance[k - 1] and j > index[k - 1]))
 
 
 @numba.njit(**LEAN)
 def _insert(d, j, index, distance, found):  # type: ignore[no-untyped-def]
-    """Put a candidate in its place among the `found` best so far, and return how many there are now."""
-    if _beaten(d, j, index, distance, found):
+    """Insert a candidate among the `found` best so far, and return how many there are now."""
+    if _is_beaten(d, j, index, distance, found):
         return found
     at = min(found, len(index) - 1)
     while at > 0 and (distance[at - 1] > d or (distance[at - 1] == d and index[at - 1] > j)):
@@ -112,12 +112,12 @@ def _insert(d, j, index, distance, found):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(**LEAN)
-def _repeats(tree, a, i, rules, d, best):  # type: ignore[no-untyped-def]
-    """Insert the equal points of node a, which lie at distance d, as far as they are wanted."""
+def _insert_repeats(tree, a, i, rules, d, best):  # type: ignore[no-untyped-def]
+    """Insert the equal points of node a, which lie at distance d, as far as they are admissible."""
     index, distance, found = best
     theiler, least, _ = rules
     p, end = tree.span[a]
-    while d > least and p < end and not _beaten(d, tree.order[p], index, distance, found):
+    while d > least and p < end and not _is_beaten(d, tree.order[p], index, distance, found):
         j = tree.order[p]
         if i - theiler <= j <= i + theiler:
             p += np.searchsorted(tree.order[p:end], i + theiler, side="right")
@@ -128,11 +128,11 @@ def _repeats(tree, a, i, rules, d, best):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(**LEAN)
-def _bucket(tree, a, i, rules, bound, best, far):  # type: ignore[no-untyped-def]
-    """Insert the points of leaf a that are wanted, and return how many have been found."""
+def _insert_bucket(tree, a, i, rules, bound, best, far):  # type: ignore[no-untyped-def]
+    """Insert the admissible points of leaf a, and return how many have been found."""
     index, distance, found = best
     theiler, least, euclidean = rules
-    if _scan(tree.buckets, -1 - tree.link[a], tree.points, i, euclidean, far) > bound:
+    if _scan_bucket(tree.buckets, -1 - tree.link[a], tree.points, i, euclidean, far) > bound:
         return found
     begin, end = tree.span[a]
     for p in range(end - begin):
@@ -144,10 +144,10 @@ def _bucket(tree, a, i, rules, bound, best, far):  # type: ignore[no-untyped-def
 
 
 @numba.njit(**LEAN)
-def _fork(tree, a, i, euclidean, bound, stack):  # type: ignore[no-untyped-def]
-    """Put the children of node a that are within the bound on the stack, the nearer on top; return its height.
+def _push_children(tree, a, i, euclidean, bound, stack):  # type: ignore[no-untyped-def]
+    """Push the children of node a that are within the bound on the stack, the nearer on top; return its height.
 
-    Their gaps are taken along the axis of the cut only: less than the true ones, but one subtraction each.
+    Their gaps are computed along the axis of the cut only: a lower bound that costs one subtraction each.
     """
     nodes, gaps, top = stack
     near, wide, axis, gap = tree.link[a], tree.link[a] + 1, tree.axis[a], gaps[top]
@@ -169,19 +169,19 @@ def _fork(tree, a, i, euclidean, bound, stack):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(**LEAN)
-def _useless(tree, a, i, rules, gap):  # type: ignore[no-untyped-def]
-    """Return whether node a, `gap` away, holds only what the rules leave out."""
+def _is_excluded(tree, a, i, rules, gap):  # type: ignore[no-untyped-def]
+    """Return whether the rules exclude all points of node a, which is `gap` away."""
     theiler, least, euclidean = rules
     if tree.ages[a, 0] >= i - theiler and tree.ages[a, 1] <= i + theiler:
         return True
-    return least > 0.0 and gap <= least and _reach(tree.box, a, tree.points, i, euclidean) <= least
+    return least > 0.0 and gap <= least and _compute_reach(tree.box, a, tree.points, i, euclidean) <= least
 
 
 @numba.njit(**LEAN)
 def seek(tree, i, rules, bound, index, distance, work):  # type: ignore[no-untyped-def]
-    """Write the k nearest of point i into `index` and `distance` (k,), and return how many were found.
+    """Write the k nearest neighbours of point i into `index` and `distance` (k,), and return how many were found.
 
-    None farther than `bound` is looked at (one at that distance is). `work` comes from `bench`.
+    Points farther than `bound` are excluded (one at that distance is not). `work` comes from `bench`.
     """
     nodes, gaps, far = work
     k = len(index)
@@ -190,33 +190,37 @@ def seek(tree, i, rules, bound, index, distance, work):  # type: ignore[no-untyp
     while top > 0:
         top -= 1
         a = nodes[top]
-        gap = _true_gap(tree, a, i, rules[2], gaps[top], bound)
-        if gap > bound or _useless(tree, a, i, rules, gap) or _beaten(gap, tree.ages[a, 0], index, distance, found):
+        gap = _refine_gap(tree, a, i, rules[2], gaps[top], bound)
+        if (
+            gap > bound
+            or _is_excluded(tree, a, i, rules, gap)
+            or _is_beaten(gap, tree.ages[a, 0], index, distance, found)
+        ):
             continue
         if tree.link[a] >= 0:
             gaps[top] = gap
-            top = _fork(tree, a, i, rules[2], bound, (nodes, gaps, top))
+            top = _push_children(tree, a, i, rules[2], bound, (nodes, gaps, top))
             continue
         if tree.link[a] == SAME:
-            found = _repeats(tree, a, i, rules, gap, (index, distance, found))
+            found = _insert_repeats(tree, a, i, rules, gap, (index, distance, found))
         else:
-            found = _bucket(tree, a, i, rules, bound, (index, distance, found), far)
+            found = _insert_bucket(tree, a, i, rules, bound, (index, distance, found), far)
         if found == k:
             bound = min(bound, distance[k - 1])
     return found
 
 
 @numba.njit(**LEAN)
-def _all_wanted(tree, a, i, rules, radius, gap):  # type: ignore[no-untyped-def]
-    """Return whether every point of node a is within the radius and none is left out by the rules."""
+def _is_all_wanted(tree, a, i, rules, radius, gap):  # type: ignore[no-untyped-def]
+    """Return whether every point of node a is within the radius and the rules exclude none."""
     theiler, least, euclidean = rules
     apart_in_time = tree.ages[a, 0] > i + theiler or tree.ages[a, 1] < i - theiler
-    return apart_in_time and gap > least and _reach(tree.box, a, tree.points, i, euclidean) <= radius
+    return apart_in_time and gap > least and _compute_reach(tree.box, a, tree.points, i, euclidean) <= radius
 
 
 @numba.njit(**LEAN)
-def _pick(tree, a, i, rules, radius, found, many):  # type: ignore[no-untyped-def]
-    """Append the wanted points of leaf a to `found`, and return how many there are now."""
+def _pick_points(tree, a, i, rules, radius, found, many):  # type: ignore[no-untyped-def]
+    """Append the admissible points of leaf a to `found`, and return how many there are now."""
     theiler, least, euclidean = rules
     for p in range(tree.span[a, 0], tree.span[a, 1]):
         j = tree.order[p]
@@ -235,16 +239,16 @@ def collect(tree, i, rules, radius, found, work):  # type: ignore[no-untyped-def
     while top > 0:
         top -= 1
         a = nodes[top]
-        gap = _true_gap(tree, a, i, rules[2], gaps[top], radius)
-        if gap > radius or _useless(tree, a, i, rules, gap):
+        gap = _refine_gap(tree, a, i, rules[2], gaps[top], radius)
+        if gap > radius or _is_excluded(tree, a, i, rules, gap):
             continue
-        if _all_wanted(tree, a, i, rules, radius, gap):
+        if _is_all_wanted(tree, a, i, rules, radius, gap):
             for p in range(tree.span[a, 0], tree.span[a, 1]):
                 found[many] = tree.order[p]
                 many += 1
         elif tree.link[a] >= 0:
             gaps[top] = gap
-            top = _fork(tree, a, i, rules[2], radius, (nodes, gaps, top))
+            top = _push_children(tree, a, i, rules[2], radius, (nodes, gaps, top))
         else:
-            many = _pick(tree, a, i, rules, radius, found, many)
+            many = _pick_points(tree, a, i, rules, radius, found, many)
     return many

@@ -1,4 +1,4 @@
-"""The backward pass over a filtered recording."""
+"""The backward pass of the smoother over a filtered recording."""
 
 from __future__ import annotations
 
@@ -14,17 +14,17 @@ Array = NDArray[np.float64]
 def smooth(seen_states: Array, seen_cov: Array, ahead_states: Array, ahead_cov: Array, steps: Array) -> Any:
     """Return smoothed states (samples, n) and covariances (samples, n, n); Rauch, Tung, Striebel (1965).
 
-    The gains are solved for all samples at once by LAPACK; to compile a call of it would take longer.
+    LAPACK solves the gains of all samples at once; compiling a call of it would take longer.
     """
     states, cov, n = seen_states.copy(), seen_cov.copy(), seen_states.shape[1]
     gains = np.linalg.solve(ahead_cov[1:] + 1e-300 * np.eye(n), steps[:-1] @ seen_cov[:-1])
-    _swept(states, cov, ahead_states, ahead_cov, gains, np.zeros((n, n)))
+    _sweep_back(states, cov, ahead_states, ahead_cov, gains, np.zeros((n, n)))
     return states, cov
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
-def _swept(states, cov, ahead_states, ahead_cov, gains, work):  # type: ignore[no-untyped-def]
-    """Correct what is known after each sample by all later ones; `gains` (samples - 1, n, n) are transposed."""
+def _sweep_back(states, cov, ahead_states, ahead_cov, gains, work):  # type: ignore[no-untyped-def]
+    """Correct the filtered states by all later samples; `gains` (samples - 1, n, n) are transposed."""
     samples, n = states.shape
     for k in range(samples - 2, -1, -1):
         for a in range(n):

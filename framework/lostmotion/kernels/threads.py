@@ -1,4 +1,4 @@
-"""Work spread over the cores: kernels that let go of the interpreter run in threads, each on a slice of the work."""
+"""Work divided over the cores: kernels that release the interpreter lock run in threads, each on a slice."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ Out = TypeVar("Out")
 
 
 def cores() -> int:
-    """Return how many cores this process may use."""
+    """Return the number of cores that this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def each(work: Callable[[In], Out], items: Sequence[In], jobs: int) -> list[Out]:
-    """Return what `work` makes of each item, in order, computed in up to `jobs` threads.
+    """Return the results of `work` for each item, in order, computed in up to `jobs` threads.
 
-    Worth it where the work spends its time in kernels that let go of the interpreter.
+    It is useful where the work spends its time in kernels that release the interpreter lock.
     """
     if jobs < 2 or len(items) < 2:
         return [work(item) for item in items]
@@ -29,9 +29,9 @@ def each(work: Callable[[In], Out], items: Sequence[In], jobs: int) -> list[Out]
 
 
 def spread(work: Callable[[int, int], None], n: int, *, jobs: int = 0, slices: int = 0) -> None:
-    """Call `work(begin, end)` for slices of 0..n in threads; `work` must write to places of its own only.
+    """Call `work(begin, end)` for slices of 0..n in threads; `work` must write to its own slice only.
 
-    What comes out does not depend on the number of threads as long as each item is computed by itself.
+    The result does not depend on the number of threads if each item is computed independently.
     """
     many = jobs or cores()
     pieces = min(n, slices or 4 * many)

@@ -1,9 +1,9 @@
-"""Numbers in lanes: one value for each of `WIDTH` parameter points, in one vector register where the machine has one.
+"""Vector lanes: one value for each of `WIDTH` parameter points, in one vector register where the processor has one.
 
-A kernel that is written with these computes `WIDTH` points in lock-step with the same instructions, so that what
-comes out for one point depends neither on its neighbours nor on its place among them. A block of memory is an array
-(rows, `STRIDE`) of doubles: each row holds one quantity of up to `STRIDE` points. `plain.py` has the same names for
-NumPy: run with those, the same source is the slow twin.
+A kernel that is written with these computes `WIDTH` points in lock-step with the same instructions, so the result of
+one point depends neither on the other points nor on its position among them. A block of memory is an array (rows,
+`STRIDE`) of doubles: each row holds one quantity of up to `STRIDE` points. `plain.py` has the same names for NumPy:
+with those, the same source runs as plain Python.
 """
 
 from __future__ import annotations
@@ -24,14 +24,15 @@ WIDTH = 8
 STRIDE = 32
 """Points in one row of a block: the most that a kernel computes at once."""
 BARE: dict[str, Any] = {"error_model": "numpy", "nogil": True, "_nrt": False}
-"""Without numba's run time nothing can be allocated in a kernel, and no references are counted: eight times faster."""
+"""Compiled without numba's run time: a kernel cannot allocate and counts no references, which makes it eight times
+faster."""
 INNER: dict[str, Any] = {**BARE, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
-"""A function that only compiled code calls needs no way in from outside."""
+"""A function that only compiled code calls needs no wrapper for calls from Python."""
 
 jit = numba.njit(**INNER)
-"""A function of a kernel that is compiled into those that call it."""
+"""Compiles a function of a kernel that other compiled functions call."""
 whole = numba.njit(**BARE, cache=True)
-"""A kernel that Python calls; it is kept on disk."""
+"""Compiles a kernel that Python calls; it is cached on disk."""
 
 
 class LanesType(types.Type):
@@ -54,15 +55,17 @@ _BITS = ir.VectorType(ir.IntType(1), WIDTH)
 _INDEX = ir.IntType(32)
 
 
-def _registered(kind: type[Any], content: ir.Type) -> None:
+def _register_type(kind: type[Any], content: ir.Type) -> None:
+    """Register a numba type whose values are held in registers."""
+
     def begin(self: Any, manager: Any, kind: Any) -> None:
         models.PrimitiveModel.__init__(self, manager, kind, content)
 
     register_model(kind)(type(f"{kind.__name__}Model", (models.PrimitiveModel,), {"__init__": begin}))
 
 
-_registered(LanesType, _DOUBLES)
-_registered(MaskType, _BITS)
+_register_type(LanesType, _DOUBLES)
+_register_type(MaskType, _BITS)
 
 
 def _splat(builder: Any, value: Any) -> Any:
@@ -81,15 +84,15 @@ def _lanes(builder: Any, kind: Any, value: Any) -> Any:
     return _splat(builder, value)
 
 
-def _native(builder: Any, name: str, *values: Any) -> Any:
-    """Return what an intrinsic of LLVM makes of vectors."""
+def _call_llvm(builder: Any, name: str, *values: Any) -> Any:
+    """Return the result of an LLVM intrinsic on vectors."""
     label = f"llvm.{name}.v{WIDTH}f64"
     kind = ir.FunctionType(_DOUBLES, [_DOUBLES] * len(values))
     return builder.call(cgutils.get_or_insert_function(builder.module, kind, label), values)
 
 
-def _function(make: Callable[..., Any], result: Any, count: int) -> Any:
-    """Return an intrinsic of one or two numbers in lanes; a plain number stands for the same one in every lane."""
+def _make_function(make: Callable[..., Any], result: Any, count: int) -> Any:
+    """Return an intrinsic of one or two vectors; a plain number stands for the same number in every lane."""
 
     def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
         return make(builder, *(_lanes(builder, k, v) for k, v in zip(signature.args, args, strict=True)))
@@ -109,8 +112,8 @@ def _function(make: Callable[..., Any], result: Any, count: int) -> Any:
     return binary
 
 
-def _operator(symbol: Any, kind: Any, make: Callable[..., Any], result: Any) -> None:
-    """Let an operator of Python work on numbers in lanes, or on masks."""
+def _define_operator(symbol: Any, kind: Any, make: Callable[..., Any], result: Any) -> None:
+    """Define an operator of Python for vectors or masks."""
     plain = (types.Float, types.Integer)
 
     class Between(AbstractTemplate):
@@ -134,20 +137,20 @@ for _symbol, _name in (
     (operator.mul, "fmul"),
     (operator.truediv, "fdiv"),
 ):
-    _operator(_symbol, LanesType, lambda b, x, y, name=_name: getattr(b, name)(x, y), LANES)
+    _define_operator(_symbol, LanesType, lambda b, x, y, name=_name: getattr(b, name)(x, y), LANES)
 for _symbol, _name in ((operator.le, "<="), (operator.lt, "<"), (operator.gt, ">"), (operator.eq, "==")):
-    _operator(_symbol, LanesType, lambda b, x, y, name=_name: b.fcmp_ordered(name, x, y), MASK)
+    _define_operator(_symbol, LanesType, lambda b, x, y, name=_name: b.fcmp_ordered(name, x, y), MASK)
 for _symbol, _name in ((operator.and_, "and_"), (operator.or_, "or_")):
-    _operator(_symbol, MaskType, lambda b, x, y, name=_name: getattr(b, name)(x, y), MASK)
+    _define_operator(_symbol, MaskType, lambda b, x, y, name=_name: getattr(b, name)(x, y), MASK)
 
-root = _function(lambda b, x: _native(b, "sqrt", x), LANES, 1)
+square_root = _make_function(lambda b, x: _call_llvm(b, "sqrt", x), LANES, 1)
 """The square root of each lane."""
-size = _function(lambda b, x: _native(b, "fabs", x), LANES, 1)
+absolute = _make_function(lambda b, x: _call_llvm(b, "fabs", x), LANES, 1)
 """The absolute value of each lane."""
-larger = _function(lambda b, x, y: b.select(b.fcmp_ordered(">", x, y), x, y), LANES, 2)
+larger = _make_function(lambda b, x, y: b.select(b.fcmp_ordered(">", x, y), x, y), LANES, 2)
 """The larger of two numbers in each lane; the second where one is not a number."""
-finite = _function(
-    lambda b, x: b.fcmp_ordered("<", _native(b, "fabs", x), _splat(b, ir.Constant(ir.DoubleType(), float("inf")))),
+is_finite = _make_function(
+    lambda b, x: b.fcmp_ordered("<", _call_llvm(b, "fabs", x), _splat(b, ir.Constant(ir.DoubleType(), float("inf")))),
     MASK,
     1,
 )
@@ -166,7 +169,7 @@ def select(typingctx: Any, mask: Any, yes: Any, no: Any) -> Any:
 
 
 @intrinsic
-def some(typingctx: Any, mask: Any) -> Any:
+def any_lane(typingctx: Any, mask: Any) -> Any:
     """Return whether the mask is set in any lane."""
 
     def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
@@ -177,7 +180,7 @@ def some(typingctx: Any, mask: Any) -> Any:
 
 
 @intrinsic
-def top(typingctx: Any, value: Any) -> Any:
+def largest_lane(typingctx: Any, value: Any) -> Any:
     """Return the largest of the numbers in all lanes."""
 
     def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
@@ -190,7 +193,7 @@ def top(typingctx: Any, value: Any) -> Any:
 
 @intrinsic
 def pointer(typingctx: Any, array: Any) -> Any:
-    """Return the memory of a contiguous array: a pointer is handed on in one register, an array in seven."""
+    """Return the memory of a contiguous array: a pointer needs one register, an array seven."""
 
     def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
         return context.make_array(signature.args[0])(context, builder, args[0]).data
@@ -198,7 +201,7 @@ def pointer(typingctx: Any, array: Any) -> Any:
     return types.CPointer(array.dtype)(array), codegen
 
 
-def address(builder: Any, args: Any, item: Any) -> Any:
+def find_address(builder: Any, args: Any, item: Any) -> Any:
     """Return the address of lane `args[2]` of row `args[1]` of the block at `args[0]`."""
     place = builder.add(builder.mul(args[1], ir.Constant(args[1].type, STRIDE)), args[2])
     return builder.bitcast(builder.gep(args[0], [place], inbounds=True), item.as_pointer())
@@ -209,7 +212,7 @@ def load(typingctx: Any, block: Any, row: Any, first: Any) -> Any:
     """Return the lanes from `first` on of a row of a block."""
 
     def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        return builder.load(address(builder, args, _DOUBLES), align=8)
+        return builder.load(find_address(builder, args, _DOUBLES), align=8)
 
     return LANES(block, types.intp, types.intp), codegen
 
@@ -220,7 +223,7 @@ def store(typingctx: Any, block: Any, row: Any, first: Any, value: Any) -> Any:
 
     def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
         lanes = _lanes(builder, signature.args[3], args[3])
-        builder.store(lanes, address(builder, args, _DOUBLES), align=8)
+        builder.store(lanes, find_address(builder, args, _DOUBLES), align=8)
         return context.get_dummy_value()
 
     return types.void(block, types.intp, types.intp, value), codegen
@@ -231,7 +234,7 @@ def value(typingctx: Any, block: Any, row: Any, lane: Any) -> Any:
     """Return the number in one lane of a row."""
 
     def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        return builder.load(address(builder, args, ir.DoubleType()))
+        return builder.load(find_address(builder, args, ir.DoubleType()))
 
     return types.float64(block, types.intp, types.intp), codegen
 
@@ -241,14 +244,14 @@ def assign(typingctx: Any, block: Any, row: Any, lane: Any, number: Any) -> Any:
     """Write the number in one lane of a row."""
 
     def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        builder.store(args[3], address(builder, args, ir.DoubleType()))
+        builder.store(args[3], find_address(builder, args, ir.DoubleType()))
         return context.get_dummy_value()
 
     return types.void(block, types.intp, types.intp, types.float64), codegen
 
 
-def called(builder: Any, place: Any, *args: Any) -> Any:
-    """Return the status of a compiled function at an address, which returns nothing: 0, or another where it raised."""
+def call_address(builder: Any, place: Any, *args: Any) -> Any:
+    """Return the status of a compiled function without result at an address: 0, or nonzero where it raised an error."""
     byte = ir.IntType(8).as_pointer()
     kind = ir.FunctionType(ir.IntType(32), [byte.as_pointer(), byte.as_pointer(), *(arg.type for arg in args)])
     spare = [cgutils.alloca_once(builder, byte) for _ in range(2)]
@@ -257,9 +260,9 @@ def called(builder: Any, place: Any, *args: Any) -> Any:
 
 @intrinsic
 def call(typingctx: Any, address: Any, block: Any, wires: Any, lanes: Any) -> Any:
-    """Call a compiled function of a model at `address` on a block; return 0, or another number where it raised."""
+    """Call a compiled function of a model at `address` on a block; return 0, or nonzero where it raised an error."""
 
     def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        return called(builder, *args)
+        return call_address(builder, *args)
 
     return types.int32(types.intp, block, wires, types.intp), codegen

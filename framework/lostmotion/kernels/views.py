@@ -1,4 +1,4 @@
-"""A slice that costs nothing: a window on an array without a reference count of its own."""
+"""An array view without a reference count."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 
 @intrinsic
 def view(typingctx: Any, array: Any, start: Any, size: Any) -> Any:
-    """Return `array[start:start + size]` of a contiguous vector; the vector must outlive it.
+    """Return `array[start:start + size]` of a contiguous vector; the vector must outlive the view.
 
-    An ordinary slice counts references with atomic operations, which costs more than a force law.
+    An ordinary slice counts references with atomic operations, which cost more than a force law.
     """
     signature = array(array, types.intp, types.intp)
 
@@ -42,5 +42,5 @@ def _packed(builder: Any, value: Any) -> Any:
 
 
 def slow_view(array: NDArray[np.float64], start: int, size: int) -> NDArray[np.float64]:
-    """Return the same window in plain Python."""
+    """Return the same view in plain Python."""
     return array[start : start + size]

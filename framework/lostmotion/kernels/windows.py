@@ -1,6 +1,6 @@
-"""What a law of a model or a term sees of a block of numbers in lanes: the values of one point, as plain arrays.
+"""Views for the laws of models and terms on a block of vector lanes: the values of one point, as plain arrays.
 
-The blocks of `vector.py` hold a row for each quantity and a lane for each point; a window is a column of one.
+The blocks of `vector.py` have a row for each quantity and a lane for each point; a view is one column of a block.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from numba import types
 from numba.core import cgutils
 from numba.extending import intrinsic
 
-from lostmotion.kernels.vector import STRIDE, address, called
+from lostmotion.kernels.vector import STRIDE, call_address, find_address
 
 BLOCK, NUMBERS = types.CPointer(types.float64), types.CPointer(types.int64)
 _WINDOW = types.Array(types.float64, 1, "A")
@@ -26,7 +26,7 @@ def column(typingctx: Any, block: Any, row: Any, lane: Any, count: Any) -> Any:
         made = context.make_array(_WINDOW)(context, builder)
         context.populate_array(
             made,
-            data=address(builder, args, ir.DoubleType()),
+            data=find_address(builder, args, ir.DoubleType()),
             shape=cgutils.pack_array(builder, [args[3]]),
             strides=cgutils.pack_array(builder, [context.get_constant(types.intp, 8 * STRIDE)]),
             itemsize=context.get_constant(types.intp, 8),
@@ -42,7 +42,7 @@ def add(typingctx: Any, block: Any, row: Any, lane: Any, more: Any) -> Any:
     """Add a number to that in one lane of a row."""
 
     def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        place = address(builder, args[:3], ir.DoubleType())
+        place = find_address(builder, args[:3], ir.DoubleType())
         builder.store(builder.fadd(builder.load(place), args[3]), place)
         return context.get_dummy_value()
 
@@ -50,21 +50,21 @@ def add(typingctx: Any, block: Any, row: Any, lane: Any, more: Any) -> Any:
 
 
 @intrinsic
-def shifted(typingctx: Any, block: Any, row: Any) -> Any:
+def offset_rows(typingctx: Any, block: Any, row: Any) -> Any:
     """Return the block from a row on."""
 
     def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        return address(builder, [*args, ir.Constant(args[1].type, 0)], ir.DoubleType())
+        return find_address(builder, [*args, ir.Constant(args[1].type, 0)], ir.DoubleType())
 
     return block(block, types.intp), codegen
 
 
 @intrinsic
-def invoked(typingctx: Any, wires: Any, at: Any, own: Any, desk: Any, lanes: Any) -> Any:
-    """Call the compiled law whose address stands in a wire; return 0, or another number where it raised."""
+def invoke_law(typingctx: Any, wires: Any, at: Any, own: Any, desk: Any, lanes: Any) -> Any:
+    """Call the compiled law whose address is in a wire; return 0, or nonzero where it raised an error."""
 
     def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
         place = builder.load(builder.gep(args[0], [args[1]]))
-        return called(builder, place, args[2], args[3], args[4])
+        return call_address(builder, place, args[2], args[3], args[4])
 
     return types.int32(wires, types.intp, own, desk, types.intp), codegen

@@ -122,19 +122,20 @@ def model_text(plan: Blueprint) -> str:
         '"""Written by lostmotion.likelihood.compose: a model that calls its laws, at many points at once."""',
         "",
         "@part",
-        "def copied(block, wires, first, count, lanes):",
+        "def copy_rows(block, wires, first, count, lanes):",
         "    for c in range(count):",
         "        for o in range(0, lanes, WIDTH):",
         "            store(block, wires[first + 2 * c + 1], o, load(block, wires[first + 2 * c], o))",
         "",
         "@part",
-        "def act(block, wires, at, lanes):",
+        "def apply_law(block, wires, at, lanes):",
         "    place = wires[at + 2]",
         *(line for before, _ in both for line in before),
-        f"    copied(block, wires, at + {HEAD}, wires[at + 5], lanes)",
-        f"    failed = invoked(wires, at, shifted(block, wires[at + 3]), shifted(block, {rows.desk}), lanes)",
+        f"    copy_rows(block, wires, at + {HEAD}, wires[at + 5], lanes)",
+        f"    own, desk = offset_rows(block, wires[at + 3]), offset_rows(block, {rows.desk})",
+        "    failed = invoke_law(wires, at, own, desk, lanes)",
         *(line for _, after in both for line in after),
-        f"    copied(block, wires, at + {HEAD} + 2 * wires[at + 5], wires[at + 6], lanes)",
+        f"    copy_rows(block, wires, at + {HEAD} + 2 * wires[at + 5], wires[at + 6], lanes)",
         "    return failed",
         "",
         "@kernel",
@@ -145,12 +146,12 @@ def model_text(plan: Blueprint) -> str:
         "    for o in range(0, lanes, WIDTH):",
         f"        store(block, {rows.desk}, o, load(block, 0, o))",
         f"    for i in range(wires[{FIRST}]):",
-        f"        failed |= act(block, wires, wires[{tables} + i], lanes)",
+        f"        failed |= apply_law(block, wires, wires[{tables} + i], lanes)",
         *(line for i in range(len(plan.bodies)) for line in _latent_lines(i, plan)),
         f"    if wires[{FIRST + 1}] > 0:",
         *(f"    {line}" for line in _observe_lines(plan)),
         f"    for i in range(wires[{FIRST}], wires[{FIRST}] + wires[{FIRST + 1}]):",
-        f"        failed |= act(block, wires, wires[{tables} + i], lanes)",
+        f"        failed |= apply_law(block, wires, wires[{tables} + i], lanes)",
         "    if failed != 0:",
         '        raise ArithmeticError("a law raised an error")',
         "",
@@ -203,7 +204,7 @@ def _compiled(text: str, parts: Mapping[str, Any], numbers: Mapping[str, Any], s
     path = kept_as(text, also)
     given = {name: adopted(part, path.stem) for name, part in parts.items()}
     offered = {name: getattr(vector, name) for name in _OFFERED}
-    offered |= {"column": windows.column, "shifted": windows.shifted, "invoked": windows.invoked}
+    offered |= {"column": windows.column, "offset_rows": windows.offset_rows, "invoke_law": windows.invoke_law}
     kernel = numba.njit(signature, **BARE, cache=True)
     part = numba.njit(**BARE)
     space = with_clear_errors(defined)(text, str(path), {**given, **numbers, **offered, "kernel": kernel, "part": part})
@@ -241,10 +242,10 @@ def plain_functions(plan: Blueprint) -> Functions:
     """Return the functions of a model with its laws as plain Python: the slow twin of all that is compiled."""
     laws = [_plain_law(law, plan.inputs_of(law)) for law in plan.laws]
 
-    def invoked(wires: Any, at: int, own: Any, desk: Any, lanes: int) -> int:
+    def invoke_law(wires: Any, at: int, own: Any, desk: Any, lanes: int) -> int:
         laws[wires[at + 1]](own, desk, lanes)
         return 0
 
-    given = {**_model_parts(plan), **plain.SPACE, "invoked": invoked, "kernel": plain.jit, "part": plain.jit}
+    given = {**_model_parts(plan), **plain.SPACE, "invoke_law": invoke_law, "kernel": plain.jit, "part": plain.jit}
     space = defined(model_text(plan), "<slow twin>", given)
     return Functions(with_clear_errors(space["derive"]), with_clear_errors(space["observe"]))

@@ -116,7 +116,7 @@ class Lanes(Engine):
         made = system.functions(self.compiled)
         lanes = lanes_for(len(points))
         padded = _padded(written, lanes)
-        failed = kernels["filtered"](
+        failed = kernels["run_filter"](
             (made.derive, made.observe), blocks, wires, inputs, which, np.ascontiguousarray(observation.readings),
             numbers, unsure_of(dynamics, observation), dt, nsub, padded, kept, lanes,
         )  # fmt: skip

@@ -122,7 +122,7 @@ def run(
     wires, made = model_wires(system, active, compiled=compiled), system.functions(compiled)
     wires[DRIVES] = 2  # each run reads the drive from a place of its own
     cubics = drive.widened(len(system.model.inputs)).cubics
-    kernel, pushed = motion_kernels(compiled)["run"], np.zeros((points, 0, n)) if kicks is None else kicks
+    kernel, pushed = motion_kernels(compiled)["run_freely"], np.zeros((points, 0, n)) if kicks is None else kicks
     for begin in range(0, points, STRIDE):
         part = slice(begin, begin + STRIDE)
         states[part, 0] = start[part]

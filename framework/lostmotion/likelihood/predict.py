@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lostmotion.contracts import Array
-from lostmotion.kernels.filter import SILENT
+from lostmotion.kernels.filter import UNREAD_VARIANCE
 from lostmotion.likelihood.motion import derivatives
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import Problem
@@ -36,7 +36,7 @@ class Filtered:
     @property
     def taken(self) -> NDArray[np.bool_]:
         """Which readings (samples, sensors) were taken: of the others an engine notes a variance of its own."""
-        return np.abs(self.variances - SILENT) > 1e-12
+        return np.abs(self.variances - UNREAD_VARIANCE) > 1e-12
 
     def log_score(self, held: slice) -> float:
         """Return the mean log density per sample of one-step predictions over the held-out part, of all sensors."""

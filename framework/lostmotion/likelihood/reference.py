@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lostmotion.contracts import Array, Engine
-from lostmotion.kernels.crossing import BENDS, LONG, OWN, PACED, TINY
-from lostmotion.kernels.filter import FARLY, FARTHER, NEARER, NEARLY, SILENT
+from lostmotion.kernels.crossing import BEND_LIMIT, PACED_LIMIT, PACED_SHARE, STEP_LIMIT, TINY
+from lostmotion.kernels.filter import INNER_POINT, INNER_WEIGHT, OUTER_POINT, OUTER_WEIGHT, UNREAD_VARIANCE
 from lostmotion.likelihood.drive import Drive
 from lostmotion.likelihood.engine import Dynamics, Innovations, Points, Smoothed
 from lostmotion.likelihood.lanes import fine_steps, unsure_of
@@ -207,7 +207,7 @@ class _Run:
         shared = np.zeros((m, total + m))
         shared[:, total:] = np.diag(points.ar1[0])
         shape = (observation.samples, m)
-        errors, variances = np.zeros(shape), np.full(shape, SILENT)
+        errors, variances = np.zeros(shape), np.full(shape, UNREAD_VARIANCE)
         return cls(machine, observation, points, nsub, y, cov, np.zeros(m), shared, errors, variances, nsub)
 
     def filter(self) -> int:
@@ -252,7 +252,7 @@ class _Run:
         centre = self.machine.seen_late(self.y, k, lag, channel)
         sd = np.sqrt(np.diag(self.cov))
         slopes, mean, square = np.zeros(len(sd)), np.zeros(len(sd)), np.zeros(len(sd))
-        for far, weight in ((NEARER, NEARLY), (FARTHER, FARLY)):
+        for far, weight in ((INNER_POINT, INNER_WEIGHT), (OUTER_POINT, OUTER_WEIGHT)):
             reach = far * sd + TINY * (1.0 + np.abs(self.y))
             up, down = (
                 np.array([self.machine.seen_late(self.y + s * row, k, lag, channel) for row in np.diag(reach)]) - centre
@@ -310,7 +310,7 @@ class _Run:
 
     def _borne(self, reach: Array) -> Array:
         """Return how far off each state may be."""
-        return np.asarray(BENDS * (reach + OWN * np.where(self.machine.paced, np.abs(self.y), 0.0)))
+        return np.asarray(BEND_LIMIT * (reach + PACED_SHARE * np.where(self.machine.paced, np.abs(self.y), 0.0)))
 
     def _taken(self, k: int, place: int, wide: int, reach: Array) -> bool:
         """Try a step; go it, and return true, where the force is straight along it or it is a fine one."""
@@ -340,11 +340,11 @@ class _Run:
             both = machine.slope(centre, early + late - middle, begin + h)
             kink = k1 + k4 - k2 - both - slopes @ (y + end - 2.0 * centre)
             bent = np.abs(kink) + self.near + far + 3.0 * np.abs(bend)
-            limits = np.where(machine.paced, PACED, LONG)
+            limits = np.where(machine.paced, PACED_LIMIT, STEP_LIMIT)
             if np.any(h * bent > self._borne(reach)) or np.any(h * h * np.abs(np.diag(square)) > limits):
                 return False
         self.near, self.wish = far, 2 * wide
-        if np.any(4.0 * h * h * np.abs(np.diag(square))[~machine.paced] > LONG):
+        if np.any(4.0 * h * h * np.abs(np.diag(square))[~machine.paced] > STEP_LIMIT):
             self.wish = wide
         third, fourth = square @ slopes, square @ square
         self._step = np.eye(len(y)) + h * (slopes + h / 2.0 * (square + h / 3.0 * (third + h / 4.0 * fourth)))

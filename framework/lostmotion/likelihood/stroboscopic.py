@@ -80,6 +80,6 @@ def stroboscopic_map(plan: Blueprint, states: int, compiled: bool = True) -> Cal
         space = defined(text, "<slow twin>", {**parts, **fields, "jit": lambda f: f, "view": slow_view})
 
     def mapped(*args: Any) -> int:
-        return int(space["strobe"](*args, np.zeros((10, states)), np.zeros((3, states, states))))
+        return int(space["follow_orbit"](*args, np.zeros((10, states)), np.zeros((3, states, states))))
 
     return with_clear_errors(mapped)

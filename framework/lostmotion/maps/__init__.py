@@ -1,1 +1,1 @@
-"""Maps: any quantity of any model over any parameters, computed cell by cell, stored in chunks, and read again."""
+"""Maps: quantities of a model over its parameters, computed cell by cell, stored in chunks, and interpolated."""

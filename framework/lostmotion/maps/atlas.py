@@ -1,8 +1,8 @@
-"""What motions do at any dimensionless numbers: a map made ready to be asked at thousands of points at once.
+"""A map prepared for fast interpolation at thousands of points of the dimensionless numbers at once.
 
-Attractors coexist and windows are narrow, so nothing is averaged. A table over the cells of the map, such as the
-likelihood of what was seen, is blended at a point from the cells around it by the weights of linear interpolation, and
-a little from the ring of cells around those: a window may lie between cells.
+Attractors coexist and periodic windows are narrow, so the motions of a cell are not averaged. A table over the cells of
+the map, such as a likelihood, is interpolated linearly at a point from the cells around it. A small weight goes to the
+ring of cells around those, because a periodic window may lie between cells.
 """
 
 from __future__ import annotations
@@ -19,23 +19,26 @@ from numpy.typing import NDArray
 from lostmotion.contracts import Array
 from lostmotion.defaults import FLOW_EXPONENT, SECTION_DIMENSION
 from lostmotion.errors import DataError
-from lostmotion.maps.axes import warped
+from lostmotion.maps.axes import scale_values
 from lostmotion.maps.cells import CODES
-from lostmotion.maps.layout import origin_in, settings_in
-from lostmotion.maps.map import RING, ROUGH, Map
+from lostmotion.maps.layout import read_map_settings, read_origin
+from lostmotion.maps.map import RING_WEIGHT, ROUGHNESS_FACTOR, Map
+from lostmotion.settings import DEFAULT, LevelSettings
 
 PERIODIC, CHAOTIC, UNSURE, MISSING = 0, 1, 2, -1
-"""What a motion is: it repeats itself; its exponent is positive; neither can be told; nothing was computed."""
-SURE = 2.0
-"""Standard errors by which an exponent must lie above zero."""
-RATIO = "frequency_ratio"
-_EDGE = 5e-3
-"""Share of an axis by which a point may lie beyond its end: an amplitude that was read is not quite the nominal one."""
+"""The kinds of motion: periodic; chaotic (positive exponent); undecided between the two; not computed."""
+FREQUENCY_RATIO = "frequency_ratio"
+_AXIS_TOLERANCE = 5e-3
+"""Share of an axis by which a point may lie beyond its end: a measured amplitude differs a little from the nominal."""
 
 
 @dataclass(frozen=True, eq=False)
 class Places:
-    """Points in a map: `cells` (corners, n) around each, their `weights`, the `square` (n,), and what lies `inside`."""
+    """Positions of n points in a map.
+
+    `cells` (corners, n) are the cells around each point, with their interpolation `weights` (corners, n); `square` (n,)
+    is the lowest of these cells, and `inside` (n,) says whether the point lies in the map.
+    """
 
     cells: NDArray[np.intp]
     weights: Array
@@ -45,11 +48,11 @@ class Places:
 
 @dataclass(frozen=True, eq=False)
 class Atlas:
-    """Motions over the numbers `names`: for each cell and start its `kind`, exponent and dimension with their errors.
+    """Motions over the dimensionless numbers `names`: kind, exponent and dimension of each cell and start.
 
-    `points` are those of each axis in the scale in which they are even, rising. The arrays are (cells, starts), the
-    last axis running fastest. Exponents are per radian of the drive (natural logarithm), so that they are the same for
-    a machine of any speed.
+    `points` are the points of each axis in the scale in which they are evenly spaced, in rising order. The arrays are
+    (cells, starts), the last axis running fastest. Exponents are per radian of the drive (natural logarithm), so that
+    they do not depend on the speed of the machine.
     """
 
     names: tuple[str, ...]
@@ -63,13 +66,13 @@ class Atlas:
     provenance: str = ""
 
     @classmethod
-    def of(cls, source: Map) -> Atlas:
-        """Return the atlas of a map over `alpha`, `zeta` and perhaps the frequency ratio."""
+    def of(cls, source: Map, limits: LevelSettings = DEFAULT.levels) -> Atlas:
+        """Return the atlas of a map over `alpha`, `zeta` and optionally the frequency ratio."""
         data, names = source.dataset, source.axes
-        ratio = _ratio(data, names)
+        ratio = _read_frequency_ratio(data, names)
         starts = data.sizes["start"]
         lyapunov, error, d2, d2_error, period, status = (
-            np.asarray(_found(data, name), dtype=float).reshape(-1, starts)
+            np.asarray(_read_variable(data, name), dtype=float).reshape(-1, starts)
             for name in (
                 FLOW_EXPONENT,
                 "lyapunov_stderr",
@@ -80,11 +83,11 @@ class Atlas:
             )
         )
         if (status == CODES["not_computed"]).any():
-            raise DataError("the map is not finished: make it again with the same settings, and it goes on")
-        kind = np.where(period > 0, PERIODIC, np.where(lyapunov - SURE * error > 0.0, CHAOTIC, UNSURE))
+            raise DataError("the map is not finished: run the same command again to complete it")
+        kind = np.where(period > 0, PERIODIC, np.where(lyapunov - limits.chaotic * error > 0.0, CHAOTIC, UNSURE))
         kind = np.where(np.isfinite(lyapunov), kind, MISSING).astype(np.int8)
         spacings = tuple(str(data[n].attrs.get("spacing", "linear")) for n in names)
-        points = tuple(_rising(data[n].to_numpy(), s) for n, s in zip(names, spacings, strict=True))
+        points = tuple(_scale_points(data[n].to_numpy(), s) for n, s in zip(names, spacings, strict=True))
         per = np.broadcast_to(ratio, source.share.shape).reshape(-1, 1)
         return cls(
             names,
@@ -100,21 +103,25 @@ class Atlas:
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """The points of each axis."""
+        """The number of points along each axis."""
         return tuple(len(p) for p in self.points)
 
     @cached_property
     def exponent_error(self) -> Array:
-        """The error (cells, starts) of the exponents, and of what changes from one chaotic cell to the next."""
-        return np.hypot(np.nan_to_num(self.exponent_sd), ROUGH * self._rough(self.exponent)[:, None])
+        """The error (cells, starts) of the exponents, their variation between neighbouring chaotic cells included."""
+        return np.hypot(
+            np.nan_to_num(self.exponent_sd), ROUGHNESS_FACTOR * self._measure_roughness(self.exponent)[:, None]
+        )
 
     @cached_property
     def dimension_error(self) -> Array:
-        """The error (cells, starts) of the dimensions, and of what changes from one chaotic cell to the next."""
-        return np.hypot(np.nan_to_num(self.dimension_sd), ROUGH * self._rough(self.dimension)[:, None])
+        """The error (cells, starts) of the dimensions, their variation between neighbouring chaotic cells included."""
+        return np.hypot(
+            np.nan_to_num(self.dimension_sd), ROUGHNESS_FACTOR * self._measure_roughness(self.dimension)[:, None]
+        )
 
-    def _rough(self, values: Array) -> Array:
-        """Return how far the mean over chaotic starts of each cell (cells,) lies off the line through those around."""
+    def _measure_roughness(self, values: Array) -> Array:
+        """Return the distance (cells,) of each cell's mean over chaotic starts from the line through its neighbours."""
         kept = (self.kind == CHAOTIC) & np.isfinite(values)
         many = kept.sum(axis=1)
         mean = np.where(many > 0, np.where(kept, values, 0.0).sum(axis=1) / np.maximum(many, 1), np.nan)
@@ -128,15 +135,15 @@ class Atlas:
         usual = float(np.median(total[known])) if known.any() else 0.0
         return np.where(known, total, usual).ravel()
 
-    def places(self, numbers: Mapping[str, Array], sheet: NDArray[np.intp] | int = 0) -> Places:
-        """Return where points with these `numbers` (n,), one array for each axis, lie.
+    def locate(self, numbers: Mapping[str, Array], sheet: NDArray[np.intp] | int = 0) -> Places:
+        """Return the positions of points in the map; `numbers` holds one array (n,) for each axis.
 
-        Tables may be stacked one behind the other: `sheet` (n,) says in which of them each point is looked up.
+        Several tables may be stacked one behind the other: `sheet` (n,) is the number of the table for each point.
         """
         lower, shares, inside = [], [], np.ones(1, dtype=bool)
         for name, spacing, points in zip(self.names, self.spacings, self.points, strict=True):
-            here = _turned(warped(np.asarray(numbers[name], dtype=float), spacing), spacing)
-            slack = _EDGE * (points[-1] - points[0]) + 1e-9 * abs(points[0])
+            here = _orient_values(scale_values(np.asarray(numbers[name], dtype=float), spacing), spacing)
+            slack = _AXIS_TOLERANCE * (points[-1] - points[0]) + 1e-9 * abs(points[0])
             inside = inside & (here >= points[0] - slack) & (here <= points[-1] + slack)
             i = np.clip(np.searchsorted(points, here, side="right") - 1, 0, max(len(points) - 2, 0))
             step = points[i + 1] - points[i] if len(points) > 1 else np.ones(len(here))
@@ -151,15 +158,15 @@ class Atlas:
         square = behind + np.ravel_multi_index(lower, self.shape)
         return Places(behind + np.array(cells), np.array(weights), square, np.broadcast_to(inside, square.shape))
 
-    def around(self, table: Array) -> Array:
-        """Return the mean (cells,) of a table over the ring about the square that begins at each cell."""
-        outer, inner = self._summed(table, 1), self._summed(table, 0)
-        many = self._summed(np.ones_like(table), 1) - self._summed(np.ones_like(table), 0)
-        alone = inner / np.maximum(self._summed(np.ones_like(table), 0), 1.0)
+    def average_ring(self, table: Array) -> Array:
+        """Return the mean (cells,) of a table over the ring around the square whose lowest cell is each cell."""
+        outer, inner = self._sum_neighbourhood(table, 1), self._sum_neighbourhood(table, 0)
+        many = self._sum_neighbourhood(np.ones_like(table), 1) - self._sum_neighbourhood(np.ones_like(table), 0)
+        alone = inner / np.maximum(self._sum_neighbourhood(np.ones_like(table), 0), 1.0)
         return np.where(many > 0.5, np.maximum(outer - inner, 0.0) / np.maximum(many, 1.0), alone)
 
-    def _summed(self, table: Array, reach: int) -> Array:
-        """Return sums (cells,) over the square that begins at each cell, and `reach` cells more on each side."""
+    def _sum_neighbourhood(self, table: Array, reach: int) -> Array:
+        """Return sums (cells,) over the square that begins at each cell, widened by `reach` cells on each side."""
         grid = table.reshape(self.shape)
         for axis in range(grid.ndim):
             n = grid.shape[axis]
@@ -169,42 +176,45 @@ class Atlas:
             grid = np.take(total, late, axis) - np.take(total, early, axis)
         return grid.ravel()
 
-    def blended(self, table: Array, ring: Array, places: Places) -> Array:
-        """Return a table (cells,) with its `around` at places (n,)."""
+    def interpolate(self, table: Array, ring: Array, places: Places) -> Array:
+        """Return a table (cells,) interpolated at places (n,); `ring` holds its means from `average_ring`."""
         near = (places.weights * table[places.cells]).sum(axis=0)
-        return np.asarray((1.0 - RING) * near + RING * ring[places.square])
+        return np.asarray((1.0 - RING_WEIGHT) * near + RING_WEIGHT * ring[places.square])
 
-    def drawn(self, places: Places, rng: np.random.Generator) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-        """Return for each place a cell around it, drawn by the weights, and one of its starts."""
+    def draw_cells(self, places: Places, rng: np.random.Generator) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+        """Return for each place one of the cells around it, drawn by the weights, and one start of that cell."""
         share = np.cumsum(places.weights, axis=0)
         corner = (rng.random(places.weights.shape[1]) * share[-1] >= share[:-1]).sum(axis=0)
         cell = places.cells[corner, np.arange(places.weights.shape[1])]
         return cell, rng.integers(self.kind.shape[1], size=len(cell))
 
 
-def _found(data: xr.Dataset, name: str) -> Array:
+def _read_variable(data: xr.Dataset, name: str) -> Array:
     if name not in data:
-        raise DataError(f"the map has no {name}: make one with --quantity {SECTION_DIMENSION} beside lyapunov_max")
+        raise DataError(f"the map has no {name}: make a map with --quantity {SECTION_DIMENSION}")
     return np.asarray(data[name].to_numpy())
 
 
-def _ratio(data: xr.Dataset, names: tuple[str, ...]) -> Array:
-    """Return the frequency ratio of each cell, or of all of them."""
-    if not {"alpha", "zeta"} <= {*names} <= {"alpha", "zeta", RATIO}:
-        raise DataError(f"the map is over {', '.join(names)}: one over alpha and zeta (and {RATIO}) is wanted")
+def _read_frequency_ratio(data: xr.Dataset, names: tuple[str, ...]) -> Array:
+    """Return the frequency ratio of each cell, or the one value that holds for all cells."""
+    if not {"alpha", "zeta"} <= {*names} <= {"alpha", "zeta", FREQUENCY_RATIO}:
+        raise DataError(
+            f"the map is over {', '.join(names)}: one over alpha and zeta (and {FREQUENCY_RATIO}) is wanted"
+        )
     unit = str(data[FLOW_EXPONENT].attrs.get("units"))
     if unit != "1/t_bar":
-        raise DataError(f"the exponents of the map are in {unit}: wanted 1/t_bar, of a map in dimensionless numbers")
-    if RATIO in names:
-        shape = [-1 if name == RATIO else 1 for name in names]
-        return np.asarray(data[RATIO].to_numpy(), dtype=float).reshape(shape)
-    return np.array(settings_in(origin_in(data.attrs)).fixed.get(RATIO, np.nan))
+        raise DataError(f"the exponents of the map are in {unit}: a map in dimensionless numbers (1/t_bar) is wanted")
+    if FREQUENCY_RATIO in names:
+        shape = [-1 if name == FREQUENCY_RATIO else 1 for name in names]
+        return np.asarray(data[FREQUENCY_RATIO].to_numpy(), dtype=float).reshape(shape)
+    return np.array(read_map_settings(read_origin(data.attrs)).fixed.get(FREQUENCY_RATIO, np.nan))
 
 
-def _turned(values: Array, spacing: str) -> Array:
-    """Return values in the scale of an axis, rising with its points."""
+def _orient_values(values: Array, spacing: str) -> Array:
+    """Return scaled values with the sign that makes the points of an axis rise."""
     return -values if spacing == "inverse" else values
 
 
-def _rising(values: Array, spacing: str) -> Array:
-    return _turned(warped(np.asarray(values, dtype=float), spacing), spacing)
+def _scale_points(values: Array, spacing: str) -> Array:
+    """Return the points of an axis in the scale in which they are evenly spaced, in rising order."""
+    return _orient_values(scale_values(np.asarray(values, dtype=float), spacing), spacing)

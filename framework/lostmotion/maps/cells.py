@@ -1,7 +1,7 @@
-"""What one cell of a map is: a machine with its knobs set, followed from several starts, and what is read off it.
+"""Compute the cells of a map: the machine at one set of parameters, simulated from several initial states.
 
-Everything random in a cell comes from the seed and the place of the cell on its axes, so that numbers do not depend on
-chunks, workers or order.
+All random numbers of a cell are derived from the seed and the position of the cell on the axes, so that results do not
+depend on chunks, workers or order.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from lostmotion.contracts import Array, Embedder, Flow, Orbit, Quantifier
 from lostmotion.defaults import FLOW_EXPONENT
 from lostmotion.errors import ContractError, DataError, LostMotionError, PluginWarning
 from lostmotion.maps.axes import MapAxis
-from lostmotion.maps.rig import SweptMachine, reach
+from lostmotion.maps.rig import SweptMachine, measure_extent
 from lostmotion.rates import exponent_in
 from lostmotion.results import STATUSES, Estimate
 
@@ -30,24 +30,24 @@ Columns = dict[str, NDArray[Any]]
 
 STATES = (*STATUSES, "not_computed")
 CODES: Mapping[str, int] = {**{name: code for code, name in enumerate(STATUSES)}, "not_computed": -1}
-"""The number that stands for each status in a file."""
-LONGEST = 32
-"""Periods of the drive beyond which a periodic motion is not told from any other."""
-CLOSE = 1e-5
-"""Distance, over the size of the motion, within which two looks at it show the same point."""
-WIDE, BEGINNING = 2.0, 40
-"""Starts are drawn evenly from a box so many times as large as the motion from rest reaches in so many periods."""
-LOOKS = 32
-"""Samples in a period for methods that read a series."""
+"""The code of each status in a file."""
+MAX_PERIOD = 32
+"""Longest period, in periods of the drive, at which a motion is recognised as periodic."""
+RETURN_TOLERANCE = 1e-5
+"""Two strobe points are the same when their distance is below this share of the size of the motion."""
+START_BOX, START_PERIODS = 2.0, 40
+"""Initial states are drawn uniformly from a box: `START_BOX` times the extent of `START_PERIODS` periods from rest."""
+SAMPLES_PER_PERIOD = 32
+"""Samples in a period for quantifiers that read a series."""
 
 
 @dataclass(frozen=True)
 class Study:
-    """A rig, its axes, how long each motion is followed from how many starts, and what is read off it.
+    """A machine, the axes of its map, the length and number of the simulations in each cell, and the quantifiers.
 
-    `exponent` reads the flow. `further` are more quantifiers by the name they have in the file; those that read a
-    series are handed the first state, embedded by `embedder`. `bits` gives exponents in bit in place of nat. `origins`
-    are the digests or versions of the plugins of other people that take part.
+    `exponent` reads the flow. `further` are more quantifiers by their name in the file; those that read a series get
+    the first state, embedded by `embedder`. `bits` gives exponents in bit instead of nat. `origins` are the digests or
+    versions of the third-party plugins that are used.
     """
 
     rig: SweptMachine
@@ -64,12 +64,12 @@ class Study:
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """The points of each axis."""
+        """The number of points along each axis."""
         return tuple(axis.count for axis in self.axes)
 
     @cached_property
     def points(self) -> tuple[Array, ...]:
-        """The points on each axis."""
+        """The values of the points on each axis."""
         return tuple(axis.values for axis in self.axes)
 
     @property
@@ -78,13 +78,13 @@ class Study:
         return f"{'bit' if self.bits else '1'}/{self.rig.time_unit}"
 
     def point(self, cell: Array | tuple[int, ...]) -> dict[str, float]:
-        """Return the knobs at the place (axes,) of a cell."""
-        told = zip(self.axes, self.points, cell, strict=True)
-        return {axis.name: float(values[int(i)]) for axis, values, i in told}
+        """Return the values of the swept quantities in the cell with these indices (axes,)."""
+        indexed = zip(self.axes, self.points, cell, strict=True)
+        return {axis.name: float(values[int(i)]) for axis, values, i in indexed}
 
 
-class FollowedFlow:
-    """A flow from one start that remembers its orbit, so that several methods read the same one."""
+class CachedFlow:
+    """A flow from one initial state that stores its orbit, so that several quantifiers read the same orbit."""
 
     def __init__(self, flow: Flow, start: Array, tangents: int) -> None:
         self._flow, self.start, self._tangents = flow, start, tangents
@@ -92,7 +92,7 @@ class FollowedFlow:
         self._orbits: dict[int, Orbit] = {}
 
     def strobe(self, start: Array, *, periods: int, tangents: int) -> Orbit:
-        """Return the orbit from the start of this flow, with the first `tangents` of the vectors it follows."""
+        """Return the orbit from the initial state of this flow, with the first `tangents` of its tangent vectors."""
         if start is not self.start or tangents > self._tangents:
             return self._flow.strobe(start, periods=periods, tangents=tangents)
         if periods not in self._orbits:
@@ -106,16 +106,19 @@ class FollowedFlow:
         return seen
 
 
-def computed(study: Study, cells: NDArray[np.int64]) -> Columns:
-    """Return the columns (cells, starts) of the cells at the places (cells, axes); the share of chaos is (cells,)."""
-    columns = blank_columns(study, len(cells))
+def compute_cells(study: Study, cells: NDArray[np.int64]) -> Columns:
+    """Return the columns (cells, starts) of cells given by their indices (cells, axes).
+
+    The column `chaotic_fraction` is (cells,).
+    """
+    columns = make_blank_columns(study, len(cells))
     for row, cell in enumerate(cells):
-        _fill(study, cell, columns, row)
+        _fill_row(study, cell, columns, row)
     return columns
 
 
-def blank_columns(study: Study, many: int) -> Columns:
-    """Return columns in which nothing is computed."""
+def make_blank_columns(study: Study, many: int) -> Columns:
+    """Return columns for `many` cells in which every value is marked as not computed."""
     shape = (many, study.starts)
     columns: Columns = {FLOW_EXPONENT: np.full(shape, np.nan), "lyapunov_stderr": np.full(shape, np.nan)}
     for name in study.further:
@@ -127,88 +130,98 @@ def blank_columns(study: Study, many: int) -> Columns:
     return columns
 
 
-def _fill(study: Study, cell: Array, columns: Columns, row: int) -> None:
-    """Write one row of the columns."""
+def _fill_row(study: Study, cell: Array, columns: Columns, row: int) -> None:
+    """Compute one cell and write it into one row of the columns."""
     try:
-        flow, told = study.rig.flow(study.point(cell))
+        flow, fixed_states = study.rig.flow(study.point(cell))
     except LostMotionError:
         columns["status"][row] = CODES["failed"]
         return
-    box, chaotic = WIDE * reach(flow, BEGINNING), 0
+    box, chaotic = START_BOX * measure_extent(flow, START_PERIODS), 0
     for k in range(study.starts):
         rng = np.random.default_rng([study.seed, k, *(int(i) for i in cell)])
         start = rng.uniform(-box, box)
-        for state, value in told.items():
+        for state, value in fixed_states.items():
             start[state] = value
-        chaotic += _follow(study, FollowedFlow(flow, start, _tangents(study, flow)), rng, (columns, (row, k)))
+        chaotic += _follow_start(study, CachedFlow(flow, start, _count_tangents(study, flow)), rng, (columns, (row, k)))
     columns["chaotic_fraction"][row] = chaotic / study.starts
 
 
-def _tangents(study: Study, flow: Flow) -> int:
+def _count_tangents(study: Study, flow: Flow) -> int:
+    """Return how many tangent vectors are needed: all where a further quantifier reads the flow, else one."""
     return len(flow.states) if any(q.reads == "flow" for q in study.further.values()) else 1
 
 
-def _follow(study: Study, flow: FollowedFlow, rng: np.random.Generator, into: tuple[Columns, tuple[int, int]]) -> bool:
-    """Write what is read off the motion from one start; return whether it is chaotic."""
+def _follow_start(
+    study: Study, flow: CachedFlow, rng: np.random.Generator, into: tuple[Columns, tuple[int, int]]
+) -> bool:
+    """Write the quantities of the motion from one initial state; return whether it is chaotic."""
     columns, at = into
     estimate = quantify(flow, study.exponent, rng=rng)
-    scaled = _scaled(study, estimate)
+    scaled = _convert_units(study, estimate)
     orbit = flow.strobe(flow.start, periods=study.transient + study.periods, tangents=1)
-    period = period_of(orbit.states)
+    period = find_period(orbit.states)
     columns[FLOW_EXPONENT][at], columns["lyapunov_stderr"][at] = scaled
     columns["status"][at], columns["period"][at] = CODES[estimate.status], period
     for name, quantifier in study.further.items():
-        further = _further(study, flow, quantifier, rng)
-        columns[name][at], columns[f"{name}_stderr"][at] = _scaled(study, further)
+        further = _estimate_further(study, flow, quantifier, rng)
+        columns[name][at], columns[f"{name}_stderr"][at] = _convert_units(study, further)
         columns[f"{name}_status"][at] = CODES[further.status]
     return period == 0 and estimate.low > 0.0
 
 
-def _further(study: Study, flow: FollowedFlow, quantifier: Quantifier[Any], rng: np.random.Generator) -> Estimate:
-    """Return what one more quantifier says; one that breaks down takes no other number with it."""
+def _estimate_further(
+    study: Study, flow: CachedFlow, quantifier: Quantifier[Any], rng: np.random.Generator
+) -> Estimate:
+    """Return the estimate of one further quantifier; an exception in it becomes the status "failed"."""
     try:
-        return _read(study, flow, quantifier, rng)
+        return _estimate_quantity(study, flow, quantifier, rng)
     except DataError as err:
         return Estimate.refused("failed", str(err), unit=quantifier.unit)
     except Exception as err:
-        _warn(quantifier.name, err)
+        _warn_of_failure(quantifier.name, err)
         return Estimate.refused("failed", str(err), unit=quantifier.unit)
 
 
-def _warn(name: str, err: Exception) -> None:
-    """Warn in words that do not change from cell to cell, so that they are shown once."""
+def _warn_of_failure(name: str, err: Exception) -> None:
+    """Warn with a text that is the same for every cell, so that it is shown once."""
     what = "it broke its contract" if isinstance(err, ContractError) else f"{type(err).__name__}: {err}"
-    says = f"quantifier {name!r} broke down in a cell of the map ({what}) and is left out there"
-    warnings.warn(f"{says}: `lostmotion plugins check {name}` tells what to mend", PluginWarning, stacklevel=2)
+    says = f"quantifier {name!r} failed in a cell of the map ({what}) and is left out there"
+    warnings.warn(f"{says}: `lostmotion plugins check {name}` shows what to correct", PluginWarning, stacklevel=2)
 
 
-def _read(study: Study, flow: FollowedFlow, quantifier: Quantifier[Any], rng: np.random.Generator) -> Estimate:
+def _estimate_quantity(
+    study: Study, flow: CachedFlow, quantifier: Quantifier[Any], rng: np.random.Generator
+) -> Estimate:
+    """Return the estimate of a quantifier from the flow, or from the sampled and embedded first state."""
     if quantifier.reads == "flow":
         return quantify(flow, quantifier, rng=rng)
     settled = flow.strobe(flow.start, periods=study.transient + study.periods, tangents=1).states[study.transient]
-    x = flow.sample(settled, periods=study.periods, looks=LOOKS)[:-1, 0]
-    assert study.embedder is not None  # noqa: S101 - `study_of` gives one wherever a series is read
-    return quantify(embed(x, study.embedder, dt=flow.period / LOOKS, period=flow.period), quantifier, rng=rng)
+    x = flow.sample(settled, periods=study.periods, looks=SAMPLES_PER_PERIOD)[:-1, 0]
+    assert study.embedder is not None  # noqa: S101 - `make_study` gives one wherever a series is read
+    return quantify(
+        embed(x, study.embedder, dt=flow.period / SAMPLES_PER_PERIOD, period=flow.period), quantifier, rng=rng
+    )
 
 
-def _scaled(study: Study, estimate: Estimate) -> tuple[float, float]:
+def _convert_units(study: Study, estimate: Estimate) -> tuple[float, float]:
     """Return value and standard error in the units of the file."""
     if estimate.unit == "1/s" and study.bits:
         factor = 1.0 / math.log(2.0)
-        told = exponent_in(estimate, "bit/s")
+        converted = exponent_in(estimate, "bit/s")
     else:
-        factor, told = 1.0, estimate
+        factor, converted = 1.0, estimate
     stderr = estimate.details.get("stderr", (estimate.high - estimate.low) / 3.92)
-    return told.value, factor * stderr
+    return converted.value, factor * stderr
 
 
-def period_of(states: Array) -> int:
-    """Return the period of a motion, in looks, from its last states (looks, n); 0 when there is none up to 32."""
-    tail = states[-3 * LONGEST :]
-    if len(tail) < 3 * LONGEST or not np.isfinite(tail).all():
+def find_period(states: Array) -> int:
+    """Return the period of a motion in drive periods from its strobe states (periods, n); 0 if none up to 32 fits."""
+    tail = states[-3 * MAX_PERIOD :]
+    if len(tail) < 3 * MAX_PERIOD or not np.isfinite(tail).all():
         return 0
-    scale = CLOSE * np.maximum(np.abs(tail).max(axis=0), 1e-300)
-    off = np.abs(tail[-1] - tail[-1 - LONGEST : -1][::-1]) <= scale
+    scale = RETURN_TOLERANCE * np.maximum(np.abs(tail).max(axis=0), 1e-300)
+    off = np.abs(tail[-1] - tail[-1 - MAX_PERIOD : -1][::-1]) <= scale
     for k in np.flatnonzero(off.all(axis=1)) + 1:
         if (np.abs(tail[k:] - tail[:-k]) <= scale).all():
             return int(k)

@@ -1,4 +1,4 @@
-"""What a map looks like in a file: dimensions, variables, chunks and their attributes, the same for zarr and netCDF."""
+"""The file layout of a map: dimensions, variables, chunks and attributes, the same for zarr and netCDF."""
 
 from __future__ import annotations
 
@@ -16,21 +16,21 @@ from numpy.typing import NDArray
 from lostmotion.codec import described, from_plain, to_plain
 from lostmotion.defaults import FLOW_EXPONENT
 from lostmotion.errors import DataError
-from lostmotion.maps.cells import BEGINNING, CODES, LONGEST, WIDE, Study
+from lostmotion.maps.cells import CODES, MAX_PERIOD, START_BOX, START_PERIODS, Study
 from lostmotion.provenance import origin_of
 from lostmotion.results import STATUSES
 from lostmotion.results.background import Origin
 
 SCHEMA = "lostmotion.map/1"
-WORK = 200_000
-"""Periods, over all cells and starts, that make one chunk: about half a second where the flow is exact."""
-PIECES = 4
-"""Chunks along an axis, at least: so small maps too are spread over the cores."""
+PERIODS_PER_CHUNK = 200_000
+"""Simulated periods, over all cells and starts, in one chunk: about half a second where the flow is exact."""
+MIN_CHUNKS_PER_AXIS = 4
+"""Smallest number of chunks along an axis, so that small maps are distributed over the cores too."""
 
 
 @dataclass(frozen=True)
 class Attributes:
-    """What a file says of one of its arrays."""
+    """The attributes of one array in a file."""
 
     units: str | None = described("unit of the numbers", default=None)
     long_name: str = described("what the numbers are", default="")
@@ -42,7 +42,7 @@ class Attributes:
 
 @dataclass(frozen=True)
 class Variable:
-    """An array of a file without its numbers."""
+    """The description of an array in a file, without its values."""
 
     dims: tuple[str, ...]
     kind: str
@@ -61,7 +61,7 @@ class Coordinate:
 
 @dataclass(frozen=True, kw_only=True)
 class MapSettings:
-    """What a map was asked for, as the provenance of its file has it."""
+    """The settings of a map, as stored in the provenance of its file."""
 
     model: str = described("name of the model")
     terms: tuple[str, ...] = described("the terms that were added to it", default=())
@@ -79,9 +79,10 @@ class MapSettings:
 
 @dataclass(frozen=True)
 class MapLayout:
-    """The grid (`shape`, with names `dims`) of a map, and how it is cut into chunks.
+    """The grid of a map (`shape`, with dimension names `dims`) and its division into chunks.
 
-    A list of places has `cells` (many, axes) and the one dimension `cell`. A `refined` map has the level of each cell.
+    A list of cells has their indices `cells` (many, axes) and the one dimension `cell`. A `refined` map stores the
+    level of each cell.
     """
 
     study: Study
@@ -93,7 +94,7 @@ class MapLayout:
 
     @property
     def attrs(self) -> dict[str, str]:
-        """The attributes of the file; `provenance` holds all that a number in it depends on."""
+        """The attributes of the file; `provenance` holds everything that its values depend on."""
         study = self.study
         return {
             "schema": SCHEMA,
@@ -104,22 +105,22 @@ class MapLayout:
 
     @cached_property
     def block(self) -> tuple[int, ...]:
-        """The cells of a chunk along each axis."""
-        cells = max(1.0, WORK / (self.study.starts * (self.study.periods + self.study.transient)))
+        """The number of cells of a chunk along each axis."""
+        cells = max(1.0, PERIODS_PER_CHUNK / (self.study.starts * (self.study.periods + self.study.transient)))
         side = max(1, round(cells ** (1.0 / len(self.shape))))
-        return tuple(min(side, max(1, math.ceil(count / PIECES))) for count in self.shape)
+        return tuple(min(side, max(1, math.ceil(count / MIN_CHUNKS_PER_AXIS))) for count in self.shape)
 
     @property
     def chunks(self) -> Iterator[tuple[slice, ...]]:
-        """The places of all chunks, in order."""
+        """The index ranges of all chunks, in order."""
         cut = [
             [slice(a, min(a + step, n)) for a in range(0, n, step)]
             for n, step in zip(self.shape, self.block, strict=True)
         ]
         return itertools.product(*cut)
 
-    def places(self, chunk: tuple[slice, ...]) -> NDArray[np.int64]:
-        """Return the places (cells, axes) of the cells of a chunk, the last axis running fastest."""
+    def list_cells(self, chunk: tuple[slice, ...]) -> NDArray[np.int64]:
+        """Return the indices (cells, axes) of the cells of a chunk, the last axis running fastest."""
         if self.cells is not None:
             return self.cells[chunk[0]]
         grid = np.meshgrid(*(np.arange(piece.start, piece.stop) for piece in chunk), indexing="ij")
@@ -127,7 +128,7 @@ class MapLayout:
 
     @cached_property
     def variables(self) -> dict[str, Variable]:
-        """The arrays of the map; the one that is written last, `status`, stands last."""
+        """The arrays of the map; `status`, which is written last, is the last one."""
         every, unit = (*self.dims, "start"), self.study.unit
         table = {
             FLOW_EXPONENT: Variable(every, "f8", math.nan, Attributes(unit, "largest Lyapunov exponent")),
@@ -137,17 +138,17 @@ class MapLayout:
             own = unit if quantifier.unit == "1/s" else quantifier.unit
             table[name] = Variable(every, "f8", math.nan, Attributes(own, f"{name} of the motion"))
             table[f"{name}_stderr"] = Variable(every, "f8", math.nan, Attributes(own, f"standard error of {name}"))
-            table[f"{name}_status"] = Variable(every, "i1", -1, _flags(f"what is wrong with {name}"))
-        period = Attributes("1", f"period of the motion in periods of the drive, 0 when there is none up to {LONGEST}")
+            table[f"{name}_status"] = Variable(every, "i1", -1, _make_flag_attributes(f"what is wrong with {name}"))
+        period = Attributes("1", f"period of the motion in periods of the drive, 0 if none up to {MAX_PERIOD}")
         table["period"] = Variable(every, "i2", -1, period)
         share = Attributes(
             "1", "share of the starts whose exponent is significantly positive (95 %) and that do not repeat"
         )
         table["chaotic_fraction"] = Variable(self.dims, "f8", math.nan, share)
         if self.refined:
-            level = Attributes("1", "halving at which a cell was computed, -1 where it holds what its nearest cell has")
+            level = Attributes("1", "refinement level of a computed cell, -1 where the nearest cell was copied")
             table["level"] = Variable(self.dims, "i1", -1, level)
-        table["status"] = Variable(every, "i1", -1, _flags("what is wrong with lyapunov_max"))
+        table["status"] = Variable(every, "i1", -1, _make_flag_attributes("what is wrong with lyapunov_max"))
         return table
 
     @property
@@ -156,25 +157,27 @@ class MapLayout:
         rig, table = self.study.rig, {}
         for axis, values in zip(self.study.axes, self.study.points, strict=True):
             if axis.name in self.dims:
-                attrs = Attributes(rig.unit(axis.name), rig.knob(axis.name).meaning, axis.spacing)
+                attrs = Attributes(rig.get_unit(axis.name), rig.find_knob(axis.name).meaning, axis.spacing)
                 table[axis.name] = Coordinate((axis.name,), values, attrs)
-        drawn = f"drawn evenly from a box {WIDE:g} times as large as {BEGINNING} periods from rest reach"
+        drawn = (
+            f"drawn uniformly from a box {START_BOX:g} times the extent of the first {START_PERIODS} periods from rest"
+        )
         start = Attributes("1", "number of the initial condition", comment=drawn)
         return {**table, "start": Coordinate(("start",), np.arange(self.study.starts), start)}
 
 
-def layout_of(study: Study) -> MapLayout:
+def make_grid_layout(study: Study) -> MapLayout:
     """Return the layout of a map over a whole grid."""
-    return MapLayout(study, tuple(axis.name for axis in study.axes), study.shape, map_origin(study))
+    return MapLayout(study, tuple(axis.name for axis in study.axes), study.shape, make_map_origin(study))
 
 
-def listed(study: Study, cells: NDArray[np.int64], *, level: int) -> MapLayout:
-    """Return the layout of a list of places (many, axes) on the grid of a study: those of one halving, the `level`."""
-    return MapLayout(study, ("cell",), (len(cells),), map_origin(study, level=level), cells)
+def make_list_layout(study: Study, cells: NDArray[np.int64], *, level: int) -> MapLayout:
+    """Return the layout of a list of cells (many, axes) on the grid of a study, computed at refinement `level`."""
+    return MapLayout(study, ("cell",), (len(cells),), make_map_origin(study, level=level), cells)
 
 
-def map_origin(study: Study, *, level: int | None = None, levels: int | None = None) -> Origin:
-    """Return all that a number in the map of a study depends on; a list has a `level`, a refined map `levels`."""
+def make_map_origin(study: Study, *, level: int | None = None, levels: int | None = None) -> Origin:
+    """Return everything that the values of a map depend on; a list has a `level`, a refined map has `levels`."""
     rig, further = study.rig, {name: str(quantifier) for name, quantifier in study.further.items()}
     model = rig.assembly.model
     settings = MapSettings(
@@ -194,8 +197,8 @@ def map_origin(study: Study, *, level: int | None = None, levels: int | None = N
     return origin_of("map", to_plain(settings), study.seed, study.origins)
 
 
-def origin_in(attrs: Mapping[str, object], path: str = "the map") -> Origin:
-    """Return the origin that the attributes of a map tell; `DataError` where they tell none."""
+def read_origin(attrs: Mapping[str, object], path: str = "the map") -> Origin:
+    """Return the origin from the attributes of a map; raise `DataError` where there is none."""
     try:
         plain = json.loads(str(attrs.get("provenance")))
     except ValueError as err:
@@ -203,11 +206,12 @@ def origin_in(attrs: Mapping[str, object], path: str = "the map") -> Origin:
     return from_plain(Origin, plain, f"the provenance of {path}")
 
 
-def settings_in(origin: Origin) -> MapSettings:
-    """Return what a map was asked for."""
+def read_map_settings(origin: Origin) -> MapSettings:
+    """Return the settings with which a map was made."""
     return from_plain(MapSettings, origin.settings, "the provenance of the map")
 
 
-def _flags(long_name: str) -> Attributes:
+def _make_flag_attributes(long_name: str) -> Attributes:
+    """Return the attributes of an array of status flags."""
     comment = "; ".join(f"{name}: {says}" for name, says in STATUSES.items())
     return Attributes(None, long_name, None, tuple(CODES.values()), " ".join(CODES), comment)

@@ -1,4 +1,4 @@
-"""A machine whose knobs can be turned: parameters, dimensionless numbers, the drive, and where it starts."""
+"""A machine whose parameters, dimensionless numbers, drive and initial state can be set or swept."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ from lostmotion.likelihood.system import System
 from lostmotion.quantities import unit_of
 
 DRIVE = {"amplitude": "amplitude of the drive", "omega": "angular frequency of the drive", "phase": "its phase"}
-OMEGA = 0.2
-"""The drive of a normalised machine, over its natural frequency, as in Table 1 of the paper."""
+DEFAULT_OMEGA = 0.2
+"""Drive frequency of a normalised machine, relative to its natural frequency, as in Table 1 of the paper."""
 
 
 @dataclass(frozen=True)
 class Knob:
-    """Something of a machine that can be set: `kind` is "group", "parameter", "drive" or "start"."""
+    """A quantity of a machine that can be set; `kind` is "group", "parameter", "drive" or "start"."""
 
     name: str
     kind: str
@@ -32,10 +32,10 @@ class Knob:
 
 @dataclass(frozen=True)
 class SweptMachine:
-    """A model with its terms, the knobs that are `fixed`, and the names of those that are `swept`.
+    """A model with its terms, the quantities that are `fixed`, and the names of those that are `swept`.
 
-    It is normalised where no parameter of the model is set: all that set a scale are then one, so that a time is in
-    units of 1 / omega_0 (t_bar), and the dimensionless numbers of the model say the rest.
+    It is normalised where no parameter of the model is set: all parameters that set a scale are then one, times are in
+    units of 1 / omega_0 (t_bar), and the dimensionless numbers of the model determine everything else.
     """
 
     assembly: Assembly
@@ -43,12 +43,12 @@ class SweptMachine:
     fixed: Mapping[str, float] = field(default_factory=dict)
 
     def __reduce__(self) -> tuple[type[SweptMachine], tuple[object, ...]]:
-        """Return what a worker needs to make this rig again: nothing that was compiled or looked up."""
+        """Return what a worker needs to construct this machine again, without compiled or cached objects."""
         return SweptMachine, (self.assembly, self.swept, dict(self.fixed))
 
     @cached_property
     def system(self) -> System:
-        """The model with its terms as something that runs."""
+        """The model with its terms in executable form."""
         return System.of(self.assembly)
 
     @cached_property
@@ -58,9 +58,9 @@ class SweptMachine:
 
     @cached_property
     def normalised(self) -> bool:
-        """Whether the parameters of the model stand at one, and time is t_bar."""
-        told = [self.knob(name) for name in (*self.fixed, *self.swept)]
-        own = any(knob.kind == "parameter" and "." not in knob.key for knob in told)
+        """Whether the parameters of the model are one and time is in units of t_bar."""
+        knobs = [self.find_knob(name) for name in (*self.fixed, *self.swept)]
+        own = any(knob.kind == "parameter" and "." not in knob.key for knob in knobs)
         return bool(self.groups) and not own
 
     @property
@@ -68,19 +68,19 @@ class SweptMachine:
         """The unit of a time."""
         return "t_bar" if self.normalised else "s"
 
-    def knob(self, name: str) -> Knob:
-        """Return the knob called `name`, or raise `CaseError` naming the nearest."""
+    def find_knob(self, name: str) -> Knob:
+        """Return the quantity called `name`, or raise `CaseError` with the nearest known name."""
         head, _, tail = name.partition(".")
         if name in self.groups:
             group = self.groups[name]
             return Knob(name, "group", group.target, "1", f"{group.meaning}, {group.formula}")
         if head == "drive" and tail in DRIVE:
-            return Knob(name, "drive", name, self._drive_unit(tail), DRIVE[tail])
+            return Knob(name, "drive", name, self._get_drive_unit(tail), DRIVE[tail])
         if head == "start" and tail in self.assembly.model.states:
             return Knob(name, "start", name, "", f"{tail} at the start")
-        return self._parameter(name)
+        return self._find_parameter(name)
 
-    def _parameter(self, name: str) -> Knob:
+    def _find_parameter(self, name: str) -> Knob:
         for slot in self.system.slots:
             if name == slot.key or (slot.term is None and name in slot.param.aliases):
                 return Knob(name, "parameter", slot.key, slot.unit, slot.param.meaning)
@@ -88,56 +88,56 @@ class SweptMachine:
         known = [*self.groups, *(s.key for s in self.system.slots), *(f"drive.{key}" for key in DRIVE), *states]
         raise CaseError(f"{self.assembly.label} has no {name!r}{nearest(name, known)}: it has {', '.join(known)}")
 
-    def unit(self, name: str) -> str:
-        """Return the unit of a knob as it is swept."""
-        return "1" if self.normalised else self.knob(name).unit or "1"
+    def get_unit(self, name: str) -> str:
+        """Return the unit in which a quantity is swept."""
+        return "1" if self.normalised else self.find_knob(name).unit or "1"
 
-    def _drive_unit(self, key: str) -> str:
+    def _get_drive_unit(self, key: str) -> str:
         if key != "amplitude":
             return "rad/s" if key == "omega" else "rad"
         return unit_of(self.assembly.model.inputs[0], self.assembly.model.motion)
 
-    def checked(self) -> SweptMachine:
-        """Return this rig, or raise `CaseError` when a knob is unknown, is set twice over, or is wanting."""
+    def validate(self) -> SweptMachine:
+        """Return this machine, or raise `CaseError` when a quantity is unknown, set twice, or missing."""
         found: dict[str, str] = {}
         for name in (*self.fixed, *self.swept):
-            knob = self.knob(name)
+            knob = self.find_knob(name)
             if knob.key in found:
                 raise CaseError(f"{found[knob.key]} and {name} both set {knob.key}: keep one")
             found[knob.key] = name
         if self.normalised:
-            lacking = [g.name for g in self.groups.values() if g.target not in found and self._wanted(g.target)]
+            missing = [g.name for g in self.groups.values() if g.target not in found and self._needs_value(g.target)]
         else:
-            lacking = [f"drive.{key}" for key in ("amplitude", "omega") if f"drive.{key}" not in found]
-        if lacking:
+            missing = [f"drive.{key}" for key in ("amplitude", "omega") if f"drive.{key}" not in found]
+        if missing:
             raise CaseError(
-                f"{lacking[0]} is not given: add --set {lacking[0]}=..., or sweep it with --x, --y or --axis"
+                f"{missing[0]} is not given: add --set {missing[0]}=..., or sweep it with --x, --y or --axis"
             )
         return self
 
-    def _wanted(self, target: str) -> bool:
-        """Return whether the target of a dimensionless number has no value that goes without saying."""
+    def _needs_value(self, target: str) -> bool:
+        """Return whether the target of a dimensionless number has no default value."""
         if target.startswith("drive."):
             return target == "drive.amplitude"
         return self.system.slot(target).param.scale == "log"
 
     @cached_property
-    def _plan(self) -> Mapping[str, Knob]:
-        return {name: self.knob(name) for name in (*self.fixed, *self.swept)}
+    def _knobs(self) -> Mapping[str, Knob]:
+        return {name: self.find_knob(name) for name in (*self.fixed, *self.swept)}
 
     @cached_property
-    def _usual(self) -> dict[str, float]:
-        """What parameters and drive are before anything is set."""
+    def _default_values(self) -> dict[str, float]:
+        """Values of parameters and drive before anything is set."""
         if not self.normalised:
             return {}
         ones = {q.name: 1.0 for q in self.assembly.model.params if q.scale == "log"}
-        return {**ones, "drive.omega": OMEGA}
+        return {**ones, "drive.omega": DEFAULT_OMEGA}
 
     def flow(self, point: Mapping[str, float]) -> tuple[Flow, dict[int, float]]:
-        """Return the flow with the swept knobs at `point`, and the states (index: value) whose start is told."""
-        numbers, values, begin = {**self.fixed, **point}, dict(self._usual), {}
+        """Return the flow at the swept values `point`, and the given initial values of states (index: value)."""
+        numbers, values, begin = {**self.fixed, **point}, dict(self._default_values), {}
         for name, number in numbers.items():
-            knob = self._plan[name]
+            knob = self._knobs[name]
             if knob.kind == "start":
                 begin[self.assembly.model.states.index(name.partition(".")[2])] = number
             elif knob.kind != "group":
@@ -149,15 +149,15 @@ class SweptMachine:
         return flow_of(self.system, values, drive=beat), begin
 
 
-def reach(flow: Flow, periods: int, looks: int = 8) -> Array:
-    """Return the largest size (n,) of each state on the way from the start of the flow, one where it does not move."""
+def measure_extent(flow: Flow, periods: int, looks: int = 8) -> Array:
+    """Return the largest absolute value (n,) of each state on the way from the start, one where it does not move."""
     sample = getattr(flow, "sample", None)
-    seen = sample(flow.start, periods=periods, looks=looks) if sample else _strobed(flow, periods)
+    seen = sample(flow.start, periods=periods, looks=looks) if sample else _sample_strobe(flow, periods)
     seen = seen[np.isfinite(seen).all(axis=1) & (np.abs(seen) < 1e6 * (1.0 + np.abs(seen[:1]))).all(axis=1)]
     size = np.abs(seen).max(axis=0, initial=0.0)
     wide: Array = np.where(size > 0.0, size, float(size.max(initial=0.0)) or 1.0)
     return wide
 
 
-def _strobed(flow: Flow, periods: int) -> Array:
+def _sample_strobe(flow: Flow, periods: int) -> Array:
     return flow.strobe(flow.start, periods=periods, tangents=0).states

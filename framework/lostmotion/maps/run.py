@@ -1,4 +1,4 @@
-"""From texts, as the command line has them, to a map on the disk."""
+"""From the texts of the command line to a map on the disk."""
 
 from __future__ import annotations
 
@@ -7,26 +7,26 @@ from pathlib import Path
 
 from lostmotion.defaults import DIMENSION, EMBEDDER, ENTROPY, FLOW_EXPONENT
 from lostmotion.errors import CaseError, DataError
-from lostmotion.maps.axes import axis_of
+from lostmotion.maps.axes import parse_axis
 from lostmotion.maps.cells import Study
-from lostmotion.maps.layout import layout_of
+from lostmotion.maps.layout import make_grid_layout
 from lostmotion.maps.map import Map
-from lostmotion.maps.refine import MOST, cleared, finished_layout, refined
+from lostmotion.maps.refine import MAX_LEVELS, compute_refined_map, make_refined_layout, remove_stores
 from lostmotion.maps.rig import DRIVE, SweptMachine
-from lostmotion.maps.store import ENDINGS, as_dataset, holds, load, save_netcdf, save_zarr
-from lostmotion.maps.sweep import Crew, Say, sweep
+from lostmotion.maps.store import SUFFIXES, has_finished_map, load, make_dataset, save_netcdf, save_zarr
+from lostmotion.maps.sweep import ProgressCallback, Workers, sweep
 from lostmotion.registry import Registry
 from lostmotion.simulation.drives import Options, number, pairs
 from lostmotion.simulation.simulate import assembly_of
 from lostmotion.storage import folder_for
 
-SHORT = {"d2": DIMENSION, "k2": ENTROPY}
+SHORT_NAMES = {"d2": DIMENSION, "k2": ENTROPY}
 """Short names of quantities."""
 
 
 @dataclass(frozen=True)
 class Request:
-    """What is asked for, as texts; `axes` are `NAME=LOW:HIGH:N[:log|inverse]`, `sets` `NAME=VALUE`."""
+    """The request for a map as texts; `axes` are `NAME=LOW:HIGH:N[:log|inverse]`, `sets` are `NAME=VALUE`."""
 
     model: str
     axes: tuple[str, ...]
@@ -42,106 +42,106 @@ class Request:
     motion: str | None = None
 
 
-def study_of(request: Request, registry: Registry) -> Study:
-    """Return the study that is asked for, or raise a `LostMotionError` that says what cannot be meant."""
+def make_study(request: Request, registry: Registry) -> Study:
+    """Return the requested study, or raise a `LostMotionError` that says what in the request is not valid."""
     if not request.axes:
         raise CaseError("a map has one axis or more: give --x NAME=LOW:HIGH:N")
-    axes = tuple(axis_of(text) for text in request.axes)
+    axes = tuple(parse_axis(text) for text in request.axes)
     names = [axis.name for axis in axes]
     if len({*names}) < len(names):
         raise CaseError(f"the axes are {', '.join(names)}: name each once")
     assembly, fixed = assembly_of(registry, request.model, request.terms, request.motion)
     for key, text in pairs(",".join(request.sets), "--set").items():
         fixed[key] = number(text, f"{key} of --set")
-    rig = SweptMachine(assembly, tuple(names), {**fixed, **_drive(request.drive)}).checked()
+    rig = SweptMachine(assembly, tuple(names), {**fixed, **_parse_drive(request.drive)}).validate()
     settings = {"periods": request.periods, "transient": request.transient}
     further = {}
     for name in request.quantities:
         if name != FLOW_EXPONENT:
-            full = SHORT.get(name, name)
+            full = SHORT_NAMES.get(name, name)
             known = {entry.name for entry in fields(registry.load("quantifier", full))}
             further[name] = registry.make("quantifier", full, **{k: v for k, v in settings.items() if k in known})
     embedder = registry.make("embedder", EMBEDDER) if any(q.reads == "series" for q in further.values()) else None
     exponent = registry.make("quantifier", FLOW_EXPONENT, **settings)
     used = [("model", request.model), *(("term", t.name) for t in assembly.terms)]
-    used += [("quantifier", SHORT.get(name, name)) for name in further]
+    used += [("quantifier", SHORT_NAMES.get(name, name)) for name in further]
     study = Study(
         rig, axes, exponent, further, embedder, request.periods, request.transient, request.starts, request.seed,
         request.unit == "bit", registry.origins(*used),
     )  # fmt: skip
-    _try_ends(study)
+    _check_ends(study)
     return study
 
 
-def _drive(text: str) -> dict[str, float]:
-    """Return the knobs that `harmonic:amplitude=..,omega=..,phase=..` sets; the frequency may be in Hz."""
+def _parse_drive(text: str) -> dict[str, float]:
+    """Return the values that `harmonic:amplitude=..,omega=..,phase=..` sets; `frequency` (Hz) may replace `omega`."""
     kind, _, rest = text.partition(":")
     if not text:
         return {}
-    told = pairs(rest, f"drive {text!r}")
-    if kind != "harmonic" or (unknown := sorted({*told} - {*DRIVE, "frequency"})):
+    given = pairs(rest, f"drive {text!r}")
+    if kind != "harmonic" or (unknown := sorted({*given} - {*DRIVE, "frequency"})):
         wrong = kind if kind != "harmonic" else unknown[0]
         raise CaseError(f"a map has no drive with {wrong!r}: write harmonic:amplitude=..,omega=..,phase=..")
-    options = Options("harmonic", told)
-    found = {f"drive.{key}": options.number(key) for key in ("amplitude", "phase") if key in told}
-    if "omega" in told or "frequency" in told:
+    options = Options("harmonic", given)
+    found = {f"drive.{key}": options.number(key) for key in ("amplitude", "phase") if key in given}
+    if "omega" in given or "frequency" in given:
         found["drive.omega"] = options.omega()
     return found
 
 
-def _try_ends(study: Study) -> None:
-    """Make the flow at the first and at the last cell, so that bad numbers are told before the work begins."""
+def _check_ends(study: Study) -> None:
+    """Construct the flow of the first and the last cell, so that invalid values are reported before the work begins."""
     for last in (False, True):
         study.rig.flow(study.point(tuple(n - 1 if last else 0 for n in study.shape)))
 
 
 @dataclass(frozen=True)
-class How:
-    """How a map is made: who computes, how often squares are halved, and whether what is there is thrown away."""
+class RunOptions:
+    """How a map is made: workers, number of halvings, and whether an existing map is overwritten (`fresh`)."""
 
-    crew: Crew = field(default_factory=Crew)
+    workers: Workers = field(default_factory=Workers)
     levels: int = 0
     fresh: bool = False
 
 
-def make_map(study: Study, out: Path, how: How, say: Say) -> Map:
+def make_map(study: Study, out: Path, options: RunOptions, say: ProgressCallback) -> Map:
     """Return the map of a study, made or continued at `out` (.zarr or .nc)."""
-    if out.suffix not in ENDINGS:
+    if out.suffix not in SUFFIXES:
         raise DataError(f"{out.name} ends in {out.suffix or 'nothing'!r}: a map is written as .zarr or .nc")
-    if not 0 <= how.levels <= MOST:
-        raise CaseError(f"{how.levels} halvings are asked for: wanted 0 to {MOST}")
+    if not 0 <= options.levels <= MAX_LEVELS:
+        raise CaseError(f"{options.levels} halvings are asked for: wanted 0 to {MAX_LEVELS}")
     folder_for(out.parent)
-    if how.levels:
-        _refine(study, out, how, say)
+    if options.levels:
+        _write_refined(study, out, options, say)
     elif out.suffix == ".zarr":
-        sweep(out, layout_of(study), how.crew, say, fresh=how.fresh)
+        sweep(out, make_grid_layout(study), options.workers, say, fresh=options.fresh)
     else:
-        _one_file(study, out, how, say)
+        _write_netcdf(study, out, options, say)
     return Map.open(out)
 
 
-def _one_file(study: Study, out: Path, how: How, say: Say) -> None:
-    """Write one netCDF at the end, from a store beside it that is removed."""
-    layout, parts = layout_of(study), out.with_name(f".{out.name}.parts")
-    if holds(out, layout, fresh=how.fresh):
-        cleared(parts)
+def _write_netcdf(study: Study, out: Path, options: RunOptions, say: ProgressCallback) -> None:
+    """Write one netCDF file from a temporary store beside it, which is then removed."""
+    layout, parts = make_grid_layout(study), out.with_name(f".{out.name}.parts")
+    if has_finished_map(out, layout, fresh=options.fresh):
+        remove_stores(parts)
         return
-    sweep(parts, layout, how.crew, say, fresh=how.fresh)
+    sweep(parts, layout, options.workers, say, fresh=options.fresh)
     save_netcdf(out, load(parts))
-    cleared(parts)
+    remove_stores(parts)
 
 
-def _refine(study: Study, out: Path, how: How, say: Say) -> None:
-    """Write a map that is fine at the boundary of chaos, from stores of its levels that are removed."""
-    layout, parts = finished_layout(study, how.levels), out.with_name(f".{out.name}.levels")
-    if holds(out, layout, fresh=how.fresh):
-        cleared(parts)
+def _write_refined(study: Study, out: Path, options: RunOptions, say: ProgressCallback) -> None:
+    """Write a map refined at the boundary of chaos from temporary stores of its levels, which are then removed."""
+    layout, parts = make_refined_layout(study, options.levels), out.with_name(f".{out.name}.levels")
+    if has_finished_map(out, layout, fresh=options.fresh):
+        remove_stores(parts)
         return
-    if how.fresh:
-        cleared(parts)
-    layout, columns = refined(study, how.levels, parts, crew=how.crew, say=say)
+    if options.fresh:
+        remove_stores(parts)
+    layout, columns = compute_refined_map(study, options.levels, parts, workers=options.workers, say=say)
     if out.suffix == ".nc":
-        save_netcdf(out, as_dataset(layout, columns))
+        save_netcdf(out, make_dataset(layout, columns))
     else:
         save_zarr(out, layout, columns)
-    cleared(parts)
+    remove_stores(parts)

@@ -102,23 +102,23 @@ def identify(
     wanted. `route` is "trajectory" or "quantifiers", which needs the path of a case, and may be given `maps`.
     `settings` are as for `diagnose`.
     """
-    from lostmotion.identification.run import Order, identified, inference_of, route_of
+    from lostmotion.identification.run import IdentificationRequest, choose_route, identify_case, make_inference_data
     from lostmotion.identification.sampling import SamplingPlan
     from lostmotion.preparation.prepare import case_of
 
     known_to = registry or default()
     limits = read(settings)
     plan = SamplingPlan(ess, max_steps, walkers, limits.chain)
-    order = Order(_texts(terms), seed, jobs, plan, route, tuple(Path(m) for m in maps), fresh, limits)
+    order = IdentificationRequest(_texts(terms), seed, jobs, plan, route, tuple(Path(m) for m in maps), fresh, limits)
     with shown("identify", progress) as say, TemporaryDirectory() as spare:
         place = Path(out) if out is not None else Path(spare)
         file = case_of(Path(case), known_to) if isinstance(case, str | Path) else None
-        if file is not None and route_of(file, order) == "quantifiers":
-            done = identified(file, None, place, known_to, order, lambda _steps, says: say(says))
+        if file is not None and choose_route(file, order) == "quantifiers":
+            done = identify_case(file, None, place, known_to, order, lambda _steps, says: say(says))
         else:
             prepared = case_from(case, model, known, estimate, known_to).prepared(known_to)
-            done = identified(prepared.case, prepared, place, known_to, order, lambda _steps, says: say(says))
-        data = inference_of(done)
+            done = identify_case(prepared.case, prepared, place, known_to, order, lambda _steps, says: say(says))
+        data = make_inference_data(done)
     found = IdentificationResult(done.result, {name: data[name] for name in data.groups()})
     if out is not None:
         found.save(out)
@@ -256,8 +256,8 @@ def map(
     many `starts`, followed over so many `periods`, of which a `transient` is left out; `refine` halves cells so often
     where neighbours differ.
     """
-    from lostmotion.maps.run import How, Request, make_map, study_of
-    from lostmotion.maps.sweep import Crew
+    from lostmotion.maps.run import Request, RunOptions, make_map, make_study
+    from lostmotion.maps.sweep import Workers
 
     request = Request(
         model,
@@ -273,8 +273,8 @@ def map(
         seed,
         motion,
     )
-    study = study_of(request, registry or default())
-    return make_map(study, Path(out), How(Crew(jobs), refine, fresh), lambda _done, _of: None).dataset
+    study = make_study(request, registry or default())
+    return make_map(study, Path(out), RunOptions(Workers(jobs), refine, fresh), lambda _done, _of: None).dataset
 
 
 def case_from(

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from lostmotion.codec import to_plain
 from lostmotion.identification.report import figures as drawing
 from lostmotion.identification.report import page as page
-from lostmotion.identification.report.view import AGAIN, DRAWS, RESULT, IdentificationView, view_of
+from lostmotion.identification.report.view import DRAWS, RERUN_HINT, RESULT, IdentificationView, make_view
 from lostmotion.report import style
 from lostmotion.results import Interval
 from lostmotion.results.identification import Identification
@@ -35,12 +35,12 @@ class PosteriorPlots:
     def corner(self) -> Figure:
         """Return the parameters drawn one against another."""
         with style.applied():
-            return drawing.corner(self.view)
+            return drawing.draw_corner(self.view)
 
     def trace(self) -> Figure:
         """Return the walkers over the steps, and how their ranks mix."""
         with style.applied():
-            return drawing.trace(self.view)
+            return drawing.draw_trace(self.view)
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,7 +73,7 @@ class IdentificationResult:
     @property
     def view(self) -> IdentificationView:
         """The result and its draws as figures take them."""
-        return view_of(self.result, self.groups["posterior"])
+        return make_view(self.result, self.groups["posterior"])
 
     @property
     def plot(self) -> PosteriorPlots:
@@ -123,10 +123,10 @@ class IdentificationResult:
 
 def load_identification(folder: Path) -> IdentificationResult:
     """Return the identification that was saved into a folder; `DataError` where it is absent or damaged."""
-    result = load_result(Identification, folder / RESULT, AGAIN)
+    result = load_result(Identification, folder / RESULT, RERUN_HINT)
     import h5netcdf
 
     with h5netcdf.File(folder / DRAWS, "r") as file:
         names = list(file.groups)
-    groups = {name: load_arrays(folder / DRAWS, AGAIN, group=name) for name in names}
+    groups = {name: load_arrays(folder / DRAWS, RERUN_HINT, group=name) for name in names}
     return IdentificationResult(result, groups)

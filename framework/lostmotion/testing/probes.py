@@ -78,8 +78,8 @@ def differ(a: Any, b: Any) -> float:
 
 @lru_cache(maxsize=256)
 def compiled(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Return the function compiled as the host compiles it."""
-    import numba
+    """Return the function compiled as the host compiles it, with the plain functions that it calls."""
+    from lostmotion.likelihood.adopted import adopted
 
-    fast: Callable[..., Any] = numba.njit(error_model="numpy")(function)
+    fast: Callable[..., Any] = adopted(function, __name__)
     return fast

@@ -1,4 +1,4 @@
-"""Compiled loops of the denoisers: points sorted into boxes, means over neighbours, local projections."""
+"""Compiled loops of the denoisers: sort points into boxes, and average over neighbours."""
 
 from __future__ import annotations
 
@@ -7,10 +7,11 @@ import numpy as np
 
 
 @numba.njit(cache=True, nogil=True)
-def boxed(first, second, size, low, shape):  # type: ignore[no-untyped-def]
+def sort_points(first, second, size, low, shape):  # type: ignore[no-untyped-def]
     """Return the order (n,) of points by box, and offsets (boxes + 1,) of the boxes, row by row.
 
-    Boxes of the side `size` lie over the coordinates `first`, `second` (n,), from `low` (2,) on, `shape` (2,) of them.
+    Boxes with the side `size` divide the plane of the coordinates `first` and `second` (n,); they begin at `low` (2,),
+    and there are `shape` (2,) of them.
     """
     n, boxes = len(first), shape[0] * shape[1]
     where = np.empty(n, np.int64)
@@ -31,10 +32,10 @@ def boxed(first, second, size, low, shape):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy", fastmath={"reassoc", "nsz", "contract"})
-def averaged(points, values, radius, offsets, shape, rows, out):  # type: ignore[no-untyped-def]
-    """Write into `out` (n,) the mean of `values` over neighbours within `radius` (maximum norm), the point among them.
+def average_neighbours(points, values, radius, offsets, shape, rows, out):  # type: ignore[no-untyped-def]
+    """Write into `out` (n,) the mean of `values` over the point and its neighbours within `radius` (maximum norm).
 
-    `points` (dim, n) and `values` (n,) stand in the order of their boxes; boxes of the rows `rows` (2,) are done.
+    `points` (dim, n) and `values` (n,) are in the order of their boxes; the boxes of the rows `rows` (2,) are treated.
     """
     dim = points.shape[0]
     for a in range(rows[0], rows[1]):
@@ -45,18 +46,18 @@ def averaged(points, values, radius, offsets, shape, rows, out):  # type: ignore
                 total, count = 0.0, 0
                 for c in range(max(a - 1, 0), min(a + 1, shape[0] - 1) + 1):
                     begin, end = offsets[c * shape[1] + left], offsets[c * shape[1] + right + 1]
-                    part, many = _gathered(points, values, i, begin, end, radius, dim)
+                    part, many = _sum_neighbours(points, values, i, begin, end, radius, dim)
                     total += part
                     count += many
                 out[i] = values[i] + total / count
 
 
 @numba.njit(cache=True, nogil=True, fastmath={"reassoc", "nsz", "contract"})
-def _gathered(points, values, i, begin, end, radius, dim):  # type: ignore[no-untyped-def]
-    """Return the sum of values, that of point i taken off, and number of the points begin..end within `radius` of i.
+def _sum_neighbours(points, values, i, begin, end, radius, dim):  # type: ignore[no-untyped-def]
+    """Return the sum of values minus that of point i, and the number, of the points begin..end within `radius` of i.
 
-    No branch and no early way out: the loop over points runs in vector registers, which is worth more than the
-    coordinates that are looked at in vain.
+    There is no branch and no early exit, so the loop over points runs in vector registers. This saves more time than
+    the unneeded coordinates cost.
     """
     total, count = 0.0, 0
     own = values[i]

@@ -1,4 +1,4 @@
-"""Compiled loops of local projections: neighbourhoods, their covariances, and what lies outside of the widest axes."""
+"""Compiled loops of local projections: neighbourhoods, their covariances, and the part outside of the widest axes."""
 
 from __future__ import annotations
 
@@ -6,12 +6,12 @@ import numba
 import numpy as np
 
 SQUARINGS = 7
-"""A matrix is squared so often: of two eigenvalues that differ by 5 % the larger is then 500 times the other."""
+"""Number of times a matrix is squared: two eigenvalues that differ by 5 % then have a ratio of 500."""
 
 
 @numba.njit(cache=True, nogil=True)
-def gather(points, i, radius, offsets, shape, home, found):  # type: ignore[no-untyped-def]
-    """Return how many points (n, dim), sorted by box, lie within `radius` of point i; their places go to `found`."""
+def find_neighbours(points, i, radius, offsets, shape, home, found):  # type: ignore[no-untyped-def]
+    """Write into `found` which points (n, dim), sorted by box, lie within `radius` of point i; return their number."""
     dim, count = points.shape[1], 0
     a, b = home // shape[1], home % shape[1]
     left, right = max(b - 1, 0), min(b + 1, shape[1] - 1)
@@ -27,11 +27,12 @@ def gather(points, i, radius, offsets, shape, home, found):  # type: ignore[no-u
 
 
 @numba.njit(cache=True, nogil=True)
-def neighbourhoods(points, order, radius, offsets, shape, rows, least, members, sizes):  # type: ignore[no-untyped-def]
-    """Write the neighbours of those points that have none yet and find `least` of them into `members` (n, most).
+def fill_neighbourhoods(points, order, radius, offsets, shape, rows, least, members, sizes):  # type: ignore[no-untyped-def]
+    """Write into `members` (n, most) the neighbours of points that have none yet and at least `least` within `radius`.
 
-    `points` (n, dim) stand in the order of their boxes; all else is numbered as in the series. `sizes` (n,) counts
-    the members: of too many every second, third, ... is taken, so that they still fill the whole neighbourhood.
+    `points` (n, dim) are in the order of their boxes; all other arrays are in the order of the series. `sizes` (n,)
+    counts the members. Where there are too many, every second, third, ... is taken, so that they still cover the whole
+    neighbourhood.
     """
     most = members.shape[1]
     found = np.empty(len(points), np.int64)
@@ -40,7 +41,7 @@ def neighbourhoods(points, order, radius, offsets, shape, rows, least, members, 
             own = order[i]
             if sizes[own] > 0:
                 continue
-            count = gather(points, i, radius, offsets, shape, home, found)
+            count = find_neighbours(points, i, radius, offsets, shape, home, found)
             if count < least:
                 continue
             step = (count + most - 1) // most
@@ -53,29 +54,29 @@ def neighbourhoods(points, order, radius, offsets, shape, rows, least, members, 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
 def project(x, dim, keep, members, sizes, span, correction):  # type: ignore[no-untyped-def]
-    """Write into `correction` (n, dim - 2) what of each window lies outside of the subspace of its neighbours.
+    """Write into `correction` (n, dim - 2) the part of each window outside of the subspace of its neighbours.
 
     The first and the last sample of a window are held fixed, which is the limit of a metric that weights them
-    heavily: what they explain of the samples between is taken off, and of the rest the `keep` widest axes stay.
+    heavily: the inner samples are regressed on them, and the `keep` widest axes of the residuals are retained.
     """
     inner = dim - 2
     mean, rest = np.empty(dim), np.empty(inner)
     matrix, slopes = np.empty((dim, dim)), np.empty((inner, 2))
     inside, power, room = np.empty((inner, inner)), np.empty((inner, inner)), np.empty((inner, inner))
     for i in range(span[0], span[1]):
-        covariance(x, members[i, : sizes[i]], mean, matrix)
-        between_ends(matrix, slopes, inside)
+        compute_covariance(x, members[i, : sizes[i]], mean, matrix)
+        regress_on_ends(matrix, slopes, inside)
         first, last = x[i] - mean[0], x[i + dim - 1] - mean[dim - 1]
         for k in range(inner):
             rest[k] = x[i + k + 1] - mean[k + 1] - slopes[k, 0] * first - slopes[k, 1] * last
         for _ in range(keep):
-            take_widest(inside, power, room, rest)
+            remove_widest_axis(inside, power, room, rest)
         correction[i] = rest
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
-def untrended(members, sizes, correction, span, out):  # type: ignore[no-untyped-def]
-    """Write into `out` (n, k) the corrections less their mean over the neighbourhood: a bend is no noise."""
+def remove_means(members, sizes, correction, span, out):  # type: ignore[no-untyped-def]
+    """Write into `out` (n, k) the corrections minus their mean over the neighbourhood, which is due to curvature."""
     for i in range(span[0], span[1]):
         for k in range(correction.shape[1]):
             total = 0.0
@@ -85,7 +86,7 @@ def untrended(members, sizes, correction, span, out):  # type: ignore[no-untyped
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
-def covariance(x, members, mean, matrix):  # type: ignore[no-untyped-def]
+def compute_covariance(x, members, mean, matrix):  # type: ignore[no-untyped-def]
     """Write mean (dim,) and covariance (dim, dim) of the windows of `x` that begin at `members`."""
     dim, many = len(mean), len(members)
     mean[:] = 0.0
@@ -106,8 +107,8 @@ def covariance(x, members, mean, matrix):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
-def between_ends(matrix, slopes, inside):  # type: ignore[no-untyped-def]
-    """Write how the inner samples follow the two ends, `slopes` (dim - 2, 2), and the covariance of what is left."""
+def regress_on_ends(matrix, slopes, inside):  # type: ignore[no-untyped-def]
+    """Write the regression of the inner samples on the ends, `slopes` (dim - 2, 2), and the residual covariance."""
     end = len(matrix) - 1
     ridge = 1e-10 * (matrix[0, 0] + matrix[end, end]) + 1e-300
     a, b, c = matrix[0, 0] + ridge, matrix[0, end], matrix[end, end] + ridge
@@ -123,8 +124,8 @@ def between_ends(matrix, slopes, inside):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
-def take_widest(inside, power, room, rest):  # type: ignore[no-untyped-def]
-    """Take the widest axis of the covariance `inside` (k, k) off itself and off the vector `rest` (k,)."""
+def remove_widest_axis(inside, power, room, rest):  # type: ignore[no-untyped-def]
+    """Remove the widest axis of the covariance `inside` (k, k) from it and from the vector `rest` (k,)."""
     k = len(rest)
     power[:] = inside
     for _ in range(SQUARINGS):
@@ -134,7 +135,7 @@ def take_widest(inside, power, room, rest):  # type: ignore[no-untyped-def]
         if not scale > 0.0:
             return
         power /= scale
-        square(power, room)
+        square_matrix(power, room)
         power, room = room, power
     widest = 0
     for a in range(k):
@@ -156,7 +157,7 @@ def take_widest(inside, power, room, rest):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(cache=True, nogil=True)
-def square(matrix, out):  # type: ignore[no-untyped-def]
+def square_matrix(matrix, out):  # type: ignore[no-untyped-def]
     """Write the product of a symmetric matrix (k, k) with itself into `out`."""
     k = len(matrix)
     for a in range(k):

@@ -1,4 +1,4 @@
-"""Noise reduction by the mean over what went on alike."""
+"""Noise reduction by the mean over similar pieces of the series."""
 
 from __future__ import annotations
 
@@ -9,20 +9,17 @@ import numpy as np
 
 from lostmotion.contracts import Array, Denoiser, Series
 from lostmotion.kernels.threads import spread
-from lostmotion_plugins.denoisers._kernels import averaged
-from lostmotion_plugins.denoisers.boxes import sort_into_boxes, windows
-
-SLICES = 64
-"""Pieces of work: many, since boxes are filled unevenly."""
+from lostmotion_plugins.denoisers._kernels import average_neighbours
+from lostmotion_plugins.denoisers.boxes import SLICES, cut_windows, sort_into_boxes
 
 
 @dataclass(frozen=True)
 class SimpleNonlinear(Denoiser):
     """The middle of each window of `dim` samples is replaced by its mean over similar windows. Schreiber (1993).
 
-    Similar windows lie within `radius` times the noise in every sample; in each further one of the `iterations` the
-    neighbourhood shrinks to the rms of the last correction. Of a driven machine they have much the same drive phase
-    too: a gain of up to a tenth in the noise that is left.
+    Similar windows differ by at most `radius` times the noise in every sample; in each further one of the `iterations`
+    the neighbourhood shrinks to the rms of the last correction. For a driven machine their drive phases must be
+    similar, too (`phase`), which reduces the remaining noise by up to a tenth.
     """
 
     dim: int = 7
@@ -38,21 +35,21 @@ class SimpleNonlinear(Denoiser):
         for _ in range(self.iterations):
             if not (radius > 0.0 and series.n >= 4 * self.dim):
                 break
-            cleaner = _averaged(x, self.dim, radius, driven)
+            cleaner = _average_windows(x, self.dim, radius, driven)
             radius = float(np.sqrt(np.mean((cleaner - x) ** 2)))
             x = cleaner
         return x
 
 
-def _averaged(x: Array, dim: int, radius: float, series: Series) -> Array:
+def _average_windows(x: Array, dim: int, radius: float, series: Series) -> Array:
     """Return `x` (n,) with the middle of each window averaged over its neighbours; the ends stay as they are."""
-    boxes = sort_into_boxes(windows(x, dim, radius, series), dim, radius)
+    boxes = sort_into_boxes(cut_windows(x, dim, radius, series), dim, radius)
     columns = np.ascontiguousarray(boxes.points.T)
     middle = columns[dim // 2].copy()
     means = np.empty(len(middle))
 
     def work(begin: int, end: int) -> None:
-        averaged(columns, middle, radius, boxes.offsets, boxes.shape, (begin, end), means)
+        average_neighbours(columns, middle, radius, boxes.offsets, boxes.shape, (begin, end), means)
 
     spread(work, int(boxes.shape[0]), slices=SLICES)
     out = x.copy()

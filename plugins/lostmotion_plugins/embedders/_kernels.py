@@ -1,4 +1,4 @@
-"""Compiled loops of the embedders: counting pairs of bins, and neighbours in the plane and on its axes."""
+"""Compiled loops of the embedders: counts of pairs of bins, and of neighbours in the plane and on its axes."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from lostmotion.kernels.seek import seek
 
 
 @numba.njit(cache=True, nogil=True)
-def _count(codes, bins, lag, counts):  # type: ignore[no-untyped-def]
+def _count_pairs(codes, bins, lag, counts):  # type: ignore[no-untyped-def]
     """Fill counts (2, bins * bins) with the pairs (x(t), x(t + lag)).
 
-    Neighbouring samples fall into the same cell, and a cell that is being written must be waited for: so one half of
-    the recording goes into the first table, the other into the second.
+    Successive samples fall into the same cell, and each write to a cell must wait for the one before. So one half of
+    the recording is counted in the first table, the other half in the second.
     """
     counts[:] = 0
     half = (len(codes) - lag) // 2
@@ -29,8 +29,11 @@ def _count(codes, bins, lag, counts):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(cache=True, nogil=True)
-def _reduce(counts, bins, table, rows, columns):  # type: ignore[no-untyped-def]
-    """Return the sum of c ln c over all cells, and over the margins; and how many more cells than margins are full."""
+def _sum_entropies(counts, bins, table, rows, columns):  # type: ignore[no-untyped-def]
+    """Return the sums of c ln c over all cells and over the margins, and how many more cells than margins are filled.
+
+    `table` holds c ln c; `rows` and `columns` (bins,) are work space.
+    """
     rows[:] = 0
     columns[:] = 0
     total, extra = 0.0, 1
@@ -50,23 +53,23 @@ def _reduce(counts, bins, table, rows, columns):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(cache=True, nogil=True)
-def binned(codes, bins, begin, end, table, ami, bias):  # type: ignore[no-untyped-def]
-    """Fill ami and bias (nats) at the lags begin..end; `table` holds c ln c for all counts c."""
+def fill_binned(codes, bins, begin, end, table, ami, bias):  # type: ignore[no-untyped-def]
+    """Fill `ami` and `bias` (nats) at the lags begin..end; `table` holds c ln c for all counts c."""
     counts = np.empty((2, bins * bins), np.int32)
     rows, columns = np.empty(bins, np.int64), np.empty(bins, np.int64)
     for lag in range(begin, end):
-        _count(codes, bins, lag, counts)
-        total, margins, extra = _reduce(counts, bins, table, rows, columns)
+        _count_pairs(codes, bins, lag, counts)
+        total, margins, extra = _sum_entropies(counts, bins, table, rows, columns)
         pairs = len(codes) - lag
         ami[lag] = math.log(pairs) + (total - margins) / pairs
         bias[lag] = extra / (2.0 * pairs)
 
 
 @numba.njit(cache=True, nogil=True)
-def scatter(codes, bins, lag):  # type: ignore[no-untyped-def]
-    """Return the standard error (nats) of the mutual information at a lag, were the pairs independent draws."""
+def compute_scatter(codes, bins, lag):  # type: ignore[no-untyped-def]
+    """Return the standard error (nats) of the mutual information at a lag, as if the pairs were independent."""
     counts = np.empty((2, bins * bins), np.int32)
-    _count(codes, bins, lag, counts)
+    _count_pairs(codes, bins, lag, counts)
     joint, rows, columns = np.zeros((bins, bins)), np.zeros(bins), np.zeros(bins)
     for a in range(bins):
         for b in range(bins):
@@ -84,7 +87,7 @@ def scatter(codes, bins, lag):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(cache=True, nogil=True)
-def _poisson(rate):  # type: ignore[no-untyped-def]
+def _expect_poisson(rate):  # type: ignore[no-untyped-def]
     """Return the expectation of c ln c, and of c > 0, for a Poisson count c with this rate."""
     if rate > 50.0:
         return rate * math.log(rate) + 0.5 + 1.0 / (12.0 * rate), 1.0
@@ -97,10 +100,10 @@ def _poisson(rate):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(cache=True, nogil=True)
-def by_chance(margin, corrected):  # type: ignore[no-untyped-def]
+def expect_by_chance(margin, corrected):  # type: ignore[no-untyped-def]
     """Return the mutual information (nats) expected of independent pairs with counts `margin` (bins,) on both axes.
 
-    Cells are taken for Poisson counts; that the margins are given takes off 1/2 for each of them.
+    The counts of the cells are taken as Poisson; since the margins are fixed, 1/2 is subtracted for each of them.
     """
     pairs = margin.sum()
     total, margins, extra = 0.5, 0.0, 1.0
@@ -111,7 +114,7 @@ def by_chance(margin, corrected):  # type: ignore[no-untyped-def]
             total -= 1.0
         for b in range(len(margin)):
             if margin[a] > 0 and margin[b] > 0:
-                mean, full = _poisson(margin[a] * margin[b] / pairs)
+                mean, full = _expect_poisson(margin[a] * margin[b] / pairs)
                 total += mean
                 extra += full
     found = math.log(pairs) + (total - margins) / pairs
@@ -119,7 +122,7 @@ def by_chance(margin, corrected):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(cache=True, nogil=True)
-def _closer(ordered, here, reach):  # type: ignore[no-untyped-def]
+def _count_closer(ordered, here, reach):  # type: ignore[no-untyped-def]
     """Return how many of the sorted values differ from `here` by less than `reach`."""
     low = np.searchsorted(ordered, here - reach, side="left")
     high = np.searchsorted(ordered, here + reach, side="right")
@@ -135,7 +138,7 @@ def _closer(ordered, here, reach):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(cache=True, nogil=True)
-def gains(tree, axes, queries, k, psi, work, gained):  # type: ignore[no-untyped-def]
+def fill_gains(tree, axes, queries, k, psi, work, gained):  # type: ignore[no-untyped-def]
     """Fill gained (q,) with psi(k) + psi(n) - psi(n_x + 1) - psi(n_y + 1) at each query; `psi[c]` is that of c."""
     first, second = axes
     index, far = np.empty(k, np.int64), np.empty(k)
@@ -143,6 +146,6 @@ def gains(tree, axes, queries, k, psi, work, gained):  # type: ignore[no-untyped
         i = queries[a]
         seek(tree, i, (0, -1.0, False), np.inf, index, far, work)
         x, y, reach = tree.points[i, 0], tree.points[i, 1], far[k - 1]
-        along = _closer(first, x, reach)
-        across = _closer(second, y, reach)
+        along = _count_closer(first, x, reach)
+        across = _count_closer(second, y, reach)
         gained[a] = psi[k] + psi[len(first)] - psi[max(along, 1)] - psi[max(across, 1)]

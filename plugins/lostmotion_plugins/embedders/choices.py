@@ -1,9 +1,10 @@
-"""The embedders: how the delay is chosen, and how the dimension."""
+"""The embedders: each combines a method for the delay with a method for the dimension."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import ClassVar, Literal
 
 import numpy as np
@@ -14,18 +15,18 @@ from lostmotion.kernels.neighbours import Norm
 from lostmotion.results import Embedding
 from lostmotion_plugins.embedders.delay import (
     Delay,
-    by_autocorrelation,
-    by_information,
-    by_neighbours,
-    tamed,
-    theiler_window,
+    choose_by_autocorrelation,
+    choose_by_information,
+    choose_by_neighbours,
+    choose_theiler_window,
+    clip_outliers,
 )
 from lostmotion_plugins.embedders.dimension import (
     EmbeddingDimension,
     Unfolding,
-    by_cao,
-    by_false_neighbours,
-    room,
+    choose_by_cao,
+    choose_by_false_neighbours,
+    limit_dimension,
     unfold,
 )
 
@@ -37,10 +38,10 @@ _FRASER = "Fraser, Swinney, Physical Review A 33 (1986) 1134-1140"
 class AmiCao(Embedder):
     """First minimum of the average mutual information in bins, and Cao's E1 and E2.
 
-    `longest` is the last lag looked at and `bins` the number of bins a side (0: chosen from the series);
+    `longest` is the last lag that is examined and `bins` the number of bins on each side (0: chosen from the series);
     `equal_counts` makes bins of equal counts, for series with outliers; a minimum must stand out by `prominence`
-    standard errors. `dims` is the last dimension looked at; E1 has levelled off above `level` where it rises by less
-    than `change`.
+    standard errors. `dims` is the last dimension that is examined; E1 has levelled off above `level` where it rises by
+    less than `change`.
     """
 
     longest: int = 0
@@ -55,10 +56,7 @@ class AmiCao(Embedder):
     paper: ClassVar[str] = f"{_FRASER}; {_CAO}"
 
     def choose(self, x: Array, *, dt: float) -> Embedding:
-        delay = by_information(
-            tamed(x), self.longest, bins=self.bins, equal_counts=self.equal_counts, prominence=self.prominence
-        )
-        return _with_cao(x, delay, dt, self)
+        return _choose_with_cao(x, _choose_binned_delay(x, self), dt, self)
 
 
 @dataclass(frozen=True)
@@ -82,23 +80,16 @@ class AmiFnn(Embedder):
     paper: ClassVar[str] = f"{_FRASER}; Kennel, Brown, Abarbanel, Physical Review A 45 (1992) 3403-3411"
 
     def choose(self, x: Array, *, dt: float) -> Embedding:
-        delay = by_information(
-            tamed(x), self.longest, bins=self.bins, equal_counts=self.equal_counts, prominence=self.prominence
-        )
-        return _embedded(
-            x, delay, dt, _Search(self.dims, self.norm, self.ratio, self.loneliness), lambda found: self._choice(found)
-        )
-
-    def _choice(self, found: Unfolding) -> EmbeddingDimension:
-        return by_false_neighbours(found, share=self.share)
+        delay, search = _choose_binned_delay(x, self), _Search(self.dims, self.norm, self.ratio, self.loneliness)
+        return _choose_embedding(x, delay, dt, search, partial(choose_by_false_neighbours, share=self.share))
 
 
 @dataclass(frozen=True)
 class AmiKnnCao(Embedder):
     """First minimum of the mutual information by nearest neighbours, which needs no bins, and Cao's E1 and E2.
 
-    The mutual information is averaged over `most` samples with their `neighbours` nearest neighbours; `seed` is that
-    of the dither which breaks the ties of quantised series. For the other options see `ami_cao`.
+    The mutual information is averaged over `most` samples with their `neighbours` nearest neighbours; `seed` is the
+    seed of the dither that breaks the ties of quantised series. For the other options see `ami_cao`.
     """
 
     longest: int = 0
@@ -115,15 +106,15 @@ class AmiKnnCao(Embedder):
 
     def choose(self, x: Array, *, dt: float) -> Embedding:
         rng = np.random.default_rng(self.seed)
-        delay = by_neighbours(
-            tamed(x), self.longest, rng=rng, k=self.neighbours, most=self.most, prominence=self.prominence
+        delay = choose_by_neighbours(
+            clip_outliers(x), self.longest, rng=rng, k=self.neighbours, most=self.most, prominence=self.prominence
         )
-        return _with_cao(x, delay, dt, self)
+        return _choose_with_cao(x, delay, dt, self)
 
 
 @dataclass(frozen=True)
 class AutocorrelationCao(Embedder):
-    """Where the autocorrelation falls to 1/e, or crosses zero first, and Cao's E1 and E2: for linear motions.
+    """First lag at which the autocorrelation falls to 1/e, or to zero, and Cao's E1 and E2: for linear motions.
 
     For the other options see `ami_cao`.
     """
@@ -139,12 +130,12 @@ class AutocorrelationCao(Embedder):
 
     def choose(self, x: Array, *, dt: float) -> Embedding:
         level = 0.0 if self.crossing == "zero" else float(np.exp(-1.0))
-        return _with_cao(x, by_autocorrelation(tamed(x), self.longest, level=level), dt, self)
+        return _choose_with_cao(x, choose_by_autocorrelation(clip_outliers(x), self.longest, level=level), dt, self)
 
 
 @dataclass(frozen=True)
 class Fixed(Embedder):
-    """Lag, dimension and Theiler window as they are given; `theiler` -1 has the window chosen from the series."""
+    """Lag, dimension and Theiler window as given; with `theiler` = -1 the window is chosen from the series."""
 
     lag: int = 1
     dim: int = 3
@@ -154,16 +145,16 @@ class Fixed(Embedder):
 
     def choose(self, x: Array, *, dt: float) -> Embedding:
         if self.lag < 1 or self.dim < 1:
-            raise ContractError(f"fixed: lag {self.lag} and dim {self.dim} are given, at least 1 and 1 are wanted")
+            raise ContractError(f"fixed: lag {self.lag} and dim {self.dim} are given; both must be at least 1")
         if self.theiler >= 0:
             return Embedding(self.lag, self.dim, self.theiler)
-        window, says = theiler_window(tamed(x))
+        window, says = choose_theiler_window(clip_outliers(x))
         return Embedding(self.lag, self.dim, window, status="uncertain" if says else "ok", says=says)
 
 
 @dataclass(frozen=True)
 class _Search:
-    """What a search for neighbours in growing dimension is told."""
+    """Options of the search for neighbours in growing dimension."""
 
     dims: int
     norm: Norm
@@ -171,24 +162,30 @@ class _Search:
     loneliness: float = 2.0
 
 
-def _with_cao(x: Array, delay: Delay, dt: float, of: AmiCao | AmiKnnCao | AutocorrelationCao) -> Embedding:
-    """Return the embedding with that delay and the dimension by Cao's method."""
-    return _embedded(
-        x, delay, dt, _Search(of.dims, of.norm), lambda found: by_cao(found, change=of.change, level=of.level)
+def _choose_binned_delay(x: Array, of: AmiCao | AmiFnn) -> Delay:
+    """Return the delay by the mutual information in bins, with the options of an embedder."""
+    return choose_by_information(
+        clip_outliers(x), of.longest, bins=of.bins, equal_counts=of.equal_counts, prominence=of.prominence
     )
 
 
-def _embedded(
-    x: Array, delay: Delay, dt: float, search: _Search, choice: Callable[[Unfolding], EmbeddingDimension]
+def _choose_with_cao(x: Array, delay: Delay, dt: float, of: AmiCao | AmiKnnCao | AutocorrelationCao) -> Embedding:
+    """Return the embedding with that delay and the dimension by Cao's method."""
+    choose = partial(choose_by_cao, change=of.change, level=of.level)
+    return _choose_embedding(x, delay, dt, _Search(of.dims, of.norm), choose)
+
+
+def _choose_embedding(
+    x: Array, delay: Delay, dt: float, search: _Search, choose: Callable[[Unfolding], EmbeddingDimension]
 ) -> Embedding:
-    """Return the embedding with that delay and the dimension that `choice` reads from the search."""
-    theiler, short = theiler_window(tamed(x))
+    """Return the embedding with that delay and the dimension that `choose` reads from the search."""
+    theiler, short = choose_theiler_window(clip_outliers(x))
     curves = {**delay.curves, "lag": delay.curves["lag"] * dt}
-    dims = room(len(x), delay.lag, search.dims, theiler)
+    dims = limit_dimension(len(x), delay.lag, search.dims, theiler)
     if dims < min(3, search.dims):
         says = (
-            f"{len(x)} samples are too few to look for a dimension at lag {delay.lag} with a Theiler window of "
-            f"{theiler}: dimension 2 is taken for want of a better one"
+            f"{len(x)} samples are too few to determine a dimension at lag {delay.lag} with a Theiler window of "
+            f"{theiler}: dimension 2 is assumed"
         )
         dimension = EmbeddingDimension(2, "given", "too_short", says)
     else:
@@ -201,7 +198,7 @@ def _embedded(
             ratio=search.ratio,
             loneliness=search.loneliness,
         )
-        dimension = choice(found)
+        dimension = choose(found)
         curves |= {name: getattr(found, name) for name in ("dim", "e1", "e2", "fnn", "fnn_distance", "fnn_loneliness")}
         curves["dim_fnn"] = found.dim
     worst = next((s for s in (dimension.status, delay.status) if s != "ok"), "uncertain" if short else "ok")

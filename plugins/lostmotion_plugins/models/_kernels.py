@@ -1,10 +1,11 @@
 """The oscillator with backlash solved piece by piece: closed form between contacts, contact times to rounding.
 
-From any moment on, the acceleration of a damped linear oscillator under a harmonic force is bounded: with the energy
-E = g^2 + w^2 h^2 of its free part (position h, velocity g), which never grows, by
+The acceleration of a damped linear oscillator under a harmonic force has a bound M from any time on: with the energy
+E = g^2 + w^2 h^2 of its free part (position h, velocity g), which never grows,
 M = sqrt(4 a^2 + w^2) sqrt(E) + B omega^2. So the motion cannot reach a boundary at distance d, approached at rate r,
-before d = r t + M t^2 / 2: it may leap so far and look again, and misses nothing. Where r^2 >= 2 M d it must cross,
-once and with a velocity that keeps its sign; that crossing is found by roots of local parabolas in a bracket.
+before d = r t + M t^2 / 2: it can advance by this time and be checked again, and no crossing is missed. Where
+r^2 >= 2 M d it must cross, once and with a velocity that keeps its sign; that crossing is found by roots of local
+parabolas in a bracket.
 """
 
 from __future__ import annotations
@@ -15,13 +16,13 @@ from typing import Any
 import numba
 
 _FAST: dict[str, Any] = {"cache": True, "nogil": True, "error_model": "numpy"}
-_MOST = 1_000_000
-"""Leaps in one look beyond which a motion is given up as too stiff."""
+_MOST_ADVANCES = 1_000_000
+"""Advances between two recorded states beyond which a motion is refused as too stiff."""
 
 
 @numba.njit(**_FAST)
-def propagator(kind, a, wd, tau):  # type: ignore[no-untyped-def]
-    """Return e^(-a tau) cos(wd tau) and e^(-a tau) sin(wd tau) / wd, or their like for strong or critical damping."""
+def propagate_free(kind, a, wd, tau):  # type: ignore[no-untyped-def]
+    """Return e^(-a tau) cos(wd tau) and e^(-a tau) sin(wd tau) / wd, or their forms for strong or critical damping."""
     if kind > 0:
         fade = math.exp(-a * tau)
         return fade * math.cos(wd * tau), fade * math.sin(wd * tau) / wd
@@ -35,8 +36,8 @@ def propagator(kind, a, wd, tau):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(**_FAST)
-def piece(m, c, k, amplitude, omega):  # type: ignore[no-untyped-def]
-    """Return kind, a, wd, w^2 of a linear piece of stiffness k, and real and imaginary part of its response."""
+def solve_piece(m, c, k, amplitude, omega):  # type: ignore[no-untyped-def]
+    """Return kind, a, wd, w^2 of a linear piece of stiffness k, and real and imaginary part of its forced response."""
     a, stiff = 0.5 * c / m, k / m
     rest = stiff - a * a
     kind = 1 if rest > 0.0 else (-1 if rest < 0.0 else 0)
@@ -48,17 +49,17 @@ def piece(m, c, k, amplitude, omega):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(**_FAST)
-def leap(d, r, bound):  # type: ignore[no-untyped-def]
+def bound_advance(d, r, bound):  # type: ignore[no-untyped-def]
     """Return the time before which a boundary at distance d >= 0, approached at rate r, cannot be reached."""
     root = math.sqrt(r * r + 2.0 * bound * d)
     return 2.0 * d / (r + root) if r > 0.0 else (root - r) / bound
 
 
 @numba.njit(**_FAST)
-def seen(law, angle, h0, g0, tau):  # type: ignore[no-untyped-def]
-    """Return propagator, free part (h, g), position, velocity and acceleration at `tau` behind the last crossing."""
+def evaluate_piece(law, angle, h0, g0, tau):  # type: ignore[no-untyped-def]
+    """Return propagator, free part (h, g), position, velocity, acceleration a time `tau` after the last crossing."""
     kind, a, wd, w2, re, im, middle, omega = law
-    whole, part = propagator(kind, a, wd, tau)
+    whole, part = propagate_free(kind, a, wd, tau)
     h = h0 * (whole + a * part) + g0 * part
     g = g0 * (whole - a * part) - w2 * h0 * part
     cosine, sine = math.cos(angle + omega * tau), math.sin(angle + omega * tau)
@@ -68,14 +69,14 @@ def seen(law, angle, h0, g0, tau):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(**_FAST)
-def crossed(law, angle, h0, g0, to, sense, x0, now, early, late):  # type: ignore[no-untyped-def]
+def find_crossing(law, angle, h0, g0, to, sense, x0, now, early, late):  # type: ignore[no-untyped-def]
     """Return propagator, velocity and time of the one crossing between `early` and `late` of the boundary to * x0.
 
-    `sense` is the sign of the way, to * x growing or falling; `now` is a guess.
+    `sense` is 1 where to * x grows and -1 where it falls; `now` is a first guess of the time.
     """
     tau = min(max(now, early), late)
     for _ in range(100):
-        whole, part, h, _, x, v, push = seen(law, angle, h0, g0, tau)
+        whole, part, h, _, x, v, push = evaluate_piece(law, angle, h0, g0, tau)
         d, r, b = sense * (x0 - to * x), sense * to * v, sense * to * push
         if d > 0.0:
             early = tau
@@ -92,10 +93,11 @@ def crossed(law, angle, h0, g0, to, sense, x0, now, early, late):  # type: ignor
 
 
 @numba.njit(**_FAST)
-def stay(law, angle, x, v, side, x0, left, most):  # type: ignore[no-untyped-def]
-    """Return time, propagator, position and velocity at the end of a stay on a side, and the boundary crossed there.
+def follow_piece(law, angle, x, v, side, x0, left, most):  # type: ignore[no-untyped-def]
+    """Return time, propagator, position and velocity where the motion leaves a side, and the boundary crossed there.
 
-    0.0 stands for none until `left`. The last is how many of `most` leaps are left, -1 when they did not suffice.
+    The boundary is 0.0 where none is crossed within the time `left`. The last value is how many of `most` advances
+    remain, -1 where they did not suffice.
     """
     _, a, _, w2, re, im, middle, omega = law
     cosine, sine = math.cos(angle), math.sin(angle)
@@ -108,7 +110,7 @@ def stay(law, angle, x, v, side, x0, left, most):  # type: ignore[no-untyped-def
     tau, whole, part = 0.0, 1.0, 0.0
     sense = 1.0 if side == 0.0 else -1.0
     if math.isinf(x0):
-        whole, part, _, _, x, v, _ = seen(law, angle, h0, g0, left)
+        whole, part, _, _, x, v, _ = evaluate_piece(law, angle, h0, g0, left)
         return left, whole, part, x, v, 0.0, most
     for spare in range(most - 1, -1, -1):
         to = side if side != 0.0 else (1.0 if v > 0.0 else -1.0)
@@ -118,23 +120,23 @@ def stay(law, angle, x, v, side, x0, left, most):  # type: ignore[no-untyped-def
         d = max(d, 0.0)
         bound = rough * math.sqrt(g * g + w2 * h * h) + swing + 1e-300
         sure = r > 0.0 and r * r >= 2.0 * bound * d
-        hop = leap(d, r, bound)
+        hop = bound_advance(d, r, bound)
         if sure and tau + hop < left:
             late = tau + 2.0 * d / (r + math.sqrt(r * r - 2.0 * bound * d))
             guess = tau + 2.0 * d / (r + math.sqrt(max(r * r + 2.0 * sense * to * push * d, 0.0)))
             if late > left:
                 late = left
-                whole, part, h, g, x, v, push = seen(law, angle, h0, g0, left)
+                whole, part, h, g, x, v, push = evaluate_piece(law, angle, h0, g0, left)
                 if sense * (x0 - to * x) > 0.0:
                     return left, whole, part, x, v, 0.0, spare
-            whole, part, v, tau = crossed(law, angle, h0, g0, to, sense, x0, guess, tau + hop, late)
+            whole, part, v, tau = find_crossing(law, angle, h0, g0, to, sense, x0, guess, tau + hop, late)
             return tau, whole, part, to * x0, v, to, spare
         if side == 0.0:
-            hop = min(hop, leap(max(x0 + to * x, 0.0), -r, bound))
+            hop = min(hop, bound_advance(max(x0 + to * x, 0.0), -r, bound))
         tau += max(hop, math.sqrt((2e-16 * x0 + 1e-150) / bound), 1e-12 * left)
         over = tau >= left
         tau = min(tau, left)
-        whole, part, h, g, x, v, push = seen(law, angle, h0, g0, tau)
+        whole, part, h, g, x, v, push = evaluate_piece(law, angle, h0, g0, tau)
         if over:
             return left, whole, part, x, v, 0.0, spare
     return math.nan, whole, part, math.nan, math.nan, 0.0, -1
@@ -144,16 +146,16 @@ def stay(law, angle, x, v, side, x0, left, most):  # type: ignore[no-untyped-def
 def strobe(start, numbers, looks, states, growth):  # type: ignore[no-untyped-def]
     """Write `states` (periods * looks + 1, 2) and the logarithms of tangent growth (periods, tangents).
 
-    Returns how many looks were reached, how often a boundary was crossed, and whether leaps ran out. The force is
-    continuous, so the tangent is the product of the propagators. Areas shrink by exactly c / m, which gives the second
-    exponent.
+    Return how many states were reached, how often a boundary was crossed, and whether the limit of advances was
+    exceeded. The force is continuous, so the tangent is the product of the propagators. Areas contract at exactly the
+    rate c / m, which gives the second exponent.
     """
     m, c, k1, k0, x0, amplitude, omega, phase = numbers
     if x0 == 0.0:
         k1, k0, x0 = k1 + k0, 0.0, math.inf
-    kind, a, wd, w2, re, im = piece(m, c, k1, amplitude, omega)
+    kind, a, wd, w2, re, im = solve_piece(m, c, k1, amplitude, omega)
     free = (kind, a, wd, w2, re, im, 0.0, omega)
-    kind, a, wd, w2, re, im = piece(m, c, k1 + k0, amplitude, omega)
+    kind, a, wd, w2, re, im = solve_piece(m, c, k1 + k0, amplitude, omega)
     shift = k0 * x0 / (k1 + k0) if k0 > 0.0 else 0.0
     upper, lower = (kind, a, wd, w2, re, im, shift, omega), (kind, a, wd, w2, re, im, -shift, omega)
     span = 2.0 * math.pi / omega / looks
@@ -169,12 +171,12 @@ def strobe(start, numbers, looks, states, growth):  # type: ignore[no-untyped-de
         if n == states.shape[0] - 1:
             break
         theta, begun = phase + 2.0 * math.pi * (n % looks) / looks, 0.0
-        spare = _MOST
+        spare = _MOST_ADVANCES
         while True:
             law = free if side == 0.0 else (upper if side > 0.0 else lower)
             last = span - begun <= patience
             ahead = span - begun if last else patience
-            tau, whole, part, x, v, to, spare = stay(law, theta + omega * begun, x, v, side, x0, ahead, spare)
+            tau, whole, part, x, v, to, spare = follow_piece(law, theta + omega * begun, x, v, side, x0, ahead, spare)
             if spare < 0:
                 return n, crossings, True
             # As E p = (whole + a part) p + part q, and with -w2 part and whole - a part in the second row.

@@ -18,7 +18,7 @@ _DAMPING = Param("c", "viscous friction", DAMPING, low=0.0, scale="log", aliases
 class RigidDrive(Model):
     """m (x'' + a) + c x' = force: a carriage moved by a motor, as that of the EMPS benchmark of Janot et al. (2019).
 
-    The base acceleration a is that of the table on which it stands; x is relative to the table.
+    The base acceleration a is that of the table that carries it; x is relative to the table.
     """
 
     name: ClassVar[str] = "rigid_drive"
@@ -41,9 +41,9 @@ class RigidDrive(Model):
 
 @dataclass(frozen=True)
 class LinearOscillator(Model):
-    """m (x'' + a) + c x' + k x = force: the textbook oscillator, and the nominal model of the Silverbox.
+    """m (x'' + a) + c x' + k x = force: the linear oscillator, which is the nominal model of the Silverbox benchmark.
 
-    The base acceleration a is that of a shaking table on which the spring stands; x is relative to the table.
+    The base acceleration a is that of a shaking table that carries the spring; x is relative to the table.
     """
 
     name: ClassVar[str] = "linear_oscillator"

@@ -7,6 +7,7 @@ from typing import ClassVar
 
 from lostmotion.contracts import Array, Interface, Model, Motion, Param
 from lostmotion.quantities import DAMPING, INERTIA, LENGTH, STIFFNESS
+from lostmotion_plugins.laws import subtract_gap
 from lostmotion_plugins.models.lin import ground
 
 
@@ -25,9 +26,9 @@ class ClearanceChain(Model):
     """m1 x1'' + c1 x1' + k1 x1 + J = force, m2 x2'' + c2 x2' + k2 x2 = J + second_force, J = c0 d' + F(d), d = x1 - x2.
 
     F is zero inside the gap |d| < x0 and k0 (|d| - x0) beyond, with the sign of d. Channels without "second_" are those
-    of the first body. On a table of acceleration a both bodies are relative to it, -m a acts on each, and the channels
-    of acceleration show x'' + a. A term acts between the first body and its guide (`ground`), between the second body
-    and its own (`second`), or between the two (`joint`).
+    of the first body. On a table with the acceleration a, positions are relative to the table, -m a acts on each body,
+    and the channels of acceleration are x'' + a. A term acts between the first body and its guide (`ground`), between
+    the second body and its guide (`second`), or between the two bodies (`joint`).
     """
 
     name: ClassVar[str] = "clearance_chain"
@@ -60,8 +61,7 @@ class ClearanceChain(Model):
 
     @staticmethod
     def rhs(t: float, y: Array, u: Array, p: Array, dydt: Array) -> None:
-        lean = y[0] - y[2]
-        joint = p[7] * (y[1] - y[3]) + p[6] * (lean - min(max(lean, -p[8]), p[8]))
+        joint = p[7] * (y[1] - y[3]) + p[6] * subtract_gap(y[0] - y[2], p[8])
         dydt[0] = y[1]
         dydt[1] = (u[0] - p[1] * y[1] - p[2] * y[0] - joint) / p[0] - u[2]
         dydt[2] = y[3]

@@ -1,4 +1,4 @@
-"""Duffing's oscillator: a spring with a cubic part, of one well or of two."""
+"""Duffing's oscillator: a spring with a cubic part, with one or two potential wells."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ class Duffing(Model):
     """m (x'' + a) + c x' + k x + k3 x^3 = force: a spring that hardens or softens, or with k < 0 < k3 a buckled beam.
 
     With k < 0 there are two wells, at x = +-sqrt(-k / k3), and with k = 0 it is the oscillator of Ueda. The base
-    acceleration a is that of a shaking table on which the spring stands; x is relative to the table.
+    acceleration a is that of a shaking table that carries the spring; x is relative to the table.
     """
 
     name: ClassVar[str] = "duffing"

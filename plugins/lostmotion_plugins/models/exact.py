@@ -1,4 +1,4 @@
-"""Oscillators with backlash as flows that are exact up to rounding: no steps, no crossing missed."""
+"""Oscillators with backlash as flows that are exact up to rounding: no time steps, and no crossing is missed."""
 
 from __future__ import annotations
 
@@ -13,16 +13,16 @@ from lostmotion.errors import ContractError
 from lostmotion_plugins.models._kernels import strobe
 
 _RESONANCE = 1e-7
-"""Relative distance from a resonance without damping below which the closed form loses its digits."""
+"""Relative distance from an undamped resonance below which the closed form loses its accuracy."""
 
 
 @dataclass(frozen=True, eq=False)
 class ExactBacklash:
     """m x'' + c x' + k1 x + F(x) = A cos(omega t + phase) solved in closed form from contact to contact.
 
-    Contact times are found to rounding (see `_kernels`). A force that is continuous needs no saltation, so the tangent
-    is the product of the propagators of the pieces: exact as well. With a `base` motion of this amplitude, of the same
-    frequency and phase, the states are those of base plus x.
+    Contact times are found to rounding (see `_kernels`). The force is continuous, so no saltation matrix is needed, and
+    the tangent is the product of the propagators of the pieces, which is exact as well. With a `base` motion of this
+    amplitude and the frequency and phase of the drive, the states are those of base plus x.
     """
 
     numbers: tuple[float, ...]
@@ -32,16 +32,16 @@ class ExactBacklash:
 
     @property
     def period(self) -> float:
-        """The period of the drive, or the time between looks (s)."""
+        """The period of the drive, or the time between two recorded states (s)."""
         return 2.0 * math.pi / self.numbers[6]
 
     @property
     def driven(self) -> bool:
-        """Whether the phase of a drive is one more direction of the flow, with the exponent zero."""
+        """Whether there is a drive, whose phase is one more direction of the flow with the exponent zero."""
         return self.numbers[5] != 0.0
 
     def strobe(self, start: Array, *, periods: int, tangents: int) -> Orbit:
-        """Return the orbit from `start` (2,) at drive phase 0, with `tangents` tangent vectors kept orthogonal."""
+        """Return the orbit from `start` (2,) at drive phase 0, with the growth of `tangents` orthogonal vectors."""
         return self._run(start, periods, 1, tangents)[0]
 
     def sample(self, start: Array, *, periods: int, looks: int) -> Array:
@@ -57,39 +57,39 @@ class ExactBacklash:
         if begin.shape != (2,) or not 0 <= tangents <= 2:
             raise ContractError(f"a start of shape {begin.shape} and {tangents} tangents do not fit 2 states")
         states, growth = np.full((periods * looks + 1, 2), np.nan), np.zeros((periods, tangents))
-        carried = self._carried(np.arange(len(states)) % looks / looks)
-        done, crossings, stiff = strobe(begin - carried[0], self.numbers, looks, states, growth)
-        states += carried
+        base = self._base_motion(np.arange(len(states)) % looks / looks)
+        done, crossings, stiff = strobe(begin - base[0], self.numbers, looks, states, growth)
+        states += base
         if done < len(states):
             growth[max(done - 1, 0) // looks :] = np.nan
         return Orbit(states, growth, "too_stiff" if stiff else "ok" if done == len(states) else "failed"), crossings
 
-    def _carried(self, share: Array) -> Array:
-        """Return position and velocity (looks, 2) of the base at these shares of the period."""
+    def _base_motion(self, share: Array) -> Array:
+        """Return position and velocity (times, 2) of the base at these shares of the period."""
         angle, omega = 2.0 * math.pi * share + self.numbers[7], self.numbers[6]
         return self.base * np.stack([np.cos(angle), -omega * np.sin(angle)], axis=1)
 
 
-def exact_joint(
+def solve_joint_exactly(
     values: Mapping[str, float], drive: tuple[float, float, float], start: Array | None
 ) -> ExactBacklash | None:
     """Return the exact flow of a joint with backlash under a base motion (amplitude, omega, phase), or None.
 
-    Relative to its base a link without weight is the oscillator with backlash, moved by m * amplitude * omega^2. None
-    where `mgl` is not zero, and where `exact_of` has none.
+    Relative to its base a link without weight is the oscillator with backlash, driven by m * amplitude * omega^2. The
+    result is None where `mgl` is not zero, and where `solve_exactly` returns None.
     """
     amplitude, omega, phase = drive
     pull = (values["m"] * amplitude * omega**2, omega, phase)
-    flow = None if values["mgl"] != 0.0 else exact_of({**values, "k1": 0.0}, pull, start)
+    flow = None if values["mgl"] != 0.0 else solve_exactly({**values, "k1": 0.0}, pull, start)
     return flow and replace(flow, base=amplitude)
 
 
-def exact_of(
+def solve_exactly(
     values: Mapping[str, float], drive: tuple[float, float, float], start: Array | None
 ) -> ExactBacklash | None:
-    """Return the exact flow of these parameters under (amplitude, omega, phase), or None where it is not one.
+    """Return the exact flow of these parameters under a drive (amplitude, omega, phase), or None where there is none.
 
-    That is where a parameter is out of its bounds, and at a resonance without damping.
+    That is where a parameter is out of its bounds, and at an undamped resonance.
     """
     m, c, k1, k0, x0 = (float(values[name]) for name in ("m", "c", "k1", "k0", "x0"))
     amplitude, omega, phase = (float(x) for x in drive)

@@ -1,4 +1,4 @@
-"""The mesh of two gears as one degree of freedom: how far the teeth are from where rigid ones would be."""
+"""The mesh of two gears with one degree of freedom, the transmission error."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from typing import ClassVar
 
 from lostmotion.contracts import Array, Group, Interface, Model, Motion, Param
 from lostmotion.quantities import DAMPING, FORCE, INERTIA, LENGTH, NUMBER, STIFFNESS, Dimension
+from lostmotion_plugins.laws import subtract_gap
 from lostmotion_plugins.models.lin import LinBacklash, ground
 
 
@@ -17,10 +18,10 @@ class GearMesh(Model):
 
     Here x is the transmission error along the line of action, and F = 0 inside the gap |x| < x0 and |x| - x0 beyond,
     with the sign of x. With base radii r1, r2 and inertias J1, J2, m is 1 / (r1^2 / J1 + r2^2 / J2), and a torque T on
-    the first gear is the force m r1 T / J1. The mean of the load is `preload`; `force` is what alternates about it, and
-    the base acceleration a that of an error of the teeth's form. `gear_pair` has an encoder on each wheel.
-    Time, and with it the phase of the mesh, begins where the recording does: a sweep of exponents wants `omega_mesh`
-    to be a whole multiple of the frequency of the drive.
+    the first gear is the force m r1 T / J1. The mean load is `preload`; `force` is the alternating part of the load,
+    and the base acceleration a is that of a profile error of the teeth. `gear_pair` has an encoder on each wheel.
+    Time, and with it the phase of the mesh, is zero at the start of the recording. For a sweep of exponents
+    `omega_mesh` must be an integer multiple of the frequency of the drive.
     """
 
     name: ClassVar[str] = "gear_mesh"
@@ -58,9 +59,8 @@ class GearMesh(Model):
 
     @staticmethod
     def rhs(t: float, y: Array, u: Array, p: Array, dydt: Array) -> None:
-        beyond = y[0] - min(max(y[0], -p[3]), p[3])
         stiffness = p[2] * (1.0 + p[5] * math.cos(p[6] * t + p[7]))
         dydt[0] = y[1]
-        dydt[1] = (p[4] + u[0] - p[1] * y[1] - stiffness * beyond) / p[0] - u[1]
+        dydt[1] = (p[4] + u[0] - p[1] * y[1] - stiffness * subtract_gap(y[0], p[3])) / p[0] - u[1]
 
     observe = staticmethod(LinBacklash.observe)

@@ -13,12 +13,12 @@ from lostmotion_plugins.models.lin import LinBacklash, ground
 
 @dataclass(frozen=True)
 class ImpactOscillator(Model):
-    """m (x'' + a) + c x' + k x + P = force, where the stop pushes with P = k0 (x - x0) (1 + loss x') from x > x0 on.
+    """m (x'' + a) + c x' + k x + P = force, with the force of the stop P = k0 (x - x0) (1 + loss x') where x > x0.
 
-    The stop never pulls: P is zero where the formula falls below it. As the loss grows with the depth (Hunt, Crossley),
-    the force does not jump at the first touch, and the restitution is one for slow impacts and falls with their speed:
-    a body that comes with v leaves with w, where s - ln(1 + s) is the same for s = loss v and s = -loss w. The base
-    acceleration a is that of a shaking table on which spring and stop stand; x is relative to the table.
+    The stop cannot pull: P is zero where the formula is negative. As the damping grows with the depth (Hunt, Crossley),
+    the force does not jump at first contact. The coefficient of restitution is one for slow impacts and falls with the
+    speed: a body that arrives with v leaves with w, where s - ln(1 + s) is the same for s = loss v and s = -loss w. The
+    base acceleration a is that of a shaking table that carries spring and stop; x is relative to the table.
     """
 
     name: ClassVar[str] = "impact_oscillator"
@@ -35,8 +35,8 @@ class ImpactOscillator(Model):
         Param("c", "viscous damping", DAMPING, low=0.0, scale="log", aliases=("damping",)),
         Param("k", "stiffness of the spring", STIFFNESS, low=0.0, scale="log", aliases=("k1", "stiffness")),
         Param("k0", "stiffness of the stop", STIFFNESS, low=0.0, scale="log"),
-        Param("x0", "distance of the stop from the middle", LENGTH, low=0.0, scale="log", aliases=("gap",)),
-        Param("loss", "loss of the stop: its drag over its stiffness and depth", Dimension(0, -1, 1), low=0.0),
+        Param("x0", "position of the stop", LENGTH, low=0.0, scale="log", aliases=("gap",)),
+        Param("loss", "loss of the stop: its damping over stiffness times depth", Dimension(0, -1, 1), low=0.0),
     )
     interfaces = (Interface("ground", row=1, inertia="m", motion=ground, holds=("k",), stiffness="k"),)
     groups = (

@@ -9,6 +9,7 @@ from typing import ClassVar
 
 from lostmotion.contracts import Array, Drive, Flow, Group, Interface, Model, Param
 from lostmotion.quantities import DAMPING, FORCE, INERTIA, LENGTH, STIFFNESS
+from lostmotion_plugins.laws import subtract_gap
 
 
 def ground(y: Array, u: Array) -> tuple[float, float]:
@@ -26,10 +27,10 @@ class RobotJoint(Model):
     """J q'' + c (q' - qb') + F(q - qb) + mgl sin q = force: a link q moved by a base motion qb through a gap.
 
     The contact F is zero inside the gap |q - qb| < x0 and k0 (|q - qb| - x0) beyond. Encoder 1 reads qb (the input),
-    encoder 2 reads q (the channel "position"), a torque sensor what goes through contact and damper (the channel
+    encoder 2 reads q (the channel "position"), a torque sensor reads the torque through contact and damper (the channel
     "force"; a term at the place "base" is not part of it). The input "force" is a torque on the link. The angle is
     measured from where the link hangs straight down; mgl = 0 for a link that turns in the horizontal plane. The
-    dimensionless numbers are those of such a link: weight acts on the angle itself and not on its ratio to the gap.
+    dimensionless groups hold for such a link only: weight depends on the angle itself, not on its ratio to the gap.
     """
 
     name: ClassVar[str] = "robot_joint"
@@ -60,31 +61,20 @@ class RobotJoint(Model):
 
     @staticmethod
     def rhs(t: float, y: Array, u: Array, p: Array, dydt: Array) -> None:
-        gap = y[0] - u[0]
-        contact = 0.0
-        if gap > p[3]:
-            contact = p[2] * (gap - p[3])
-        elif gap < -p[3]:
-            contact = p[2] * (gap + p[3])
+        contact = p[2] * subtract_gap(y[0] - u[0], p[3])
         dydt[0] = y[1]
         dydt[1] = -(p[1] * (y[1] - u[1]) + contact + p[4] * math.sin(y[0]) - u[2]) / p[0]
 
     @staticmethod
     def observe(t: float, y: Array, dydt: Array, u: Array, p: Array, seen: Array) -> None:
-        gap = u[0] - y[0]
-        contact = 0.0
-        if gap > p[3]:
-            contact = p[2] * (gap - p[3])
-        elif gap < -p[3]:
-            contact = p[2] * (gap + p[3])
         seen[0] = y[0]
         seen[1] = y[1]
         seen[2] = dydt[1]
-        seen[3] = p[1] * (u[1] - y[1]) + contact
+        seen[3] = p[1] * (u[1] - y[1]) + p[2] * subtract_gap(u[0] - y[0], p[3])
 
     @classmethod
     def exact(cls, values: Mapping[str, float], drive: Drive, start: Array | None) -> Flow | None:
         """Return the flow under a base motion (amplitude, omega, phase), exact where the link has no weight."""
-        from lostmotion_plugins.models.exact import exact_joint
+        from lostmotion_plugins.models.exact import solve_joint_exactly
 
-        return exact_joint(values, drive, start)
+        return solve_joint_exactly(values, drive, start)

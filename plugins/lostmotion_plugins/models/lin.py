@@ -9,6 +9,7 @@ from typing import ClassVar
 
 from lostmotion.contracts import Array, Drive, Flow, Group, Interface, Model, Motion, Param
 from lostmotion.quantities import DAMPING, INERTIA, LENGTH, STIFFNESS
+from lostmotion_plugins.laws import subtract_gap
 
 
 def ground(y: Array, u: Array) -> tuple[float, float]:
@@ -20,9 +21,9 @@ def ground(y: Array, u: Array) -> tuple[float, float]:
 class LinBacklash(Model):
     """m (x'' + a) + c x' + k1 x + F(x) = force, where the contact F is zero in the gap |x| < x0, k0 (|x| - x0) beyond.
 
-    The base acceleration a is that of a shaking table on which spring and stops stand: x is relative to the table, and
-    the channel "acceleration" is x'' + a, what an accelerometer on the body shows. The states are position and
-    velocity; the parameters m, c, k1, k0, x0 in this order.
+    The base acceleration a is that of a shaking table that carries spring and stops. x is relative to the table, and
+    the channel "acceleration" is x'' + a, which an accelerometer on the body measures. The states are position and
+    velocity; the parameters are m, c, k1, k0, x0 in this order.
     """
 
     name: ClassVar[str] = "lin_backlash"
@@ -55,13 +56,8 @@ class LinBacklash(Model):
     @staticmethod
     def rhs(t: float, y: Array, u: Array, p: Array, dydt: Array) -> None:
         x = y[0]
-        contact = 0.0
-        if x > p[4]:
-            contact = p[3] * (x - p[4])
-        elif x < -p[4]:
-            contact = p[3] * (x + p[4])
         dydt[0] = y[1]
-        dydt[1] = (u[0] - p[1] * y[1] - p[2] * x - contact) / p[0] - u[1]
+        dydt[1] = (u[0] - p[1] * y[1] - p[2] * x - p[3] * subtract_gap(x, p[4])) / p[0] - u[1]
 
     @staticmethod
     def observe(t: float, y: Array, dydt: Array, u: Array, p: Array, seen: Array) -> None:
@@ -72,9 +68,9 @@ class LinBacklash(Model):
     @classmethod
     def exact(cls, values: Mapping[str, float], drive: Drive, start: Array | None) -> Flow | None:
         """Return the flow under (amplitude, omega, phase), solved in closed form from contact to contact."""
-        from lostmotion_plugins.models.exact import exact_of
+        from lostmotion_plugins.models.exact import solve_exactly
 
-        return exact_of(values, drive, start)
+        return solve_exactly(values, drive, start)
 
     @staticmethod
     def normalised(

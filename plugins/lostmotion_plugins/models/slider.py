@@ -1,4 +1,4 @@
-"""A body on a guide, pushed and pulled through a gap by a measured motion: the force through the gap is measured."""
+"""A body on a guide that a measured motion moves through a gap; the force through the gap is measured as well."""
 
 from __future__ import annotations
 
@@ -7,7 +7,8 @@ from typing import ClassVar
 
 from lostmotion.contracts import Array, Interface, Model, Motion, Param
 from lostmotion.quantities import DAMPING, INERTIA, LENGTH, STIFFNESS
-from lostmotion_plugins.models.joint import base
+from lostmotion_plugins.laws import subtract_gap
+from lostmotion_plugins.models.joint import RobotJoint, base
 from lostmotion_plugins.models.lin import ground
 
 
@@ -15,11 +16,11 @@ from lostmotion_plugins.models.lin import ground
 class BacklashSlider(Model):
     """m x'' = f + force, f = c (xb' - x') + F(xb - x): a body x moved by a base motion xb through a gap of 2 x0.
 
-    The contact F is zero inside the gap |xb - x| < x0 and k0 (|xb - x| - x0) beyond. The channel "force" is f, what
-    the base exerts on the body through contact and damper, as a load cell in the joint shows it; neither a term at the
-    place "base" nor the input "force", which pushes the body itself, is part of it. Friction of the guide is a term at
-    the ground: with it this is a friction damper with backlash, and its loop of force over travel is flat where it
-    slides and thin where the gap is crossed.
+    The contact F is zero inside the gap |xb - x| < x0 and k0 (|xb - x| - x0) beyond. The channel "force" is f, the
+    force of the base on the body through contact and damper, as a load cell in the joint measures it. It contains
+    neither a term at the place "base" nor the input "force", which acts on the body itself. Friction of the guide is a
+    term at the ground: with it this is a friction damper with backlash, whose loop of force over travel is flat where
+    it slides and thin where the gap is crossed.
     """
 
     name: ClassVar[str] = "backlash_slider"
@@ -42,24 +43,8 @@ class BacklashSlider(Model):
 
     @staticmethod
     def rhs(t: float, y: Array, u: Array, p: Array, dydt: Array) -> None:
-        gap = u[0] - y[0]
-        contact = 0.0
-        if gap > p[3]:
-            contact = p[2] * (gap - p[3])
-        elif gap < -p[3]:
-            contact = p[2] * (gap + p[3])
+        contact = p[2] * subtract_gap(u[0] - y[0], p[3])
         dydt[0] = y[1]
         dydt[1] = (p[1] * (u[1] - y[1]) + contact + u[2]) / p[0]
 
-    @staticmethod
-    def observe(t: float, y: Array, dydt: Array, u: Array, p: Array, seen: Array) -> None:
-        gap = u[0] - y[0]
-        contact = 0.0
-        if gap > p[3]:
-            contact = p[2] * (gap - p[3])
-        elif gap < -p[3]:
-            contact = p[2] * (gap + p[3])
-        seen[0] = y[0]
-        seen[1] = y[1]
-        seen[2] = dydt[1]
-        seen[3] = p[1] * (u[1] - y[1]) + contact
+    observe = staticmethod(RobotJoint.observe)

@@ -1,4 +1,4 @@
-"""Compiled loops of the surrogates: imposing a spectrum, sorting into given values, walking among neighbours."""
+"""Compiled loops of the surrogates: impose a spectrum, replace values by rank, walk among neighbours."""
 
 from __future__ import annotations
 
@@ -6,12 +6,12 @@ import numba
 import numpy as np
 
 BITS = 11
-"""Bits of one pass of the sort; two passes rank to one part in 4e6 of the range, as fine as single precision is."""
+"""Bits of one pass of the sort; two passes resolve one part in 4e6 of the range, as fine as single precision."""
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
 def impose(spectrum, wanted):  # type: ignore[no-untyped-def]
-    """Return sum((|S| - wanted)^2) before `spectrum` (k,) is given the sizes `wanted` (k,), its phases kept."""
+    """Give `spectrum` (k,) the amplitudes `wanted` (k,) and keep its phases; return sum((|S| - wanted)^2) of before."""
     off = 0.0
     for k in range(len(spectrum)):
         re, im = spectrum[k].real, spectrum[k].imag
@@ -27,10 +27,10 @@ def impose(spectrum, wanted):  # type: ignore[no-untyped-def]
 
 @numba.njit(cache=True, nogil=True)
 def arrange(like, values, places, out):  # type: ignore[no-untyped-def]
-    """Write the ascending `values` (n,) into `out` (n,) in the order of rank of `like` (n,); `places` (2, n) is room.
+    """Write the ascending `values` (n,) into `out` (n,) by the ranks of `like` (n,); return how many entries changed.
 
-    A radix sort of `like` on a grid of 4^BITS steps over its range: what is closer than a step stands in the order
-    of time. Returns how many places changed.
+    A radix sort of `like` on a grid of 4^BITS steps over its range: values in the same step keep the order of time.
+    `places` (2, n) is work space.
     """
     n, size = len(like), 1 << BITS
     low, high = like.min(), like.max()

@@ -1,4 +1,4 @@
-"""Surrogates of motion that repeats itself: the cycles stay, what carries over from one to the next goes."""
+"""Surrogates of a motion with cycles: they keep the cycles and remove any dependence between successive cycles."""
 
 from __future__ import annotations
 
@@ -13,28 +13,28 @@ from lostmotion.kernels import neighbours
 from lostmotion.signals import delay_vectors
 from lostmotion_plugins.surrogates._kernels import walk
 
-PROBES = 500
-"""Points at which the noise radius is judged."""
-RADII = 2.0 ** np.arange(-12.0, 12.0, 0.25)
+MOST_PROBES = 500
+"""Points at which the noise radius is evaluated, at most about so many."""
+RADIUS_GRID = 2.0 ** np.arange(-12.0, 12.0, 0.25)
 """Noise radii that are tried, in median distances of a nearest neighbour."""
 REACH = 12
-"""Samples on either side that an interpolation looks at."""
+"""Samples on either side that an interpolation uses."""
 PARTS = 1024
-"""Steps between two samples at which it is worked out."""
+"""Steps between two samples at which the weights of the interpolation are tabulated."""
 
 
 @dataclass(frozen=True)
 class PseudoPeriodic(Surrogate):
-    """Series in which cycles look as recorded, and nothing carries over from one to the next.
+    """Series with the cycles of the recording, and without dependence between successive cycles.
 
-    Where the `period` of the drive is known, whole periods are put into a new order (Theiler 1995); `together` of them
-    stay together, 2 for motion that repeats itself every second period. Of other motion the series follows the
-    recording and now and then changes over to one of the `neighbours` nearest points (Small et al. 2001), with the
-    noise radius `radius`, or the one with which most stretches of exactly two samples are those of the recording.
-    `shuffle` chooses between the two by hand.
+    Where the `period` of the drive is known, whole periods are put into a new order (Theiler 1995); groups of
+    `together` periods are kept, 2 for a motion that repeats every second period. For other motions the series follows
+    the recording and at random moves to one of the `neighbours` nearest points (Small et al. 2001). This uses the
+    noise radius `radius`, or by default the one for which stretches of exactly two recorded samples are most frequent.
+    `shuffle` selects one of the two methods explicitly.
 
-    Small's walk is itself noisier than the recording: prediction error and correlation dimension reject a noisy
-    periodic orbit too. The shuffled periods do not have that fault.
+    Small's walk is itself noisier than the recording, so prediction error and correlation dimension reject a noisy
+    periodic orbit, too. Shuffled periods do not have that fault.
     """
 
     shuffle: bool | None = None
@@ -45,32 +45,32 @@ class PseudoPeriodic(Surrogate):
     paper: ClassVar[str] = (
         "Theiler, Physics Letters A 196 (1995) 335-341; Small, Yu, Harrison, Physical Review Letters 87 (2001) 188101"
     )
-    null: ClassVar[str] = "a periodic orbit with noise, where nothing carries over from one cycle to the next"
+    null: ClassVar[str] = "a periodic orbit with noise that is independent from one cycle to the next"
     preserves: ClassVar[frozenset[str]] = frozenset({"cycles"})
 
     def piece(self, series: Series) -> slice:
         """Return the piece of the series that the surrogates are drawn of."""
-        if not self._shuffles(series):
+        if not self._is_shuffled(series):
             return slice(0, series.n)
-        begin, length, cycles = _periods(series, self.together)
+        begin, length, cycles = _find_periods(series, self.together)
         return slice(begin, begin + int(length * cycles))
 
     def draw(self, series: Series, *, draws: int, rng: np.random.Generator) -> Array:
         streams = rng.spawn(draws)
-        if not self._shuffles(series):
-            return self._walks(series, streams)
-        begin, length, cycles = _periods(series, self.together)
+        if not self._is_shuffled(series):
+            return self._draw_walks(series, streams)
+        begin, length, cycles = _find_periods(series, self.together)
         times = np.arange(int(length * cycles))
         place = np.minimum((times / length).astype(np.int64), cycles - 1)
         shifted = [(stream.permutation(cycles)[place] - place) * length for stream in streams]
-        return np.array([_between(series.x, begin + times + shift) for shift in shifted])
+        return np.array([_interpolate(series.x, begin + times + shift) for shift in shifted])
 
-    def _shuffles(self, series: Series) -> bool:
+    def _is_shuffled(self, series: Series) -> bool:
         return self.shuffle if self.shuffle is not None else series.period is not None
 
-    def _walks(self, series: Series, streams: list[np.random.Generator]) -> Array:
-        index, distance = _around(series, self.neighbours)
-        radius = self.radius or noise_radius(distance[:-1])
+    def _draw_walks(self, series: Series, streams: list[np.random.Generator]) -> Array:
+        index, distance = _find_neighbours(series, self.neighbours)
+        radius = self.radius or choose_noise_radius(distance[:-1])
         shares = np.exp((distance.min(axis=1, keepdims=True) - distance) / radius)
         weights = np.cumsum(shares, axis=1) / shares.sum(axis=1, keepdims=True)
         out = np.empty((len(streams), series.n))
@@ -81,10 +81,11 @@ class PseudoPeriodic(Surrogate):
         return out
 
 
-def _around(series: Series, k: int) -> tuple[Array, Array]:
+def _find_neighbours(series: Series, k: int) -> tuple[Array, Array]:
     """Return indices (q, k + 1) and distances (q, k + 1) of each delay vector itself and its neighbours.
 
-    Only vectors with a successor count, and the last of them, from which the walk could not go on, is left out.
+    Only vectors with a successor are used. The last of them gets an infinite distance, since the walk could not
+    continue from it.
     """
     rows = delay_vectors(series.x, series.embedding.lag, series.embedding.dim)
     points = np.ascontiguousarray(rows[:-1])
@@ -96,40 +97,40 @@ def _around(series: Series, k: int) -> tuple[Array, Array]:
     return index, distance
 
 
-def noise_radius(distance: Array) -> float:
+def choose_noise_radius(distance: Array) -> float:
     """Return the radius at which the expected number of stretches of exactly two recorded samples is largest.
 
-    `distance` (q, k) are those to a point itself (0) and its neighbours: with p the chance of going on as recorded,
-    such a stretch stands with chance p (1 - p)^2, so no surrogate has to be drawn to count them.
+    `distance` (q, k) are those of a point to itself (0) and to its neighbours. With p the probability of following
+    the recording, such a stretch has the probability p (1 - p)^2, so no surrogate has to be drawn to count them.
     """
-    some = distance[:: max(len(distance) // PROBES, 1)]
+    some = distance[:: max(len(distance) // MOST_PROBES, 1)]
     apart = some[np.isfinite(some) & (some > 0.0)]
     unit = float(np.median(some[:, 1])) or (float(np.median(apart)) if apart.size else 1.0)
     unit = unit if np.isfinite(unit) else 1.0
-    stay = 1.0 / np.exp(-some[None] / (unit * RADII[:, None, None])).sum(axis=2)
-    return float(unit * RADII[np.argmax((stay * (1.0 - stay) ** 2).mean(axis=1))])
+    stay = 1.0 / np.exp(-some[None] / (unit * RADIUS_GRID[:, None, None])).sum(axis=2)
+    return float(unit * RADIUS_GRID[np.argmax((stay * (1.0 - stay) ** 2).mean(axis=1))])
 
 
-def _periods(series: Series, together: int) -> tuple[int, float, int]:
-    """Return begin (samples), length (samples, no whole number) and number of the pieces that are put in a new order.
+def _find_periods(series: Series, together: int) -> tuple[int, float, int]:
+    """Return begin (samples), length (samples, not an integer) and number of the pieces that are put in a new order.
 
-    They begin at the phase of the drive at which value and slope differ least from one to the next.
+    They begin at the phase of the drive at which value and slope differ least from piece to piece.
     """
     if series.period is None:
         raise DataError(
-            "whole periods cannot be shuffled: the period of the drive is not known; give it, or do not ask"
+            "whole periods cannot be shuffled: the period of the drive is not known; give it, or set shuffle=False"
         )
     length = together * series.period / series.dt
     cycles = int((series.n - 2 * REACH) / length) - 1
     if cycles < 4:
-        raise DataError(f"the series holds {max(cycles, 0)} whole cycles of the drive, 4 are wanted: record longer")
+        raise DataError(f"the series has {max(cycles, 0)} whole cycles of the drive, 4 are needed: record longer")
     starts = REACH + np.arange(max(int(length), 1))
     cuts = starts[:, None] + np.rint(length * np.arange(cycles + 1)).astype(np.int64)
     differ = np.var(series.x[cuts], axis=1) + np.var(np.diff(series.x)[cuts - 1], axis=1)
     return int(starts[np.argmin(differ)]), length, cycles
 
 
-def _weights() -> Array:
+def _compute_weights() -> Array:
     """Return the sinc under a Kaiser window (PARTS + 1, 2 REACH): row p for a time p / PARTS after a sample."""
     away = np.arange(PARTS + 1)[:, None] / PARTS - np.arange(1 - REACH, REACH + 1)
     weights = np.sinc(away) * np.i0(6.0 * np.sqrt(np.maximum(1.0 - (away / REACH) ** 2, 0.0)))
@@ -137,13 +138,13 @@ def _weights() -> Array:
     return scaled
 
 
-def _between(x: Array, times: Array) -> Array:
+def _interpolate(x: Array, times: Array) -> Array:
     """Return `x` (n,) at `times` (m,) between its samples.
 
-    A straight line would take off noise halfway between two samples, and the surrogates would be cleaner.
+    Linear interpolation would reduce the noise halfway between two samples, and surrogates would have less noise.
     """
     fine = np.rint(times * PARTS).astype(np.int64)
     whole, part = fine // PARTS, fine % PARTS
     seen = x[np.clip(whole[:, None] + np.arange(1 - REACH, REACH + 1), 0, len(x) - 1)]
-    between: Array = np.einsum("ij,ij->i", seen, _weights()[part])
+    between: Array = np.einsum("ij,ij->i", seen, _compute_weights()[part])
     return between

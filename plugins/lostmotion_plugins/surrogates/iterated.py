@@ -1,4 +1,4 @@
-"""Surrogates that share both values and spectrum with the recording, by turns imposed on one another."""
+"""Surrogates with both the values and the spectrum of the recording, which are imposed in turns."""
 
 from __future__ import annotations
 
@@ -12,15 +12,16 @@ from scipy import fft
 from lostmotion.contracts import Array, Series, Surrogate
 from lostmotion.kernels.threads import spread
 from lostmotion_plugins.surrogates._kernels import arrange, impose
-from lostmotion_plugins.surrogates.ends import piece
+from lostmotion_plugins.surrogates.ends import choose_piece
 
 
 @dataclass(frozen=True)
 class Iaaft(Surrogate):
     """Series with the values and the spectrum of the recording. Schreiber, Schmitz, PRL 77 (1996) 635-638.
 
-    `exact` names what agrees exactly; the other agrees to about 3e-4 (relative rms of the amplitudes, or of the
-    values). Iteration ends when that error falls by less than the share `tolerance` in one turn, or stays as it is.
+    `exact` names the property that agrees exactly; the other agrees to about 3e-4 (relative rms of the amplitudes, or
+    of the values). Iteration ends when that error falls by less than the share `tolerance` in one iteration, or when
+    the order of the values no longer changes.
     """
 
     exact: Literal["amplitudes", "spectrum"] = "amplitudes"
@@ -34,7 +35,7 @@ class Iaaft(Surrogate):
 
     def piece(self, series: Series) -> slice:
         """Return the piece of the series that the surrogates are drawn of."""
-        return piece(series.x) if self.match_ends else slice(0, series.n)
+        return choose_piece(series, match_ends=self.match_ends)
 
     def draw(self, series: Series, *, draws: int, rng: np.random.Generator) -> Array:
         x = series.x[self.piece(series)]
@@ -65,9 +66,10 @@ class Iaaft(Surrogate):
 
 @dataclass(frozen=True, eq=False)
 class _Target:
-    """What every surrogate is given: sorted values about zero, in double and single precision, and sizes of lines.
+    """The properties that every surrogate gets: sorted values, and amplitudes of the Fourier spectrum.
 
-    Single precision is scaled to a standard deviation of one: the squares of tiny units would vanish in it.
+    Values and amplitudes in single precision are scaled to a standard deviation of one, since squares of values in
+    small units would underflow.
     """
 
     values: Array
@@ -79,7 +81,7 @@ class _Target:
 
     @classmethod
     def of(cls, x: Array) -> _Target:
-        """Return the target that the series `x` (n,) sets."""
+        """Return the target for surrogates of the series `x` (n,)."""
         centre, scale = float(np.mean(x)), float(np.std(x)) or 1.0
         z = (x - centre) / scale
         lines = np.abs(fft.rfft(z))

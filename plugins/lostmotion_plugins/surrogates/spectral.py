@@ -1,7 +1,8 @@
-"""Surrogates with random Fourier phases: of the series, and of the series made Gaussian."""
+"""Surrogates with random Fourier phases: of the series, and of the series transformed to Gaussian values."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -10,14 +11,14 @@ from scipy import fft
 from scipy.special import ndtri
 
 from lostmotion.contracts import Array, Series, Surrogate
-from lostmotion_plugins.surrogates.ends import piece
+from lostmotion_plugins.surrogates.ends import choose_piece
 
 
 @dataclass(frozen=True)
 class Fourier(Surrogate):
     """Series with the spectrum of the recording and random phases. Theiler et al., Physica D 58 (1992) 77-94.
 
-    `match_ends` cuts the series to the piece whose ends meet best.
+    `match_ends` cuts the series to the piece whose ends match best.
     """
 
     match_ends: bool = True
@@ -28,18 +29,17 @@ class Fourier(Surrogate):
 
     def piece(self, series: Series) -> slice:
         """Return the piece of the series that the surrogates are drawn of."""
-        return piece(series.x) if self.match_ends else slice(0, series.n)
+        return choose_piece(series, match_ends=self.match_ends)
 
     def draw(self, series: Series, *, draws: int, rng: np.random.Generator) -> Array:
-        x = series.x[self.piece(series)]
-        return np.array([randomised(x, stream) for stream in rng.spawn(draws)]).reshape(draws, len(x))
+        return _draw_each(series.x[self.piece(series)], draws, rng, randomise_phases)
 
 
 @dataclass(frozen=True)
 class Aaft(Surrogate):
     """Series with the values of the recording in a new order. Theiler et al., Physica D 58 (1992) 77-94.
 
-    The spectrum comes out whiter than that of the recording, the more so the shorter it is: `iaaft` mends that.
+    The spectrum is whiter than that of the recording, the more so the shorter the recording is; `iaaft` avoids that.
     """
 
     match_ends: bool = True
@@ -50,14 +50,20 @@ class Aaft(Surrogate):
 
     def piece(self, series: Series) -> slice:
         """Return the piece of the series that the surrogates are drawn of."""
-        return piece(series.x) if self.match_ends else slice(0, series.n)
+        return choose_piece(series, match_ends=self.match_ends)
 
     def draw(self, series: Series, *, draws: int, rng: np.random.Generator) -> Array:
-        x = series.x[self.piece(series)]
-        return np.array([_reordered(x, stream) for stream in rng.spawn(draws)]).reshape(draws, len(x))
+        return _draw_each(series.x[self.piece(series)], draws, rng, _reorder_values)
 
 
-def randomised(x: Array, rng: np.random.Generator) -> Array:
+def _draw_each(
+    x: Array, draws: int, rng: np.random.Generator, draw: Callable[[Array, np.random.Generator], Array]
+) -> Array:
+    """Return surrogates (draws, n) of `x` (n,), each drawn with a random stream of its own."""
+    return np.array([draw(x, stream) for stream in rng.spawn(draws)]).reshape(draws, len(x))
+
+
+def randomise_phases(x: Array, rng: np.random.Generator) -> Array:
     """Return a series (n,) with the spectrum of `x` (n,) and random phases."""
     spectrum = fft.rfft(x)
     turns = np.exp(2j * np.pi * rng.random(len(spectrum)))
@@ -68,15 +74,15 @@ def randomised(x: Array, rng: np.random.Generator) -> Array:
     return turned
 
 
-def _reordered(x: Array, rng: np.random.Generator) -> Array:
-    """Return the values of `x` in the order of a phase-randomised Gaussian series that was ordered as `x` is.
+def _reorder_values(x: Array, rng: np.random.Generator) -> Array:
+    """Return the values of `x` in the order of a phase-randomised Gaussian series with the ranks of `x`.
 
-    Equal values are ranked at random: in the order of time they would make a ramp of each stretch of them.
+    Equal values are ranked at random: in the order of time, a stretch of equal values would become a ramp.
     """
     n = len(x)
     order = np.lexsort((rng.random(n), x))
     gaussian = np.empty(n)
     gaussian[order] = ndtri((np.arange(n) + 0.5) / n)
     out = np.empty(n)
-    out[np.argsort(randomised(gaussian, rng))] = x[order]
+    out[np.argsort(randomise_phases(gaussian, rng))] = x[order]
     return out

@@ -1,1 +1,1 @@
-"""Pieces of physics that a model may lack, each under the name that a diagnosis says."""
+"""Pieces of physics that a model may lack, each under the name that a diagnosis uses for it."""

@@ -1,4 +1,4 @@
-"""Masses that the model does not count: one on a spring of its own, and one that comes or goes."""
+"""Masses that the model lacks: one on a spring of its own, and one that is added or removed during the recording."""
 
 from __future__ import annotations
 
@@ -10,16 +10,16 @@ from lostmotion.contracts import Array, Model, Param, Term, Values
 from lostmotion.quantities import FREQUENCY, INERTIA, LENGTH, NUMBER, SPEED, TIME
 
 
-def _free_standing(at: str, model: Model) -> bool:
-    """Return whether motion at a place is that of one body: what is between two bodies has no mass of its own."""
+def _is_single_body(at: str, model: Model) -> bool:
+    """Return whether a place belongs to one body; a place between two bodies has no mass of its own."""
     return any(place.name == at and place.against is None for place in model.interfaces)
 
 
 @dataclass(frozen=True)
 class HiddenMode(Term):
-    """A further mass on a spring and a damper of its own: a cover that rattles, a second mode, a tuned absorber.
+    """A further mass on a spring and a damper of its own: a loose cover, a second mode, a tuned absorber.
 
-    The states are place and velocity of that mass, relative to the same frame as those of the body it is mounted on.
+    The states are position and velocity of that mass, relative to the same frame as those of the body that carries it.
     """
 
     at: str = "ground"
@@ -48,7 +48,7 @@ class HiddenMode(Term):
 
     def fits(self, model: Model) -> bool:
         """Return whether the term can act in `model`: at a body, and not between two."""
-        return _free_standing(self.at, model) and super().fits(model)
+        return _is_single_body(self.at, model) and super().fits(model)
 
     @staticmethod
     def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
@@ -65,9 +65,9 @@ class HiddenMode(Term):
 
 @dataclass(frozen=True)
 class InertiaChange(Term):
-    """A mass that is added or lost at a time: a load picked up, a part that falls off.
+    """A mass that is added or removed at some time: a load is picked up, or a part comes off.
 
-    All other forces give the body the acceleration a; with the changed mass it would be smaller by a share of it.
+    The force is the one that turns the acceleration a by all other forces into that of the changed mass.
     """
 
     at: str = "ground"
@@ -86,7 +86,7 @@ class InertiaChange(Term):
 
     def fits(self, model: Model) -> bool:
         """Return whether the term can act in `model`: at a body, and not between two."""
-        return _free_standing(self.at, model) and super().fits(model)
+        return _is_single_body(self.at, model) and super().fits(model)
 
     @staticmethod
     def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:

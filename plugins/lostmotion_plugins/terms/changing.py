@@ -1,4 +1,4 @@
-"""What changes while the machine runs: a stiffness that pulsates, a gap that wears."""
+"""Properties that change while the machine runs: a stiffness that pulsates, a gap that wears."""
 
 from __future__ import annotations
 
@@ -8,21 +8,22 @@ from typing import ClassVar
 
 from lostmotion.contracts import Array, Param, Term, Values
 from lostmotion.quantities import NUMBER, SPEED
+from lostmotion_plugins.laws import subtract_gap
 
 
 @dataclass(frozen=True)
 class ParametricStiffness(Term):
-    """A stiffness that pulsates with the drive or a multiple of it, as where teeth mesh.
+    """A stiffness that pulsates with a multiple of the drive frequency, as that of meshing teeth.
 
-    Cosine and sine are shares of the stiffness; together they are the depth sqrt(cosine^2 + sine^2) and a phase.
+    Cosine and sine are shares of the stiffness. They give the depth sqrt(cosine^2 + sine^2) and a phase.
     """
 
     at: str = "ground"
     name: ClassVar[str] = "parametric_stiffness"
     unlikely: ClassVar[float] = 3.0
     physics: ClassVar[str] = (
-        "The stiffness pulsates at {ratio} times the frequency of the drive, by {cosine} of it as its cosine and {sine}"
-        " as its sine"
+        "The stiffness pulsates at {ratio} times the frequency of the drive: by {cosine} of its mean as a cosine and"
+        " {sine} as a sine"
     )
     formula: ClassVar[str] = "-(cosine * cos(ratio omega t) + sine * sin(ratio omega t)) * F(x), F the contact force"
     paper: ClassVar[str] = "Theodossiades, Natsiavas, J. Sound and Vibration 229 (2000) 287-310, eq. (5)"
@@ -36,7 +37,7 @@ class ParametricStiffness(Term):
 
     @staticmethod
     def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
-        beyond = x - p[4] if x > p[4] else (x + p[4] if x < -p[4] else 0.0)
+        beyond = subtract_gap(x, p[4])
         if beyond == 0.0:
             return 0.0
         angle = p[2] * p[5] * t
@@ -49,7 +50,7 @@ class ParametricStiffness(Term):
 
 @dataclass(frozen=True)
 class GapDrift(Term):
-    """A gap that grows or shrinks steadily: wear, or heat."""
+    """A gap that grows or shrinks at a constant rate, by wear or by heat."""
 
     at: str = "ground"
     name: ClassVar[str] = "gap_drift"
@@ -61,7 +62,5 @@ class GapDrift(Term):
 
     @staticmethod
     def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
-        wide = max(p[2] + p[0] * t, 0.0)
-        old = x - p[2] if x > p[2] else (x + p[2] if x < -p[2] else 0.0)
-        new = x - wide if x > wide else (x + wide if x < -wide else 0.0)
-        return p[1] * (old - new)
+        changed = max(p[2] + p[0] * t, 0.0)
+        return p[1] * (subtract_gap(x, p[2]) - subtract_gap(x, changed))

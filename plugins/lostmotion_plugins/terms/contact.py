@@ -1,4 +1,4 @@
-"""What happens where the parts touch: losses in the contact, and a gap that is wider on one side."""
+"""Terms of a contact with play: damping in the contact, a gap that is not centred, a nonlinear contact stiffness."""
 
 from __future__ import annotations
 
@@ -8,15 +8,16 @@ from typing import ClassVar
 
 from lostmotion.contracts import Array, Param, Term, Values
 from lostmotion.quantities import DAMPING, LENGTH, Dimension
+from lostmotion_plugins.laws import subtract_gap
 
 
 @dataclass(frozen=True)
 class ContactDamping(Term):
-    """A drag that acts only while the parts touch, |x| > x0."""
+    """Viscous damping that acts only while the parts touch, |x| > x0."""
 
     at: str = "ground"
     name: ClassVar[str] = "contact_damping"
-    physics: ClassVar[str] = "The contact itself dissipates, with {coefficient} while the parts touch"
+    physics: ClassVar[str] = "The contact has a viscous damping of {coefficient} while the parts touch"
     formula: ClassVar[str] = "-coefficient * v where |x| > x0"
     paper: ClassVar[str] = "Gilardi, Sharf, Mechanism and Machine Theory 37 (2002) 1213-1239, section 4.1"
     params = (Param("coefficient", "damping in contact", DAMPING, low=0.0, null=0.0),)
@@ -30,33 +31,28 @@ class ContactDamping(Term):
 
 @dataclass(frozen=True)
 class AsymmetricGap(Term):
-    """A gap whose middle is not at zero: both stops are shifted by the same travel."""
+    """A gap whose centre is not at zero: both stops are shifted by the same travel."""
 
     at: str = "ground"
     name: ClassVar[str] = "asymmetric_gap"
     physics: ClassVar[str] = "The gap is not centred: it is shifted by {shift}"
     formula: ClassVar[str] = "F(x) - F(x - shift), F the contact force of the model"
     paper: ClassVar[str] = "Theodossiades, Natsiavas, J. Sound and Vibration 229 (2000) 287-310, eq. (3)"
-    params = (Param("shift", "shift of the middle of the gap", LENGTH, null=0.0, typical=0.3),)
+    params = (Param("shift", "shift of the centre of the gap", LENGTH, null=0.0, typical=0.3),)
     needs = ("k0", "x0")
 
     @staticmethod
     def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
-        k0 = p[1]
-        x0 = p[2]
-        y = x - p[0]
-        old = k0 * (x - x0) if x > x0 else (k0 * (x + x0) if x < -x0 else 0.0)
-        new = k0 * (y - x0) if y > x0 else (k0 * (y + x0) if y < -x0 else 0.0)
-        return old - new
+        return p[1] * subtract_gap(x, p[2]) - p[1] * subtract_gap(x - p[0], p[2])
 
 
 @dataclass(frozen=True)
 class HuntCrossleyContact(Term):
-    """A drag in the contact that grows with how far the parts are pressed into each other: no jump where they meet."""
+    """Contact damping that is proportional to the depth of the contact, so that the force is continuous at touch."""
 
     at: str = "ground"
     name: ClassVar[str] = "hunt_crossley_contact"
-    physics: ClassVar[str] = "The contact dissipates the more the further it is pressed: {coefficient} of its depth"
+    physics: ClassVar[str] = "The damping of the contact grows with its depth: it is {coefficient} times the depth"
     formula: ClassVar[str] = "-coefficient * d * v, d = |x| - x0 where that is positive, else 0"
     paper: ClassVar[str] = "Hunt, Crossley, J. Applied Mechanics 42 (1975) 440-445, eq. (9) with n = 1"
     params = (
@@ -72,11 +68,11 @@ class HuntCrossleyContact(Term):
 
 @dataclass(frozen=True)
 class HertzContact(Term):
-    """A contact of curved bodies beside the straight one: its stiffness grows with the root of its depth."""
+    """A Hertzian contact of curved bodies in parallel to the linear contact of the model: the force is depth^(3/2)."""
 
     at: str = "ground"
     name: ClassVar[str] = "hertz_contact"
-    physics: ClassVar[str] = "The contact stiffens as it is pressed: {coefficient} times its depth to the power of 3/2"
+    physics: ClassVar[str] = "The contact has a further force of {coefficient} times its depth to the power of 3/2"
     formula: ClassVar[str] = "-coefficient * d^(3/2) * sign(x), d = |x| - x0 where that is positive, else 0"
     paper: ClassVar[str] = "Hertz, J. reine angewandte Mathematik 92 (1882) 156-171; Johnson, Contact Mechanics (1985)"
     params = (Param("coefficient", "Hertzian stiffness", Dimension(1, -1.5, 0), null=0.0, typical=3.0),)

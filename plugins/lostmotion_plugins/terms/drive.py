@@ -1,4 +1,4 @@
-"""What lies between the recorded excitation and the one that acts."""
+"""Differences between the recorded excitation and the one that acts."""
 
 from __future__ import annotations
 
@@ -12,8 +12,10 @@ from lostmotion.contracts import Array, DriveTerm, Input, Param, Values
 from lostmotion.quantities import FORCE, NUMBER, TIME
 from lostmotion_plugins.terms.changing import ParametricStiffness
 
-FAR = (-2.0, -1.0, -0.5, -0.2, 0.2, 0.5, 1.0, 1.5, 2.0, 2.8, 4.0, 5.5)
-"""Delays in natural times of the motion, a radian of it: beyond a few tenths the response no longer grows with them."""
+FAR_DELAYS = (-2.0, -1.0, -0.5, -0.2, 0.2, 0.5, 1.0, 1.5, 2.0, 2.8, 4.0, 5.5)
+"""Delays that are tried, in units of the time in which the motion turns by one radian.
+
+A score test assumes that the response grows linearly with the delay, which ends at a few tenths of that time."""
 
 
 @dataclass(frozen=True)
@@ -42,21 +44,21 @@ class ExcitationHarmonic(DriveTerm):
 
     @staticmethod
     def true(u: Input, t: Array, p: Values, order: int) -> Array:
-        turn = p[2] * p[3]
-        angle = turn * t + 0.5 * math.pi * order
-        more = p[0] * np.cos(angle) + p[1] * np.sin(angle)
-        return np.asarray(u(t, order) + p[4] * turn**order * more)
+        omega = p[2] * p[3]
+        angle = omega * t + 0.5 * math.pi * order
+        harmonic = p[0] * np.cos(angle) + p[1] * np.sin(angle)
+        return np.asarray(u(t, order) + p[4] * omega**order * harmonic)
 
     derived = staticmethod(ParametricStiffness.derived)
 
 
 @dataclass(frozen=True)
 class ExcitationGain(DriveTerm):
-    """A gauge of the drive that shows too little or too much."""
+    """A sensor of the drive with a wrong gain."""
 
     at: str = "drive"
     name: ClassVar[str] = "excitation_gain"
-    physics: ClassVar[str] = "The drive that acts is larger than the recorded one by {error} of it"
+    physics: ClassVar[str] = "The drive that acts is larger than the recorded one by the fraction {error}"
     formula: ClassVar[str] = "(1 + error) * u"
     paper: ClassVar[str] = "Pintelon, Schoukens, System Identification: a Frequency Domain Approach (2012), section 1.6"
     params = (Param("error", "relative error of the gain", NUMBER, low=-0.9, null=0.0, typical=0.1),)
@@ -69,7 +71,7 @@ class ExcitationGain(DriveTerm):
 
 @dataclass(frozen=True)
 class ExcitationDelay(DriveTerm):
-    """A drive that acts later than it was recorded; earlier, where its gauge is slow."""
+    """A drive that acts later than it was recorded, or earlier (negative) where its sensor is slow."""
 
     at: str = "drive"
     name: ClassVar[str] = "excitation_delay"
@@ -77,7 +79,7 @@ class ExcitationDelay(DriveTerm):
     physics: ClassVar[str] = "The drive acts {delay} after it was recorded"
     formula: ClassVar[str] = "u(t - delay)"
     paper: ClassVar[str] = "Ljung, System Identification: Theory for the User (1999), section 4.2"
-    params = (Param("delay", "delay of the drive", TIME, null=0.0, far=FAR),)
+    params = (Param("delay", "delay of the drive", TIME, null=0.0, far=FAR_DELAYS),)
     resembles = ("sensor_delay",)
     equals = ("sensor_delay",)
 
@@ -88,14 +90,14 @@ class ExcitationDelay(DriveTerm):
 
 @dataclass(frozen=True)
 class DriveSaturation(DriveTerm):
-    """A drive that cannot do all that was asked of it: beyond a limit a share of it is lost; all of it, if that is 1.
+    """A drive that saturates: a share of what exceeds a limit is lost, all of it where the share is 1.
 
-    The limit is of the dimension of the input.
+    The limit has the dimension of the input.
     """
 
     at: str = "drive"
     name: ClassVar[str] = "drive_saturation"
-    physics: ClassVar[str] = "Of what the drive is asked beyond {limit}, the share {share} is lost"
+    physics: ClassVar[str] = "The drive saturates: of what exceeds {limit}, the share {share} is lost"
     formula: ClassVar[str] = "u - share * (u - clip(u, -limit, limit))"
     paper: ClassVar[str] = (
         "Tao, Kokotovic, Adaptive Control of Systems with Actuator Nonlinearities (1996), section 2.1"
@@ -108,35 +110,35 @@ class DriveSaturation(DriveTerm):
 
     @staticmethod
     def true(u: Input, t: Array, p: Values, order: int) -> Array:
-        asked = u(t, 0)
+        demand = u(t, 0)
         if order == 0:
-            return np.asarray(asked - p[0] * (asked - np.clip(asked, -p[1], p[1])))
-        return np.asarray(u(t, order) * (1.0 - p[0] * (np.abs(asked) > p[1])))
+            return np.asarray(demand - p[0] * (demand - np.clip(demand, -p[1], p[1])))
+        return np.asarray(u(t, order) * (1.0 - p[0] * (np.abs(demand) > p[1])))
 
 
 @dataclass(frozen=True)
 class DriveDeadZone(DriveTerm):
-    """A drive that does nothing, or less, until so much is asked of it: a valve with overlap, a motor that sticks.
+    """A drive with a dead zone: a share of the first part of the demand is lost, as in a valve with overlap.
 
-    The width is of the dimension of the input.
+    The width has the dimension of the input.
     """
 
     at: str = "drive"
     name: ClassVar[str] = "drive_dead_zone"
-    physics: ClassVar[str] = "Of the first {width} that the drive is asked, the share {share} is lost"
+    physics: ClassVar[str] = "The drive has a dead zone: of the first {width} of it, the share {share} is lost"
     formula: ClassVar[str] = "u - share * clip(u, -width, width)"
     paper: ClassVar[str] = (
         "Tao, Kokotovic, Adaptive Control of Systems with Actuator Nonlinearities (1996), section 2.2"
     )
     params = (
-        Param("share", "share of it that is lost", NUMBER, low=0.0, high=1.0, null=0.0),
+        Param("share", "share of the drive in the zone that is lost", NUMBER, low=0.0, high=1.0, null=0.0),
         Param("width", "half width of the zone", FORCE, low=0.0, scale="log", typical=0.2, scan=(0.1, 10.0)),
     )
     resembles = ("excitation_gain",)
 
     @staticmethod
     def true(u: Input, t: Array, p: Values, order: int) -> Array:
-        asked = u(t, 0)
+        demand = u(t, 0)
         if order == 0:
-            return np.asarray(asked - p[0] * np.clip(asked, -p[1], p[1]))
-        return np.asarray(u(t, order) * (1.0 - p[0] * (np.abs(asked) < p[1])))
+            return np.asarray(demand - p[0] * np.clip(demand, -p[1], p[1]))
+        return np.asarray(u(t, order) * (1.0 - p[0] * (np.abs(demand) < p[1])))

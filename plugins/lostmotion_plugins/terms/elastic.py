@@ -1,4 +1,4 @@
-"""Forces that depend on position, and a constant one."""
+"""Forces that depend on position, and a constant force."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from lostmotion.quantities import FORCE, STIFFNESS, Dimension
 
 @dataclass(frozen=True)
 class LinearStiffness(Term):
-    """A spring to the interface that the model does not have."""
+    """A linear spring at the interface, in addition to those of the model."""
 
     at: str = "ground"
     name: ClassVar[str] = "linear_stiffness"
-    physics: ClassVar[str] = "A spring of {coefficient} pulls towards the middle"
+    physics: ClassVar[str] = "A spring of {coefficient} pulls towards position zero"
     formula: ClassVar[str] = "-coefficient * x"
     paper: ClassVar[str] = "Nayfeh, Mook, Nonlinear Oscillations (1979), section 1.1"
     params = (Param("coefficient", "stiffness", STIFFNESS, null=0.0),)
@@ -44,7 +44,7 @@ class CubicStiffness(Term):
 
 @dataclass(frozen=True)
 class QuadraticStiffness(Term):
-    """A spring force with the square of travel: a spring that is curved at rest, as that of a buckled beam."""
+    """A spring force with the square of travel, as that of a curved (buckled) beam."""
 
     at: str = "ground"
     name: ClassVar[str] = "quadratic_stiffness"
@@ -95,7 +95,7 @@ class OffsetForce(Term):
 
 @dataclass(frozen=True)
 class GravityPendulum(Term):
-    """The weight of a link that turns in a vertical plane, its angle measured from where it hangs."""
+    """The weight of a link that turns in a vertical plane; its angle is measured from where it hangs straight down."""
 
     at: str = "ground"
     name: ClassVar[str] = "gravity_pendulum"

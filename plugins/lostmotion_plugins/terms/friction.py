@@ -1,4 +1,4 @@
-"""Dry friction as laws that jump at zero velocity."""
+"""Dry friction laws with a jump at zero velocity, which is resolved as a steep line (`laws.resist_sliding`)."""
 
 from __future__ import annotations
 
@@ -9,14 +9,18 @@ from typing import ClassVar
 
 from lostmotion.contracts import Array, Param, Term, Values
 from lostmotion.quantities import FORCE, SPEED
+from lostmotion_plugins.laws import resist_sliding
 
-NOTHING = 0.05
-"""A part of a friction force below this share of it is told as nothing, where the evidence is no worse."""
+NEGLIGIBLE_SHARE = 0.05
+"""A part of a friction force below this share of it is dropped from the answer, where the evidence is no worse.
+
+In long recordings the integration errors of our own laws are significant: Coulomb friction then came back as Stribeck
+friction with an excess of 2 % (`benchmarks/seconds.py friction_200k`)."""
 
 
 @dataclass(frozen=True)
 class CoulombFriction(Term):
-    """Dry friction of constant size. It sticks: below the velocity `force * mobility` the law is a steep line."""
+    """Dry friction of constant size. To model sticking, the law is a steep line below the speed `force * mobility`."""
 
     at: str = "ground"
     name: ClassVar[str] = "coulomb_friction"
@@ -29,10 +33,7 @@ class CoulombFriction(Term):
 
     @staticmethod
     def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
-        width = abs(p[0]) * p[1]
-        if abs(v) >= width:
-            return -p[0] if v > 0.0 else (p[0] if v < 0.0 else 0.0)
-        return -p[0] * v / width
+        return resist_sliding(v, p[0], abs(p[0]) * p[1])
 
 
 @dataclass(frozen=True)
@@ -55,14 +56,11 @@ class StribeckFriction(Term):
     resembles = ("coulomb_friction", "lugre_friction", "dahl_friction")
 
     def commoner(self, values: Mapping[str, float]) -> Mapping[str, Mapping[str, float]]:
-        """Return friction of one level where the excess is next to nothing."""
+        """Return Coulomb friction of the sliding level where the excess is negligible."""
         level = values["force"]
-        return {"coulomb_friction": {"force": level}} if values["excess"] < NOTHING * level else {}
+        return {"coulomb_friction": {"force": level}} if values["excess"] < NEGLIGIBLE_SHARE * level else {}
 
     @staticmethod
     def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
-        size = p[0] + p[1] * math.exp(-((v / p[2]) ** 2))
-        width = (abs(p[0]) + abs(p[1])) * p[3]
-        if abs(v) >= width:
-            return -size if v > 0.0 else (size if v < 0.0 else 0.0)
-        return -size * v / width
+        level = p[0] + p[1] * math.exp(-((v / p[2]) ** 2))
+        return resist_sliding(v, level, (abs(p[0]) + abs(p[1])) * p[3])

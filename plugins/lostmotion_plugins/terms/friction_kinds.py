@@ -9,11 +9,13 @@ from typing import ClassVar
 
 from lostmotion.contracts import Array, Model, Param, Term, Values
 from lostmotion.quantities import FORCE, NUMBER, TIME
-from lostmotion_plugins.terms.friction import NOTHING
+from lostmotion_plugins.laws import resist_sliding, subtract_gap
+from lostmotion_plugins.terms.friction import NEGLIGIBLE_SHARE
 
-OFFSET = 0.25
-"""Levels that differ by less than this share of their sum are told as one level and an offset of the drive or of the
-sensor, which every rig has: the forces are the same at any speed, and at rest."""
+OFFSET_SHARE = 0.25
+"""Two levels that differ by less than this share of their sum are reported as one level and a constant force.
+
+The forces are the same at any speed and at rest, and an offset of the drive or of the sensor occurs on every rig."""
 
 
 @dataclass(frozen=True)
@@ -35,11 +37,11 @@ class DirectionalFriction(Term):
     resembles = ("coulomb_friction", "stribeck_friction")
 
     def commoner(self, values: Mapping[str, float]) -> Mapping[str, Mapping[str, float]]:
-        """Return friction and an offset, which are the same force, where the levels differ by little."""
-        both, apart = values["forward"] + values["backward"], values["forward"] - values["backward"]
-        if not abs(apart) < OFFSET * both:
+        """Return Coulomb friction and a constant force, which act in the same way, where the levels differ little."""
+        total, difference = values["forward"] + values["backward"], values["forward"] - values["backward"]
+        if not abs(difference) < OFFSET_SHARE * total:
             return {}
-        return {"coulomb_friction": {"force": 0.5 * both}, "offset_force": {"force": -0.5 * apart}}
+        return {"coulomb_friction": {"force": 0.5 * total}, "offset_force": {"force": -0.5 * difference}}
 
     @staticmethod
     def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
@@ -51,45 +53,43 @@ class DirectionalFriction(Term):
 
 @dataclass(frozen=True)
 class LoadDependentFriction(Term):
-    """Dry friction that grows with the load on the parts: with the force of their contact, else with the drive.
+    """Dry friction that is proportional to a load.
 
-    Where parts meet with play at the place, the load is the force between them; elsewhere it is the force that drives
-    the body.
+    Where the place has a contact with play, the load is the contact force; elsewhere it is the force that drives the
+    body.
     """
 
     at: str = "ground"
     name: ClassVar[str] = "load_dependent_friction"
     physics: ClassVar[str] = "Dry friction of {coefficient} times the load opposes the motion"
-    formula: ClassVar[str] = "-coefficient * |load| * sign(v), the load a contact with play, or else the drive"
+    formula: ClassVar[str] = "-coefficient * |load| * sign(v), the load that of a contact with play, else the drive"
     paper: ClassVar[str] = "Hamon, Gautier, Garrec, IEEE/RSJ Int. Conf. Intelligent Robots and Systems (2010) 1609-1614"
     params = (Param("coefficient", "friction over the load", NUMBER, low=0.0, null=0.0, typical=0.1),)
     needs = ("contact", "play", "force_input", "mobility")
     resembles = ("coulomb_friction",)
 
     def fits(self, model: Model) -> bool:
-        """Return whether the term can act in `model`: there is a contact with play at the place, or a force drives."""
+        """Return whether the term can act in `model`: the place has a contact with play, or the model a force input."""
         contact = any(place.name == self.at and place.play for place in model.interfaces)
         return (contact or "force" in model.inputs) and super().fits(model)
 
     @staticmethod
     def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
         pushed: float = u[int(p[3])] if p[3] >= 0.0 else 0.0
-        pressed = p[1] * (x - min(max(x, -p[2]), p[2]))
+        pressed = p[1] * subtract_gap(x, p[2])
         level: float = p[0] * abs(pressed if p[1] > 0.0 else pushed)
-        width = level * p[4]
-        if abs(v) >= width:
-            return -level if v > 0.0 else (level if v < 0.0 else 0.0)
-        return -level * v / width
+        return resist_sliding(v, level, level * p[4])
 
 
 @dataclass(frozen=True)
 class FrictionDrift(Term):
-    """Dry friction that changes while the machine runs: it warms up, or runs dry."""
+    """Dry friction that changes while the machine runs, because it warms up or loses its lubricant."""
 
     at: str = "ground"
     name: ClassVar[str] = "friction_drift"
     physics: ClassVar[str] = (
-        "Dry friction opposes the motion: {force} at the start, and {change} more in the long run, reached in {time}"
+        "Dry friction opposes the motion: {force} at the start, and {change} more in the long run, with a time constant"
+        " of {time}"
     )
     formula: ClassVar[str] = "-max(force + change * (1 - exp(-t/time)), 0) * sign(v)"
     paper: ClassVar[str] = "Simoni, Beschi, Legnani, Visioli, IEEE/RSJ Int. Conf. Intelligent Robots (2015) 3524-3529"
@@ -105,14 +105,11 @@ class FrictionDrift(Term):
     resembles = ("coulomb_friction",)
 
     def commoner(self, values: Mapping[str, float]) -> Mapping[str, Mapping[str, float]]:
-        """Return friction of one level where the change is next to nothing."""
+        """Return Coulomb friction of the level at the start where the change is negligible."""
         level = values["force"]
-        return {"coulomb_friction": {"force": level}} if abs(values["change"]) < NOTHING * level else {}
+        return {"coulomb_friction": {"force": level}} if abs(values["change"]) < NEGLIGIBLE_SHARE * level else {}
 
     @staticmethod
     def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
         level = max(p[0] + p[1] * (1.0 - math.exp(-t / p[2])), 0.0)
-        width = (abs(p[0]) + abs(p[1])) * p[3]
-        if abs(v) >= width:
-            return -level if v > 0.0 else (level if v < 0.0 else 0.0)
-        return -level * v / width
+        return resist_sliding(v, level, (abs(p[0]) + abs(p[1])) * p[3])

@@ -1,4 +1,4 @@
-"""Friction with a memory: what is elastic before it slides, as a state of its own."""
+"""Friction and hysteresis with a state of their own: the force is elastic before it slides."""
 
 from __future__ import annotations
 
@@ -9,24 +9,25 @@ from typing import ClassVar
 from lostmotion.contracts import Array, Param, Term, Values
 from lostmotion.quantities import FORCE, LENGTH, SPEED
 
-_KIN = ("coulomb_friction", "stribeck_friction", "dahl_friction", "lugre_friction", "bouc_wen_hysteresis")
+_SIMILAR_TERMS = ("coulomb_friction", "stribeck_friction", "dahl_friction", "lugre_friction", "bouc_wen_hysteresis")
 
 
-def _but(name: str) -> tuple[str, ...]:
-    return tuple(kin for kin in _KIN if kin != name)
+def _list_others(name: str) -> tuple[str, ...]:
+    """Return the similar terms without the one of this name."""
+    return tuple(other for other in _SIMILAR_TERMS if other != name)
 
 
 @dataclass(frozen=True)
 class DahlFriction(Term):
-    """Dry friction through bristles that bend before it slides; the bristle force (N) is its own state.
+    """Dry friction through bristles that bend before they slide; the bristle force (N) is a state of its own.
 
-    Its pace is bounded by the step, so that the law stays stable when bristles are stiffer than one step resolves.
+    The rate is bounded by the step, so that the law stays stable where bristles are stiffer than one step resolves.
     """
 
     at: str = "ground"
     name: ClassVar[str] = "dahl_friction"
     physics: ClassVar[str] = (
-        "Dry friction of {force} with {deflection} of elastic travel before it slides opposes the motion"
+        "Dry friction of {force}, with {deflection} of elastic travel before it slides, opposes the motion"
     )
     formula: ClassVar[str] = "-f,  f' = |v|/deflection * (force * sign(v) - f)"
     paper: ClassVar[str] = "Dahl, AIAA Journal 14 (1976) 1675-1682, eq. (4) with i = 1"
@@ -36,7 +37,7 @@ class DahlFriction(Term):
     )
     states = ("bristle_force",)
     needs = ("step",)
-    resembles = _but("dahl_friction")
+    resembles = _list_others("dahl_friction")
 
     @staticmethod
     def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
@@ -51,9 +52,9 @@ class DahlFriction(Term):
 
 @dataclass(frozen=True)
 class LuGreFriction(Term):
-    """Bristles with a breakaway force: friction is larger near rest, and elastic before it slides.
+    """Bristle friction with a breakaway force: it is larger near rest, and elastic before it slides.
 
-    Written in the bristle force f = sigma0 z; sigma1 = sigma2 = 0, since damping of either kind has terms of its own.
+    The state is the bristle force f = sigma0 z. sigma1 = sigma2 = 0, since other terms model damping.
     """
 
     at: str = "ground"
@@ -74,7 +75,7 @@ class LuGreFriction(Term):
     )
     states = ("bristle_force",)
     needs = ("step",)
-    resembles = _but("lugre_friction")
+    resembles = _list_others("lugre_friction")
 
     force = staticmethod(DahlFriction.force)
 
@@ -88,9 +89,9 @@ class LuGreFriction(Term):
 
 @dataclass(frozen=True)
 class BoucWenHysteresis(Term):
-    """A hysteretic force that is a spring at first and yields: the smooth loop of joints, rubber, wire rope.
+    """A hysteretic force that is elastic at first and then yields: the smooth loop of joints, rubber and wire rope.
 
-    The state is the force f itself; beta = gamma = 1/2 and n = 2: unloading is as stiff as the start.
+    The state is the force f itself. With beta = gamma = 1/2 and n = 2, unloading is as stiff as the first loading.
     """
 
     at: str = "ground"
@@ -100,11 +101,11 @@ class BoucWenHysteresis(Term):
     paper: ClassVar[str] = "Wen, J. Engineering Mechanics Division ASCE 102 (1976) 249-263; Bouc (1967)"
     params = (
         Param("force", "yield force", FORCE, low=0.0, null=0.0),
-        Param("travel", "travel at which the first slope would yield", LENGTH, low=0.0, scale="log", typical=0.3),
+        Param("travel", "yield force over the initial stiffness", LENGTH, low=0.0, scale="log", typical=0.3),
     )
     states = ("hysteretic_force",)
     needs = ("step",)
-    resembles = _but("bouc_wen_hysteresis")
+    resembles = _list_others("bouc_wen_hysteresis")
 
     force = staticmethod(DahlFriction.force)
 

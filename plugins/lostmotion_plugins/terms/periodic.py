@@ -8,21 +8,23 @@ from typing import ClassVar
 
 from lostmotion.contracts import Array, Param, Term, Values
 from lostmotion.quantities import FORCE, LENGTH, NUMBER
+from lostmotion_plugins.laws import resist_sliding
 from lostmotion_plugins.terms.changing import ParametricStiffness
 
-TYPICAL, PITCHES = 0.3, (0.1, 3.4)
-"""The usual pitch in amplitudes of the motion, and where one is looked for in units of that: the longest has two
-periods in the travel. What repeats less often is no wave that anybody could tell from another smooth curve."""
+TYPICAL_PITCH, PITCH_RANGE = 0.3, (0.1, 3.4)
+"""The usual pitch in amplitudes of the motion, and the range of pitches that are tried in units of that.
 
+The longest one has two periods within the travel. A longer one could not be told from another smooth curve."""
 
 PITCH = Param(
-    "pitch", "travel or turn after which it repeats", LENGTH, low=0.0, scale="log", typical=TYPICAL, scan=PITCHES
-)
+    "pitch", "travel or turn after which it repeats", LENGTH, low=0.0, scale="log", typical=TYPICAL_PITCH,
+    scan=PITCH_RANGE,
+)  # fmt: skip
 
 
 @dataclass(frozen=True)
 class Cogging(Term):
-    """A force that repeats over travel or turn, as that of the magnets of a motor on its teeth, or of a bent screw."""
+    """A force that is periodic in position: cogging torque of a motor, or the force of a bent screw."""
 
     at: str = "ground"
     name: ClassVar[str] = "cogging"
@@ -45,21 +47,21 @@ class Cogging(Term):
 
 @dataclass(frozen=True)
 class PositionDependentFriction(Term):
-    """Dry friction that is larger at some places than at others, and repeats over travel or turn.
+    """Dry friction that is periodic in position.
 
-    Below the velocity at which friction changes its direction in one step the law is a steep line.
+    Below the velocity at which friction reverses the motion within one step, the law is a steep line.
     """
 
     at: str = "ground"
     name: ClassVar[str] = "position_dependent_friction"
     physics: ClassVar[str] = (
-        "Dry friction of {force} on the average, which repeats with every {pitch}, {cosine} as a cosine and {sine} as a"
-        " sine, opposes the motion"
+        "Dry friction of {force} on average, which varies periodically with every {pitch} by {cosine} as a cosine and"
+        " {sine} as a sine, opposes the motion"
     )
     formula: ClassVar[str] = "-max(force + cosine * cos(2 pi x / pitch) + sine * sin(2 pi x / pitch), 0) * sign(v)"
     paper: ClassVar[str] = "Armstrong, IEEE Int. Conf. Robotics and Automation (1988) 1299-1305: position dependence"
     params = (
-        Param("force", "friction force on the average", FORCE, low=0.0, null=0.0),
+        Param("force", "mean friction force", FORCE, low=0.0, null=0.0),
         Param("cosine", "friction as cos(2 pi x / pitch)", FORCE, null=0.0, typical=0.3),
         Param("sine", "friction as sin(2 pi x / pitch)", FORCE, null=0.0, typical=0.3),
         PITCH,
@@ -70,8 +72,5 @@ class PositionDependentFriction(Term):
     @staticmethod
     def force(t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:
         angle = 2.0 * math.pi * x / p[3]
-        size = max(p[0] + p[1] * math.cos(angle) + p[2] * math.sin(angle), 0.0)
-        width = (abs(p[0]) + abs(p[1]) + abs(p[2])) * p[4]
-        if abs(v) >= width:
-            return -size if v > 0.0 else (size if v < 0.0 else 0.0)
-        return -size * v / width
+        level = max(p[0] + p[1] * math.cos(angle) + p[2] * math.sin(angle), 0.0)
+        return resist_sliding(v, level, (abs(p[0]) + abs(p[1]) + abs(p[2])) * p[4])

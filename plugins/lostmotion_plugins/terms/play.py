@@ -1,4 +1,4 @@
-"""Parts that meet only beyond some travel: play in a spring that was taken for tight, and an end stop."""
+"""Contacts that close only beyond some travel: play in a spring that the model has without play, and an end stop."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ _SIDES = ("at both ends", "on the positive side", "on the negative side")
 
 @dataclass(frozen=True)
 class Backlash(Term):
-    """Play in a spring that the model takes for tight: it acts only beyond a gap.
+    """Play in a spring that has none in the model: the spring acts only beyond a gap.
 
-    Where the model has a gap already, that is estimated, and this term does not act.
+    Where the model has a gap of its own, that one is estimated, and this term does not act.
     """
 
     at: str = "ground"
@@ -28,7 +28,7 @@ class Backlash(Term):
     resembles = ("cubic_stiffness",)
 
     def fits(self, model: Model) -> bool:
-        """Return whether the term can act in `model`: at a spring without play."""
+        """Return whether the term can act in `model`: its place has a spring without play."""
         tight = any(place.name == self.at and place.play is None for place in model.interfaces)
         return tight and super().fits(model)
 
@@ -39,7 +39,7 @@ class Backlash(Term):
 
 @dataclass(frozen=True)
 class EndStop(Term):
-    """A stiff contact beyond a travel, at both ends or at one of them: not before half of the amplitude."""
+    """A stiff contact beyond a travel, at both ends or at one of them; it is tried from half of the amplitude on."""
 
     at: str = "ground"
     name: ClassVar[str] = "end_stop"

@@ -1,4 +1,4 @@
-"""What lies between the motion and its recording."""
+"""Errors of the sensor of the response: gain, offset, delay, periodic error and quantisation."""
 
 from __future__ import annotations
 
@@ -11,23 +11,26 @@ import numpy as np
 from lostmotion.contracts import Array, Param, SensorTerm, Values
 from lostmotion.quantities import LENGTH, NUMBER, TIME
 from lostmotion_plugins.terms.changing import ParametricStiffness
-from lostmotion_plugins.terms.drive import FAR
-from lostmotion_plugins.terms.periodic import PITCHES, TYPICAL
+from lostmotion_plugins.terms.drive import FAR_DELAYS
+from lostmotion_plugins.terms.periodic import PITCH_RANGE, TYPICAL_PITCH
 
-_LEVELS = 30
-"""At least so many differences of neighbouring values have to lie on the lattice."""
-_WHOLE = 0.01
-_AWAY = (-4.0, -2.0, -1.0, -0.5, 0.5, 1.0, 2.0, 4.0)
-"""Offsets beyond the reach of a score test that are tried: where there is a gap, a large one looks like a force."""
+_LEAST_DIFFERENCES = 30
+"""At least so many differences of successive samples must be small multiples of the step."""
+_LATTICE_TOLERANCE = 0.01
+"""So far 99 % of these differences may lie from a whole multiple of the step, as a share of the step."""
+_FAR_OFFSETS = (-4.0, -2.0, -1.0, -0.5, 0.5, 1.0, 2.0, 4.0)
+"""Offsets in amplitudes that are tried beside the score test, which sees small ones only.
+
+Where the model has a gap, a large offset resembles a force."""
 
 
 @dataclass(frozen=True)
 class SensorGain(SensorTerm):
-    """A sensor of the response that shows too little or too much."""
+    """A sensor of the response with a wrong gain."""
 
     at: str = "sensor"
     name: ClassVar[str] = "sensor_gain"
-    physics: ClassVar[str] = "The sensor of the response shows too much by {error} of it"
+    physics: ClassVar[str] = "The sensor of the response reads too high by the fraction {error}"
     formula: ClassVar[str] = "(1 + error) * x"
     paper: ClassVar[str] = "Pintelon, Schoukens, System Identification: a Frequency Domain Approach (2012), section 1.6"
     params = (Param("error", "relative error of the gain", NUMBER, low=-0.9, null=0.0, typical=0.1),)
@@ -40,18 +43,18 @@ class SensorGain(SensorTerm):
 
 @dataclass(frozen=True)
 class SensorOffset(SensorTerm):
-    """A sensor whose zero lies elsewhere than that of the other sensors.
+    """A sensor whose zero differs from that of the other sensors.
 
-    Of a sensor alone it does what a constant force does, or nothing, so it is tried where there are several. The
-    parameter is of the dimension of the channel.
+    With one sensor only, an offset has the effect of a constant force, or none. So the term is tried where there are
+    several sensors. The parameter has the dimension of the channel.
     """
 
     at: str = "sensor"
     name: ClassVar[str] = "sensor_offset"
-    physics: ClassVar[str] = "The sensor shows {offset} where the machine stands at zero"
+    physics: ClassVar[str] = "The sensor reads {offset} where the machine is at zero"
     formula: ClassVar[str] = "x + offset"
     paper: ClassVar[str] = "Pintelon, Schoukens, System Identification: a Frequency Domain Approach (2012), section 1.6"
-    params = (Param("offset", "what the sensor shows at zero", LENGTH, null=0.0, typical=0.3, far=_AWAY),)
+    params = (Param("offset", "reading of the sensor at zero", LENGTH, null=0.0, typical=0.3, far=_FAR_OFFSETS),)
     resembles = ("offset_force",)
     relative: ClassVar[bool] = True
 
@@ -62,15 +65,15 @@ class SensorOffset(SensorTerm):
 
 @dataclass(frozen=True)
 class SensorDelay(SensorTerm):
-    """A sensor of the response that is late: what it shows was there `delay` ago."""
+    """A sensor of the response with a pure delay."""
 
     at: str = "sensor"
     name: ClassVar[str] = "sensor_delay"
     unlikely: ClassVar[float] = 3.0
-    physics: ClassVar[str] = "The sensor of the response is late by {delay}"
+    physics: ClassVar[str] = "The sensor of the response is delayed by {delay}"
     formula: ClassVar[str] = "x(t - delay)"
     paper: ClassVar[str] = "Ljung, System Identification: Theory for the User (1999), section 4.2"
-    params = (Param("delay", "delay of the sensor", TIME, low=0.0, null=0.0, far=FAR),)
+    params = (Param("delay", "delay of the sensor", TIME, low=0.0, null=0.0, far=FAR_DELAYS),)
     resembles = ("excitation_delay",)
     equals = ("excitation_delay",)
 
@@ -81,9 +84,9 @@ class SensorDelay(SensorTerm):
 
 @dataclass(frozen=True)
 class PositionRipple(SensorTerm):
-    """A sensor with an error that repeats over what it shows: a disc off its middle, lines of an encoder, a bent screw.
+    """A sensor with an error that is periodic in its reading: an eccentric disc, the lines of an encoder, a bent screw.
 
-    The parameters are of the dimension of the channel.
+    The parameters have the dimension of the channel.
     """
 
     at: str = "sensor"
@@ -96,8 +99,11 @@ class PositionRipple(SensorTerm):
     params = (
         Param("cosine", "error as cos(2 pi x / pitch)", LENGTH, null=0.0, typical=0.02),
         Param("sine", "error as sin(2 pi x / pitch)", LENGTH, null=0.0, typical=0.02),
-        Param("pitch", "way after which it repeats", LENGTH, low=0.0, scale="log", typical=TYPICAL, scan=PITCHES),
-    )
+        Param(
+            "pitch", "travel after which it repeats", LENGTH, low=0.0, scale="log", typical=TYPICAL_PITCH,
+            scan=PITCH_RANGE,
+        ),
+    )  # fmt: skip
     further = (Param("size", "amplitude of the error", LENGTH), Param("phase", "phase in rad", NUMBER))
     derived = staticmethod(ParametricStiffness.derived)
     resembles = ("cogging",)
@@ -110,7 +116,7 @@ class PositionRipple(SensorTerm):
 
 @dataclass(frozen=True)
 class SensorQuantisation(SensorTerm):
-    """A sensor that shows whole steps only; the stored values themselves tell."""
+    """A sensor with a finite step; the step is read from the stored values."""
 
     at: str = "sensor"
     name: ClassVar[str] = "sensor_quantisation"
@@ -129,17 +135,17 @@ class SensorQuantisation(SensorTerm):
 
     @staticmethod
     def quantisation(z: Array) -> tuple[Values, Values]:
-        """Return the step of the lattice on which nearly all differences of the values lie, with its error."""
+        """Return the step whose multiples nearly all differences of successive values are, with its standard error."""
         seen = z[np.isfinite(z)]
         differences = np.abs(np.diff(seen))
         differences = differences[differences > 1e-9 * (float(np.ptp(seen)) or 1.0)]
-        if len(differences) < _LEVELS:
+        if len(differences) < _LEAST_DIFFERENCES:
             return (), ()
         step = float(np.min(differences))
         near = differences[differences < 50.5 * step]
         whole = np.round(near / step)
         step = float(np.sum(near * whole) / np.sum(whole * whole))
         off = np.abs(near / step - np.round(near / step))
-        if len(near) < _LEVELS or float(np.quantile(off, 0.99)) > _WHOLE:
+        if len(near) < _LEAST_DIFFERENCES or float(np.quantile(off, 0.99)) > _LATTICE_TOLERANCE:
             return (), ()
         return (step,), (step * max(float(np.std(off)) / math.sqrt(float(np.sum(whole * whole))), 1e-9),)

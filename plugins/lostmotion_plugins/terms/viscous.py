@@ -1,4 +1,4 @@
-"""Forces that grow with velocity and dissipate."""
+"""Damping forces that depend on velocity."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from lostmotion.quantities import DAMPING, Dimension
 
 @dataclass(frozen=True)
 class ViscousDamping(Term):
-    """A drag that is proportional to velocity."""
+    """Viscous damping, proportional to velocity."""
 
     at: str = "ground"
     name: ClassVar[str] = "viscous_damping"
@@ -27,7 +27,7 @@ class ViscousDamping(Term):
 
 @dataclass(frozen=True)
 class QuadraticDamping(Term):
-    """A drag that grows with the square of velocity, as in air or oil."""
+    """Drag that grows with the square of velocity, as in air or oil."""
 
     at: str = "ground"
     name: ClassVar[str] = "quadratic_damping"
@@ -43,7 +43,7 @@ class QuadraticDamping(Term):
 
 @dataclass(frozen=True)
 class DirectionalDamping(Term):
-    """A drag that is larger one way than the other, as that of a shock absorber with a check valve."""
+    """Viscous damping that depends on the direction, as that of a shock absorber with a check valve."""
 
     at: str = "ground"
     name: ClassVar[str] = "directional_damping"
@@ -59,7 +59,7 @@ class DirectionalDamping(Term):
 
 @dataclass(frozen=True)
 class DampingDrift(Term):
-    """A drag that grows or shrinks steadily while the machine runs: oil that warms up."""
+    """Viscous damping that changes at a constant rate while the machine runs, as with oil that warms up."""
 
     at: str = "ground"
     name: ClassVar[str] = "damping_drift"

@@ -16,9 +16,9 @@ from lostmotion.case import dump_case
 from lostmotion.case.levels import Level
 from lostmotion.contracts import Array
 from lostmotion.errors import CaseError, LostMotionError, PlaceError
-from lostmotion.identification.levels import Survey, inversion_of, quantifier_task
+from lostmotion.identification.levels import MapGrid, make_inversion, make_quantifier_task
 from lostmotion.identification.sampling import SampledPosterior, identify
-from lostmotion.identification.trajectory import chosen_terms, sampled
+from lostmotion.identification.trajectory import choose_terms, sample_case
 from lostmotion.preparation.prepare import case_of, prepare
 from lostmotion.quantities import ANGULAR, SI, unit_of
 from lostmotion.simulation.drives import Options, pairs
@@ -80,8 +80,8 @@ def by_trajectory(
     seen = shop.record(machine, rng)
     with tempfile.TemporaryDirectory() as folder:
         prepared = prepare(_write(shop, machine, seen, Path(folder)), shop.registry)
-    terms = chosen_terms(prepared, shop.design.terms, shop.registry)
-    result = sampled(prepared, terms, shop.design.plan, rng=np.random.default_rng(seed)).result
+    terms = choose_terms(prepared, shop.design.terms, shop.registry)
+    result = sample_case(prepared, terms, shop.design.plan, rng=np.random.default_rng(seed)).result
     several = len(seen) > 1
     names = [f"measurement_noise[{label}]" if several else "measurement_noise" for label in shop.design.labels]
     return result, {name: one.noise for name, one in zip(names, seen, strict=True)}
@@ -95,7 +95,7 @@ def by_quantifiers(
     fit = np.random.default_rng(seed)
     with tempfile.TemporaryDirectory() as folder:
         case = case_of(_write(shop, machine, seen, Path(folder)), shop.registry)
-        task = quantifier_task(case, shop.registry, Path(folder), fit, Survey(maps=design.maps, jobs=1))
+        task = make_quantifier_task(case, shop.registry, Path(folder), fit, MapGrid(maps=design.maps, jobs=1))
     return identify(task, rng=fit, plan=design.plan), {}
 
 
@@ -104,7 +104,7 @@ def maps_for(shop: Workshop, out: Path, jobs: int) -> tuple[Path, ...]:
     unit = unit_of(shop.system.model.inputs[0], shop.system.model.motion)
     both = zip(shop.design.labels, shop.design.bench.drives, strict=True)
     levels = tuple(Level(label, *_harmonic(drive), unit=unit) for label, drive in both)
-    inversion_of(shop.case, levels, shop.registry, out, Survey(jobs=jobs))
+    make_inversion(shop.case, levels, shop.registry, out, MapGrid(jobs=jobs))
     return tuple(sorted(out.glob("map-*.nc")))
 
 

@@ -1,1 +1,1 @@
-"""The page of an identification: reads its result and draws, and computes nothing."""
+"""The page of an identification: it shows the result and its draws, and computes nothing."""

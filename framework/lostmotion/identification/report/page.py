@@ -1,4 +1,4 @@
-"""The page of an identification: the parameters, how they hang together, and whether the chain may be believed."""
+"""The page of an identification: parameters, their joint posterior, and the convergence of the chain."""
 
 from __future__ import annotations
 
@@ -11,84 +11,84 @@ import numpy as np
 from lostmotion.codec import to_plain
 from lostmotion.identification.report import figures as drawing
 from lostmotion.identification.report import levels as leveled
-from lostmotion.identification.report.view import AGAIN, IdentificationView, read_identification
+from lostmotion.identification.report.view import RERUN_HINT, IdentificationView, read_identification
 from lostmotion.report import style
 from lostmotion.report.pages import DrawnSection, template, written
 from lostmotion.report.words import DASH, Scale, figures, interval, pretty, readable
 from lostmotion.results.identification import Identification
 
-LEADING = 3
-"""Parameters that are told in the headline."""
+HEADLINE_PARAMETERS = 3
+"""Number of parameters in the headline."""
 
 
 def write_identification(folder: Path) -> Path:
     """Return the path of `report.html`, written from `identification.json` and `posterior.nc` in the folder."""
     view = read_identification(folder)
-    return written(folder / "report.html", lambda: render(view), AGAIN)
+    return written(folder / "report.html", lambda: render(view), RERUN_HINT)
 
 
 def render(view: IdentificationView) -> str:
     """Return the page as one self-contained HTML text."""
     result = view.result
     with style.applied():
-        drawn = _figures(view)
+        drawn = _draw_figures(view)
     return template("page.html.j2", __package__).render(
         title=result.title or "Identification",
         model=result.model,
         converged=result.converged,
-        answer=_answer(view),
-        head=_head(result),
-        rows=[*(_row(view, name) for name in result.rows), *_derived(result)],
+        answer=_write_answer(view),
+        head=_make_header(result),
+        rows=[*(_make_row(view, name) for name in result.rows), *_make_derived_rows(result)],
         figures=drawn,
         notes=result.notes,
         provenance=json.dumps(to_plain(result.provenance), indent=2, ensure_ascii=False),
     )
 
 
-def _answer(view: IdentificationView) -> list[str]:
-    """Return the sentences that the page opens with: the parameters first, if the chain may be believed."""
+def _write_answer(view: IdentificationView) -> list[str]:
+    """Return the first sentences of the page; they begin with the parameters if the chain has converged."""
     result = view.result
-    rows = dict(list(result.parameters.items())[:LEADING])
+    rows = dict(list(result.parameters.items())[:HEADLINE_PARAMETERS])
     if not (result.converged and rows):
         return list(result.says)
-    told = (f"{view.word(name)} = {interval(row.interval)}" for name, row in rows.items())
-    return [", ".join(told), " ".join(result.says)]
+    values = (f"{view.describe_name(name)} = {interval(row.interval)}" for name, row in rows.items())
+    return [", ".join(values), " ".join(result.says)]
 
 
-def _derived(result: Identification) -> list[list[str]]:
-    """Return the rows of what follows from the parameters."""
+def _make_derived_rows(result: Identification) -> list[list[str]]:
+    """Return the rows of numbers derived from the parameters."""
     known = [DASH, DASH] if result.truth else []
     rows = result.derived or {}
-    return [[f"{name} (follows)", interval(row), *known, DASH, DASH] for name, row in rows.items()]
+    return [[f"{name} (derived)", interval(row), *known, DASH, DASH] for name, row in rows.items()]
 
 
-def _figures(view: IdentificationView) -> list[DrawnSection]:
+def _draw_figures(view: IdentificationView) -> list[DrawnSection]:
     result = view.result
     known = any(np.isfinite(view.truth(name)) for name in view.names)
-    parts = [("trace", "Did the walkers mix?", drawing.trace(view), drawing.TRACE)]
+    parts = [("trace", "Did the walkers mix?", drawing.draw_trace(view), drawing.TRACE_CAPTION)]
     if levels := result.levels:
-        parts.insert(0, ("levels", "What was measured, and what is expected", leveled.draw(levels), leveled.CAPTION))
+        parts.insert(0, ("levels", "Measured and predicted chaos at each level", leveled.draw(levels), leveled.CAPTION))
     if result.converged and len(view.joint) > 1:
-        said = drawing.CORNER + (" Dashed: the known value." if known else "")
-        parts.insert(0, ("corner", "How the parameters hang together", drawing.corner(view), said))
-    return [DrawnSection(name, title, style.embedded(figure, name), said) for name, title, figure, said in parts]
+        caption = drawing.CORNER_CAPTION + (" Dashed: the known value." if known else "")
+        parts.insert(0, ("corner", "Joint posterior of the parameters", drawing.draw_corner(view), caption))
+    return [DrawnSection(name, title, style.embedded(figure, name), caption) for name, title, figure, caption in parts]
 
 
-def _head(result: Identification) -> list[str]:
+def _make_header(result: Identification) -> list[str]:
     known = ["Known value", "In the interval"] if result.truth else []
     return ["Parameter", "Median [95 %]", *known, "ESS", "R-hat"]
 
 
-def _row(view: IdentificationView, name: str) -> list[str]:
+def _make_row(view: IdentificationView, name: str) -> list[str]:
     row = view.result.rows[name]
     scale = readable(row.median if math.isfinite(row.median) else row.at_maximum, row.unit)
-    said = interval(row.interval, scale) if view.result.converged else "no interval: not converged"
+    value = interval(row.interval, scale) if view.result.converged else "no interval: not converged"
     reached = [figures(row.ess, 4), f"{row.rhat:.3f}" if math.isfinite(row.rhat) else DASH]
-    return [view.word(name), said, *_known(view, name, scale), *reached]
+    return [view.describe_name(name), value, *_make_truth_cells(view, name, scale), *reached]
 
 
-def _known(view: IdentificationView, name: str, scale: Scale) -> list[str]:
-    """Return the cells on the known value; none where the case knows no value at all."""
+def _make_truth_cells(view: IdentificationView, name: str, scale: Scale) -> list[str]:
+    """Return the table cells for the known value; none where the case has no known values."""
     if not view.result.truth:
         return []
     truth = view.truth(name)
