@@ -17,6 +17,7 @@ from lostmotion.recording import Recording, Table, load_recording, read_table
 from lostmotion.recording.timing import EvenClock, check_step, even_clock, resample_channel
 from lostmotion.recording.units import seconds, time_unit
 from lostmotion.registry import Registry
+from lostmotion.settings import DEFAULT, RecordingSettings
 
 Array = NDArray[np.float64]
 TIMES = ("time", "t", "Time", "time_s")
@@ -56,9 +57,12 @@ class Source:
     notes: tuple[str, ...] = ()
 
 
-def source_of(path: Path, wanted: WantedChannel, registry: Registry) -> Source:
+def source_of(
+    path: Path, wanted: WantedChannel, registry: Registry, limits: RecordingSettings = DEFAULT.recording
+) -> Source:
     """Return the channel to look at: the response of a case file (.toml), or the column of a bare recording."""
-    source = _of_case(case_of(path, registry), wanted) if path.suffix.lower() == ".toml" else _of_file(path, wanted)
+    is_case = path.suffix.lower() == ".toml"
+    source = _of_case(case_of(path, registry), wanted, limits) if is_case else _of_file(path, wanted)
     if wanted.every == 1:
         return source
     note = f"One sample of {wanted.every} is kept, as asked: what is faster than that folds back."
@@ -72,7 +76,7 @@ def source_of(path: Path, wanted: WantedChannel, registry: Registry) -> Source:
     )
 
 
-def _of_case(case: CaseFile, wanted: WantedChannel) -> Source:
+def _of_case(case: CaseFile, wanted: WantedChannel, limits: RecordingSettings) -> Source:
     if not case.recordings:
         raise CaseError(f"{case.title!r} has no [[recordings]]: add one, or analyse a recording by itself")
     names, asked = [spec.label for spec in case.recordings], wanted.column
@@ -88,7 +92,7 @@ def _of_case(case: CaseFile, wanted: WantedChannel) -> Source:
         notes.append(f"The first of {len(names)} recordings is analysed: name another one with --column.")
     if len(sensors) > 1 and asked not in sensors:
         notes.append(f"The first of {len(sensors)} sensors is analysed: name another one with --column.")
-    recording = load_recording(chosen, case.folder)
+    recording = load_recording(chosen, case.folder, limits)
     found = source_in(recording, sensors.index(asked) if asked in sensors else 0)
     inputs = {"case": case.digest, **found.inputs}
     return replace(found, title=case.title, inputs=inputs, notes=(*found.notes, *notes))

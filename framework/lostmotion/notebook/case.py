@@ -18,6 +18,7 @@ from lostmotion.preparation.prepare import Prepared, case_of, prepared_with
 from lostmotion.preparation.vetting import sound
 from lostmotion.recording import Recording, load_recording
 from lostmotion.registry import Registry, default
+from lostmotion.settings import DEFAULT, Settings, read
 from lostmotion.storage import folder_for, save_table
 from lostmotion.written import Written, is_equation, model_of
 
@@ -85,11 +86,16 @@ class Case:
         return model(lines, params=[key for key in (*self.known, *self.estimate) if "." not in key])
 
     @classmethod
-    def read(cls, path: str | Path, registry: Registry | None = None) -> Case:
+    def read(
+        cls,
+        path: str | Path,
+        registry: Registry | None = None,
+        settings: Settings | Mapping[str, float] | None = None,
+    ) -> Case:
         """Return the case of a file `case.toml`, its recordings loaded; `CaseError` or `DataError` if unusable."""
         known = registry or default()
         file = case_of(Path(path), known)
-        loaded = tuple(load_recording(spec, file.folder) for spec in file.recordings)
+        loaded = tuple(load_recording(spec, file.folder, read(settings).recording) for spec in file.recordings)
         made = sound(known, "model", file.model)
         made = made.turned(file.motion) if file.motion else made
         return cls(
@@ -131,7 +137,9 @@ class Case:
     def _model(self) -> Model:
         return self.model  # type: ignore[return-value]
 
-    def prepared(self, registry: Registry, terms: str | Sequence[str] = "all") -> Prepared:
+    def prepared(
+        self, registry: Registry, terms: str | Sequence[str] = "all", settings: Settings = DEFAULT
+    ) -> Prepared:
         """Return the case as the stages take it, with the terms that are to be tried: "all", or names of terms."""
         file = self.file or self._as_file()
         made = self._model
@@ -139,7 +147,7 @@ class Case:
             registry.add(
                 type(made) if isinstance(made, Written) else made, WRITTEN if isinstance(made, Written) else None
             )
-        found = prepared_with(file, self._several, made, registry)
+        found = prepared_with(file, self._several, made, registry, settings)
         return found if terms == "all" else replace(found, terms=_chosen(found, terms))
 
     def _as_file(self) -> CaseFile:

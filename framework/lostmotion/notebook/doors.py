@@ -25,7 +25,7 @@ from lostmotion.notebook.posterior import IdentificationResult, load_identificat
 from lostmotion.recording import Recording
 from lostmotion.recording.checks import fill_lost
 from lostmotion.registry import Registry, default
-from lostmotion.settings import Settings, read
+from lostmotion.settings import DEFAULT, Settings, read
 from lostmotion.simulation import simulate as _simulate
 
 if TYPE_CHECKING:
@@ -63,11 +63,11 @@ def diagnose(
     """
     from lostmotion.diagnosis.run import diagnose_prepared
 
-    known_to = registry or default()
-    asked = case_from(case, model, known, estimate, known_to)
+    known_to, limits = registry or default(), read(settings)
+    asked = case_from(case, model, known, estimate, known_to, limits=limits)
     with shown("diagnose", progress) as say:
         told = diagnose_prepared(
-            asked.prepared(known_to, terms), known_to, seed=seed, jobs=jobs, say=say, settings=read(settings)
+            asked.prepared(known_to, terms, limits), known_to, seed=seed, jobs=jobs, say=say, settings=limits
         )
     found = DiagnosisResult(told.result, told.arrays, known_to, told.outcome)
     if out is not None:
@@ -116,7 +116,9 @@ def identify(
         if file is not None and choose_route(file, order) == "quantifiers":
             done = identify_case(file, None, place, known_to, order, lambda _steps, says: say(says))
         else:
-            prepared = case_from(case, model, known, estimate, known_to).prepared(known_to)
+            prepared = case_from(case, model, known, estimate, known_to, limits=limits).prepared(
+                known_to, settings=limits
+            )
             done = identify_case(prepared.case, prepared, place, known_to, order, lambda _steps, says: say(says))
         data = make_inference_data(done)
     found = IdentificationResult(done.result, {name: data[name] for name in data.groups()})
@@ -177,7 +179,7 @@ def analyse(
         source = source_in(recording, _sensor(recording, channel))
     else:
         wanted = WantedChannel(request.columns or _texts(channel or ()), request.rate, request.every)
-        source = source_of(Path(recording), wanted, known_to)
+        source = source_of(Path(recording), wanted, known_to, request.settings.recording)
     with shown("analyse", progress) as say:
         result, arrays = analyse_source(source, known_to, request, say)
     found = AnalysisResult(result, arrays)
@@ -283,6 +285,8 @@ def case_from(
     known: Mapping[str, float] | None,
     estimate: Mapping[str, Prior] | None,
     registry: Registry,
+    *,
+    limits: Settings = DEFAULT,
 ) -> Case:
     """Return the case that is meant: itself, that of a file, or one of a recording and a model."""
     if isinstance(case, Recording):
@@ -291,7 +295,7 @@ def case_from(
         return _guessed(case, given, known or {}, estimate or {})
     if given is not None or known or estimate:
         raise CaseError("the case has a model, known values and priors: change them there, or hand over a recording")
-    return case if isinstance(case, Case) else Case.read(case, registry)
+    return case if isinstance(case, Case) else Case.read(case, registry, limits)
 
 
 def _guessed(recording: Recording, given: Modelled, known: Mapping[str, float], estimate: Mapping[str, Prior]) -> Case:

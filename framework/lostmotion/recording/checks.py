@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from lostmotion.errors import DataError
 from lostmotion.recording.spec import Hold
+from lostmotion.settings import DEFAULT
 
 Array = NDArray[np.float64]
 FEWEST = 100
@@ -19,7 +20,6 @@ BRIDGE, BRIDGED = 3, 0.01
 """Lost samples of an input are interpolated up to this number in a row, and below this share of all samples."""
 REGULAR = 0.95
 """A sensor counts as slower than the others when at least this share of its readings is on every k-th row."""
-CLIPPED = 0.01
 LARGEST = 1e30
 """The largest reading of a sensor that is accepted, in any unit."""
 
@@ -175,12 +175,15 @@ def runs_of(flags: NDArray[np.bool_]) -> NDArray[np.intp]:
     return np.flatnonzero(np.diff(np.concatenate(([False], flags, [False])).astype(np.int8))).reshape(-1, 2)
 
 
-def note_stuck(values: Array, what: str) -> Iterator[str]:
-    """Yield a note when the samples (n,) stay at their largest or smallest value in runs of three or more."""
+def note_stuck(values: Array, what: str, share: float = DEFAULT.recording.stuck) -> Iterator[str]:
+    """Yield a note when the samples (n,) stay at their largest or smallest value in runs of three or more.
+
+    These runs must hold more than a `share` of all samples.
+    """
     for word, edge in (("largest", np.nanmax(values)), ("smallest", np.nanmin(values))):
         lengths = np.diff(runs_of(values == edge), axis=1)
         stuck = int(lengths[lengths >= 3].sum())
-        if stuck > CLIPPED * values.size:
+        if stuck > share * values.size:
             yield (
                 f"{what} stays at its {word} value {edge:.6g} for {stuck} of {values.size} samples: "
                 "the sensor may be clipped or stuck, or the machine rests there"

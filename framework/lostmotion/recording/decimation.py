@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lostmotion.recording.checks import fill_lost, runs_of
+from lostmotion.settings import DEFAULT, RecordingSettings
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -37,23 +38,23 @@ PASS = 0.85
 """The passband ends at this share of the new Nyquist frequency; the stopband begins at 2 - PASS of it.
 
 With 0.5 the remaining noise was correlated in time, and a diagnosis detected that."""
-SPARE, LEAST = 5, 2000
-"""A recording is decimated only if this many times the needed samples remain, and this many samples at least."""
+LEAST = 2000
+"""The least number of samples that remain after decimation."""
 TRUSTED = 0.9
 """The least share of the squared weight of the filter that must lie outside of long gaps."""
 
 
-def thin_recording(recording: Recording) -> Recording:
+def thin_recording(recording: Recording, limits: RecordingSettings = DEFAULT.recording) -> Recording:
     """Return a recording decimated, with a note, if it was sampled far too fast; otherwise the recording itself.
 
-    At least `PER_PERIOD` times `SPARE` samples remain in the shortest period above the noise of any channel. A
-    recording whose inputs are held between samples is never decimated.
+    At least `PER_PERIOD` times `limits.oversampled` samples remain in the shortest period above the noise of any
+    channel. A recording whose inputs are held between samples is never decimated.
     """
     channels = (*recording.inputs, *recording.sensors)
     if recording.hold == "step" or recording.n < 2 * LEAST:
         return recording
     most = min(factor_for(channel.to_numpy(), recording.dt) for channel in channels)
-    factor = min(most // SPARE, recording.n // LEAST)
+    factor = min(int(most / limits.oversampled), recording.n // LEAST)
     if factor < 2:
         return recording
 

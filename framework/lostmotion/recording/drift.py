@@ -16,16 +16,16 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from lostmotion.settings import DEFAULT, RecordingSettings
+
 Array = NDArray[np.float64]
 Spectra = NDArray[np.complex128]
 SEGMENTS, FEWEST, SHORTEST = 16, 10, 64
 """Segments of a recording, the least number to which a line is fitted, and the least number of samples in one."""
 HEARD = 1e-3
 """Frequencies with at least this share of the strongest power of the input are used: below it lies leakage."""
-SURE, LEAST, MOST = 10.0, 0.2, 5e-3
-"""Standard errors and samples above which a drift is told, and the drift (s per s) that no pair of clocks exceeds.
-
-For independent delays, 10 standard errors have a probability below 1e-7; the rest is for delays with a memory."""
+MOST = 5e-3
+"""The largest drift (s per s) of two clocks: a larger one has another cause."""
 FLOOR = 1e-12
 """Share of the power of the response that counts as noise in every case."""
 ROUNDS = 8
@@ -39,20 +39,23 @@ class Drift:
     error: float
     span: float
 
-    @property
-    def sure(self) -> bool:
-        """Whether the drift is significant against the scatter of the delays, and possible for two clocks."""
-        return abs(self.rate) > SURE * self.error and abs(self.rate) < MOST
+    def is_significant(self, errors: float = DEFAULT.recording.drift) -> bool:
+        """Return whether the drift exceeds so many standard errors, and is possible for two clocks."""
+        return abs(self.rate) > errors * self.error and abs(self.rate) < MOST
 
 
-def note_drift(excitation: Array, response: Array, dt: float) -> Iterator[str]:
+def note_drift(
+    excitation: Array, response: Array, dt: float, limits: RecordingSettings = DEFAULT.recording
+) -> Iterator[str]:
     """Yield a note when the delay of the response (n,) behind the input (n,) grows or shrinks steadily.
 
     False alarms are rarer than 1 in 1000: none of 3000 recordings of gap oscillators gave one, chaotic ones among
     them.
     """
     drift = clock_drift(excitation, response, dt)
-    if drift is None or not drift.sure or abs(drift.rate) * drift.span < LEAST * dt:
+    if drift is None or not drift.is_significant(limits.drift):
+        return
+    if abs(drift.rate) * drift.span < limits.drift_samples * dt:
         return
     which = "later and later" if drift.rate > 0 else "earlier and earlier"
     yield (

@@ -20,6 +20,7 @@ from lostmotion.recording.table import Table
 from lostmotion.recording.timing import EvenClock, check_step, even_clock, resample_channel
 from lostmotion.recording.units import note_unit, seconds, time_unit
 from lostmotion.recording.warnings import CheckedChannel, warnings_of
+from lostmotion.settings import DEFAULT, RecordingSettings, Settings
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -107,21 +108,23 @@ class Recording:
         noise: Mapping[str, str] | None = None,
         hold: Hold = "smooth",
         name: str = "recording",
+        settings: Settings | Mapping[str, float] | None = None,
     ) -> Recording:
         """Return a recording of arrays (n,), keyed by the names of the inputs and channels of the model.
 
         Give either `time` (n,) in s, or in the unit `units["time"]`, or the `rate` in Hz. `units` has one entry for
         each array, `noise` the kind of noise of a sensor ("white", "ar1", "quantised"). Without inputs it is a free
-        decay. `DataError` or `CaseError` is raised where the numbers cannot be used.
+        decay. `settings` changes the thresholds of warnings, such as `{"recording.far": 30.0}`. `DataError` or
+        `CaseError` is raised where the numbers cannot be used.
         """
-        from lostmotion.recording.made import make_recording
+        from lostmotion.recording.made import RecordingLayout, make_recording
 
         columns = {**(inputs or {}), **sensors}
         times = {} if time is None else {"time": time}
         which = ({name: name for name in inputs or {}}, {name: name for name in sensors})
-        return make_recording(
-            {**times, **columns}, which, units, None if time is None else "time", rate, noise or {}, hold, name
-        )
+        given = None if time is None else "time"
+        layout = RecordingLayout(which, units, given, rate, noise or {}, hold, name)
+        return make_recording({**times, **columns}, layout, settings)
 
     @classmethod
     def from_pandas(
@@ -136,19 +139,21 @@ class Recording:
         noise: Mapping[str, str] | None = None,
         hold: Hold = "smooth",
         name: str = "recording",
+        settings: Settings | Mapping[str, float] | None = None,
     ) -> Recording:
         """Return a recording of columns of a data frame; `inputs` and `sensors` map names of the model to columns.
 
         `units` has one entry for each column; the time column is in s by default. Without `time` and `rate` the index
         is the time, in s.
         """
-        from lostmotion.recording.made import make_recording
+        from lostmotion.recording.made import RecordingLayout, make_recording
 
         columns = {str(column): frame[column].to_numpy() for column in frame.columns}
         if time is None and rate is None:
             time = str(frame.index.name or "index")
             columns[time] = frame.index.to_numpy()
-        return make_recording(columns, (inputs or {}, sensors), units, time, rate, noise or {}, hold, name)
+        layout = RecordingLayout((inputs or {}, sensors), units, time, rate, noise or {}, hold, name)
+        return make_recording(columns, layout, settings)
 
     @classmethod
     def from_xarray(
@@ -162,17 +167,18 @@ class Recording:
         noise: Mapping[str, str] | None = None,
         hold: Hold = "smooth",
         name: str = "recording",
+        settings: Settings | Mapping[str, float] | None = None,
     ) -> Recording:
         """Return a recording of variables of a dataset; `units` default to the attributes of the variables."""
-        from lostmotion.recording.made import make_recording
+        from lostmotion.recording.made import RecordingLayout, make_recording
 
         columns = {str(key): np.asarray(value) for key, value in dataset.variables.items() if value.ndim == 1}
         stated = {
             str(key): str(value.attrs["units"]) for key, value in dataset.variables.items() if "units" in value.attrs
         }
-        return make_recording(
-            columns, (inputs or {}, sensors), {**stated, **(units or {})}, time, None, noise or {}, hold, name
-        )
+        both = {**stated, **(units or {})}
+        layout = RecordingLayout((inputs or {}, sensors), both, time, None, noise or {}, hold, name)
+        return make_recording(columns, layout, settings)
 
     @classmethod
     def read(
@@ -187,29 +193,33 @@ class Recording:
         noise: Mapping[str, str] | None = None,
         hold: Hold = "smooth",
         name: str = "",
+        settings: Settings | Mapping[str, float] | None = None,
     ) -> Recording:
         """Return a recording from a file in one of the supported formats: .csv, .mat, .nc, .uff, ...
 
         `inputs` and `sensors` map names of the model to columns. `units` are needed for columns for which the file
         gives none.
         """
-        from lostmotion.recording.made import read_recording
+        from lostmotion.recording.made import RecordingLayout, read_recording
 
         which = (inputs or {}, sensors)
-        return read_recording(Path(path), which, units or {}, time, rate, noise or {}, hold, name)
+        layout = RecordingLayout(which, units or {}, time, rate, noise or {}, hold, name)
+        return read_recording(Path(path), layout, settings)
 
 
 def _name_arrays(first: str, more: str, arrays: Sequence[xr.DataArray]) -> dict[str, xr.DataArray]:
     return {f"{more} {i + 1}" if i else first: array for i, array in enumerate(arrays)}
 
 
-def load_recording(spec: RecordingSpec, folder: Path) -> Recording:
+def load_recording(spec: RecordingSpec, folder: Path, limits: RecordingSettings = DEFAULT.recording) -> Recording:
     """Return the recording that `spec` describes, its file relative to `folder`; `DataError` if it is unusable."""
     path = Path(folder) / spec.file
-    return recording_of(spec, read_table(path), path.name, digest(path))
+    return recording_of(spec, read_table(path), path.name, digest(path), limits)
 
 
-def recording_of(spec: RecordingSpec, table: Table, source: str, sha256: str) -> Recording:
+def recording_of(
+    spec: RecordingSpec, table: Table, source: str, sha256: str, limits: RecordingSettings = DEFAULT.recording
+) -> Recording:
     """Return the recording that `spec` describes in a table of columns; `source` is its name in messages."""
     time, values, notes = _pick_samples(spec, table, source)
     check_length(time.size, source)
@@ -217,13 +227,13 @@ def recording_of(spec: RecordingSpec, table: Table, source: str, sha256: str) ->
     check_length(time.size, source)
     clock = even_clock(time, source) if spec.time else EvenClock(1.0 / _require_rate(spec), False, (), float(time[0]))
     roles = [("excitation", c) for c in spec.inputs] + [("response", c) for c in spec.sensors]
-    channels = [_ChannelReader(role, c, spec, source) for role, c in roles]
+    channels = [_ChannelReader(role, c, spec, source, limits.stuck) for role, c in roles]
     read = [channel.on(clock, time, raw) for channel, raw in zip(channels, values, strict=True)]
     count, grid = len(spec.inputs), np.asarray(clock.start + clock.dt * np.arange(time.size))
     arrays = [channel.array(si, grid) for channel, (si, _) in zip(channels, read, strict=True)]
     signals = [channel.signal(si) for channel, (si, _) in zip(channels, read, strict=True)]
     units = [n for c in channels for n in note_unit(c.channel, table.units.get(c.channel.column), c.what)]
-    warnings = warnings_of(signals[:count], signals[count:], clock.dt)
+    warnings = warnings_of(signals[:count], signals[count:], clock.dt, limits)
     all_notes = dict.fromkeys((*notes, *clock.notes, *(n for _, own in read for n in own), *units, *warnings))
     inputs, sensors, start = (
         tuple(arrays[:count]),
@@ -235,12 +245,16 @@ def recording_of(spec: RecordingSpec, table: Table, source: str, sha256: str) ->
 
 @dataclass(frozen=True)
 class _ChannelReader:
-    """A channel while it is read: its role (excitation, response), its entry in the case, and the file."""
+    """A channel while it is read: its role (excitation, response), its entry in the case, and the file.
+
+    `stuck` is the share of samples at the extreme value above which a sensor is called stuck.
+    """
 
     role: str
     channel: Channel
     spec: RecordingSpec
     source: str
+    stuck: float
 
     @property
     def what(self) -> str:
@@ -260,7 +274,7 @@ class _ChannelReader:
             return self._to_si(even), notes
         even = resample_channel(time, raw, clock) if clock.uneven else raw
         notes = check_sensor(even, self.what, self.source, dt=clock.dt)
-        return self._to_si(even), (*notes, *note_stuck(even, self.what))
+        return self._to_si(even), (*notes, *note_stuck(even, self.what, self.stuck))
 
     def _to_si(self, values: Array) -> Array:
         factor, unit = si_factor(self.channel.unit, self.channel.quantity)

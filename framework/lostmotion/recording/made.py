@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -17,6 +18,7 @@ from lostmotion.recording.formats import read_table
 from lostmotion.recording.load import Recording, recording_of
 from lostmotion.recording.spec import KINDS, Channel, Hold, RecordingSpec
 from lostmotion.recording.table import Table
+from lostmotion.settings import Settings, read
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -27,45 +29,45 @@ PANEL = (7.2, 1.5)
 """Width of a figure and height of one of its panels, in inches."""
 
 
+@dataclass(frozen=True)
+class RecordingLayout:
+    """The roles of the columns of a recording: `which` are inputs and sensors, the other fields as in `Recording`."""
+
+    which: Which
+    units: Mapping[str, str]
+    time: str | None = None
+    rate: float | None = None
+    noise: Mapping[str, str] = field(default_factory=dict)
+    hold: Hold = "smooth"
+    name: str = "recording"
+
+
 def make_recording(
     columns: Mapping[str, ArrayLike],
-    which: Which,
-    units: Mapping[str, str],
-    time: str | None,
-    rate: float | None,
-    noise: Mapping[str, str],
-    hold: Hold,
-    name: str,
+    layout: RecordingLayout,
+    settings: Settings | Mapping[str, float] | None = None,
 ) -> Recording:
     """Return a recording of columns (n,) in memory."""
-    arrays = {key: _to_numbers(key, value) for key, value in columns.items() if key in _used_columns(which, time)}
-    checksum = hashlib.sha256(
-        b"".join(key.encode() + array.tobytes() for key, array in sorted(arrays.items()))
-    ).hexdigest()
-    table = Table(arrays, {key: unit for key, unit in units.items() if key in arrays})
-    return recording_of(_make_spec(which, table.units, time, rate, noise, hold, name), table, name, checksum)
+    used = _used_columns(layout)
+    arrays = {key: _to_numbers(key, value) for key, value in columns.items() if key in used}
+    content = b"".join(key.encode() + array.tobytes() for key, array in sorted(arrays.items()))
+    table = Table(arrays, {key: unit for key, unit in layout.units.items() if key in arrays})
+    spec = _make_spec(replace(layout, units=table.units))
+    return recording_of(spec, table, layout.name, hashlib.sha256(content).hexdigest(), read(settings).recording)
 
 
 def read_recording(
-    path: Path,
-    which: Which,
-    units: Mapping[str, str],
-    time: str | None,
-    rate: float | None,
-    noise: Mapping[str, str],
-    hold: Hold,
-    name: str,
+    path: Path, layout: RecordingLayout, settings: Settings | Mapping[str, float] | None = None
 ) -> Recording:
-    """Return a recording of a file; units default to those in the file."""
+    """Return a recording of a file; units default to those in the file, the name to the stem of the file."""
     table = read_table(path)
-    note = {**table.units, **units}
-    return recording_of(
-        _make_spec(which, note, time, rate, noise, hold, name or path.stem), table, path.name, digest(path)
-    )
+    spec = _make_spec(replace(layout, units={**table.units, **layout.units}, name=layout.name or path.stem))
+    return recording_of(spec, table, path.name, digest(path), read(settings).recording)
 
 
-def _used_columns(which: Which, time: str | None) -> set[str]:
-    return {*which[0].values(), *which[1].values(), *([time] if time else [])}
+def _used_columns(layout: RecordingLayout) -> set[str]:
+    inputs, sensors = layout.which
+    return {*inputs.values(), *sensors.values(), *([layout.time] if layout.time else [])}
 
 
 def _to_numbers(name: str, value: ArrayLike) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
@@ -82,22 +84,19 @@ def _to_numbers(name: str, value: ArrayLike) -> np.ndarray[tuple[int], np.dtype[
     return numbers
 
 
-def _make_spec(
-    which: Which,
-    units: Mapping[str, str],
-    time: str | None,
-    rate: float | None,
-    noise: Mapping[str, str],
-    hold: Hold,
-    name: str,
-) -> RecordingSpec:
-    if (time is None) == (rate is None):
+def _make_spec(layout: RecordingLayout) -> RecordingSpec:
+    name, units, time = layout.name, layout.units, layout.time
+    if (time is None) == (layout.rate is None):
         raise DataError(f"{name} has {'both time and' if time else 'neither time nor'} rate: give one of them")
-    if not which[1]:
+    if not layout.which[1]:
         raise DataError(f"{name} has no sensor: give sensors = {{channel of the model: data}}")
-    inputs = tuple(_make_channel("input", key, column, units) for key, column in which[0].items())
-    sensors = tuple(_make_channel("sensor", key, column, units, noise) for key, column in which[1].items())
-    return RecordingSpec(name, time, rate, inputs, sensors, hold, name=name, time_unit=units.get(time or ""))
+    inputs = tuple(_make_channel("input", key, column, units) for key, column in layout.which[0].items())
+    sensors = tuple(
+        _make_channel("sensor", key, column, units, layout.noise) for key, column in layout.which[1].items()
+    )
+    return RecordingSpec(
+        name, time, layout.rate, inputs, sensors, layout.hold, name=name, time_unit=units.get(time or "")
+    )
 
 
 def _make_channel(
