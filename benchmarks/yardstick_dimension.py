@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 
 from lostmotion.contracts import Series
 from lostmotion.results import Embedding
-from lostmotion_plugins.quantifiers.correlation import correlation_sums
+from lostmotion_plugins.quantifiers.correlation import compute_correlation_sums
 from lostmotion_plugins.quantifiers.dimension import CorrelationDimension, CorrelationEntropy
-from lostmotion_plugins.quantifiers.noise import noise_level
+from lostmotion_plugins.quantifiers.noise import estimate_noise_level
 from yardstick import Case, lorenz
 
 Array = NDArray[np.float64]
@@ -50,14 +50,14 @@ def noisy() -> Array:
 
 def level(x: Array) -> object:
     """Return the noise level, measured afresh: the last two series are remembered."""
-    return noise_level(x * (1.0 + 1e-12 * next(RUNS)), EMBEDDING)
+    return estimate_noise_level(x * (1.0 + 1e-12 * next(RUNS)), EMBEDDING)
 
 
 RUNS = count()
 CASES = [
     Case(
         "correlation sums, m = 1..6, Takens",
-        lambda: correlation_sums(lorenz(), LAG, 6, theiler=THEILER),
+        lambda: compute_correlation_sums(lorenz(), LAG, 6, theiler=THEILER),
         lambda: plain_sums(6),
         0.5,
     ),

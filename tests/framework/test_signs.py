@@ -14,8 +14,8 @@ from lostmotion.analysis.signs import FEWEST_SAMPLES, signs_of
 from lostmotion.analysis.surrogates import SurrogateTest
 from lostmotion.contracts import Series
 from lostmotion.results import Embedding, Estimate
-from lostmotion_plugins.quantifiers.correlation_curves import flatness
-from lostmotion_plugins.quantifiers.dimension import SCATTER, TILT
+from lostmotion_plugins.quantifiers.correlation_curves import measure_flatness
+from lostmotion_plugins.quantifiers.dimension import MOST_SCATTER, MOST_TILT
 
 PERIOD = 0.1
 NOTHING = Estimate.refused("no_scaling_region", "There is no straight piece.")
@@ -171,7 +171,7 @@ def test_frequencies_are_told_apart_as_far_as_a_recording_resolves_them(ratio, p
     assert _locked(ratio, periods) == after
 
 
-def plateau(rows, first=3):
+def find_plateau(rows, first=3):
     """Return a curve of local slopes (dims, radii) over four octaves, and the plateau that was claimed in it."""
     radius = np.geomspace(0.01, 0.16, rows.shape[1])
     return {"radius": radius, "slope": rows}, SimpleNamespace(ends=(0.01, 0.16), first=first, mean=2.0)
@@ -179,7 +179,7 @@ def plateau(rows, first=3):
 
 def test_flatness_is_that_of_a_loop_over_dimensions_and_radii():
     rows = 2.0 + 0.1 * np.random.default_rng(0).normal(size=(7, 33))
-    curve, claimed = plateau(rows)
+    curve, claimed = find_plateau(rows)
     square, mean = 0.0, np.zeros(33)
     for m in range(2, 7):
         for k in range(33):
@@ -187,7 +187,7 @@ def test_flatness_is_that_of_a_loop_over_dimensions_and_radii():
             mean[k] += rows[m, k] / 5
     u = np.log2(curve["radius"]) - np.log2(curve["radius"]).mean()
     slope = sum(u[k] * mean[k] for k in range(33)) / sum(u[k] ** 2 for k in range(33))
-    assert flatness(curve, claimed) == pytest.approx((abs(slope) * 4.0 / 2.0, np.sqrt(square) / 2.0))
+    assert measure_flatness(curve, claimed) == pytest.approx((abs(slope) * 4.0 / 2.0, np.sqrt(square) / 2.0))
 
 
 @pytest.mark.parametrize(
@@ -201,5 +201,5 @@ def test_flatness_is_that_of_a_loop_over_dimensions_and_radii():
     ids=["flat", "leaning", "higher dimensions go their own way", "nothing"],
 )
 def test_a_plateau_has_to_be_one(rows, flat):
-    tilt, scatter = flatness(*plateau(rows))
-    assert (tilt <= TILT and scatter <= SCATTER) == flat
+    tilt, scatter = measure_flatness(*find_plateau(rows))
+    assert (tilt <= MOST_TILT and scatter <= MOST_SCATTER) == flat

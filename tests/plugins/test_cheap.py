@@ -140,4 +140,4 @@ def test_what_is_too_short_is_said(quantifier):
     found = measured(quantifier, series(np.sin(np.arange(20.0))))
     assert found.status == "too_short"
     assert np.isnan(found.value)
-    assert "100 are wanted" in found.says
+    assert "at least 100 are needed" in found.says

@@ -9,10 +9,24 @@ from scipy.signal import lfilter
 from lostmotion.contracts import Series
 from lostmotion.errors import DataError
 from lostmotion.results import STATUSES, Embedding
-from lostmotion_plugins.quantifiers.correlation import Effort, chosen_lags, correlation_sums, edges, jackknife
-from lostmotion_plugins.quantifiers.correlation_curves import takens_theiler
+from lostmotion_plugins.quantifiers.correlation import (
+    Effort,
+    choose_lags,
+    compute_correlation_sums,
+    compute_edges,
+    jackknife,
+)
+from lostmotion_plugins.quantifiers.correlation_curves import estimate_takens
 from lostmotion_plugins.quantifiers.dimension import CorrelationDimension, CorrelationEntropy
-from lostmotion_plugins.quantifiers.noise import EXCESS, HIGH, LOW, RADIUS, NoiseLevel, noise_level, quantisation
+from lostmotion_plugins.quantifiers.noise import (
+    EXCESS,
+    HIGH,
+    LOW,
+    RADIUS,
+    NoiseLevel,
+    estimate_noise_level,
+    find_quantisation,
+)
 
 
 def henon(n, start=0.1):
@@ -33,7 +47,7 @@ def estimate(quantifier, x, **how):
 
 def slow_twin(x, lag, dims, theiler, ends):
     """Return pairs closer than each radius (blocks, blocks, dims, radii) from the table of all distances."""
-    n, radii = len(x) - (dims - 1) * lag, edges() * np.ptp(x)
+    n, radii = len(x) - (dims - 1) * lag, compute_edges() * np.ptp(x)
     block = np.searchsorted(ends[1:], np.arange(n), side="right")
     counts = np.zeros((len(ends) - 1, len(ends) - 1, dims, len(radii)), dtype=np.int64)
     i, j = np.triu_indices(n, theiler + 1)
@@ -49,7 +63,7 @@ def slow_twin(x, lag, dims, theiler, ends):
 def test_all_dimensions_radii_and_blocks_agree_with_the_slow_twin():
     """Exact but for pairs within 1e-7 of a radius, which single precision may put on its other side."""
     x = henon(500)
-    ours = correlation_sums(x, 2, 4, theiler=7, effort=Effort(blocks=3))
+    ours = compute_correlation_sums(x, 2, 4, theiler=7, effort=Effort(blocks=3))
     ends = np.array([494 * k // 3 for k in range(4)])
     twin = slow_twin(x, 2, 4, 7, ends)
     np.testing.assert_allclose(np.cumsum(ours.counts, axis=-1), twin, atol=1)
@@ -59,24 +73,24 @@ def test_all_dimensions_radii_and_blocks_agree_with_the_slow_twin():
 @pytest.mark.parametrize("jobs", [1, 3])
 def test_counts_do_not_depend_on_the_number_of_threads(jobs):
     x = henon(3000)
-    one = correlation_sums(x, 1, 5, theiler=5, effort=Effort(pairs=1_000_000, jobs=jobs))
-    two = correlation_sums(x, 1, 5, theiler=5, effort=Effort(pairs=1_000_000, jobs=2))
+    one = compute_correlation_sums(x, 1, 5, theiler=5, effort=Effort(pairs=1_000_000, jobs=jobs))
+    two = compute_correlation_sums(x, 1, 5, theiler=5, effort=Effort(pairs=1_000_000, jobs=2))
     np.testing.assert_array_equal(one.counts, two.counts)
 
 
 def test_a_point_is_not_its_own_neighbour_and_nor_is_its_past():
     """nolds 0.6.3 counts self-matches and has no Theiler window: its sum at radius 0 is 1/n. Ours is zero."""
     x = np.sin(0.001 * np.arange(3000))
-    sums = correlation_sums(x, 1, 2, theiler=100)
+    sums = compute_correlation_sums(x, 1, 2, theiler=100)
     assert sums.total[:, 0].sum() == 0
-    near = correlation_sums(x, 1, 2, theiler=0)
+    near = compute_correlation_sums(x, 1, 2, theiler=0)
     assert near.total[1, 100] > sums.total[1, 100]
 
 
 def test_counters_go_beyond_single_precision():
     """TISEAN's c2naive stops counting at 2^24 = 16,777,216 a bin. Two levels put some 50 million pairs into one."""
     x = np.where(np.random.default_rng(0).random(15_000) < 0.5, 0.0, 1.0)
-    sums = correlation_sums(x, 1, 1, theiler=0)
+    sums = compute_correlation_sums(x, 1, 1, theiler=0)
     ones = int(x.sum())
     assert sums.counts.dtype == np.int64
     assert sums.total[0, 0] == ones * (ones - 1) // 2 + (15_000 - ones) * (14_999 - ones) // 2
@@ -86,8 +100,8 @@ def test_counters_go_beyond_single_precision():
 def test_close_pairs_of_a_long_series_are_counted_in_full():
     """With one pair in eight sampled, the small radii come from cells and agree with the sum over all lags."""
     x = henon(6000)
-    full = correlation_sums(x, 1, 4, theiler=5)
-    part = correlation_sums(x, 1, 4, theiler=5, effort=Effort(pairs=2_000_000, near=200_000))
+    full = compute_correlation_sums(x, 1, 4, theiler=5)
+    part = compute_correlation_sums(x, 1, 4, theiler=5, effort=Effort(pairs=2_000_000, near=200_000))
     close = full.total[1] < 150_000
     assert close.sum() > 100
     np.testing.assert_allclose(part.total[1:, close], full.total[1:, close], atol=1)
@@ -96,14 +110,14 @@ def test_close_pairs_of_a_long_series_are_counted_in_full():
 
 
 def test_sampled_lags_keep_step_with_nothing():
-    lags = chosen_lags(20_000, 50, 10_000_000)
+    lags = choose_lags(20_000, 50, 10_000_000)
     assert len(np.unique(lags)) == len(lags)
     phases = np.bincount(lags % 50, minlength=50)
     assert phases.min() > 0.7 * phases.mean()
 
 
 def test_a_block_left_out_leaves_the_pairs_of_the_others():
-    sums = correlation_sums(henon(2000), 1, 3, theiler=5, effort=Effort(blocks=4))
+    sums = compute_correlation_sums(henon(2000), 1, 3, theiler=5, effort=Effort(blocks=4))
     others = np.array([0, 1, 3])
     expected = np.cumsum(sums.counts[np.ix_(others, others)].sum(axis=(0, 1)), axis=-1)
     np.testing.assert_array_equal(sums.without_one()[2], expected)
@@ -120,17 +134,17 @@ def test_takens_estimate_is_the_mean_logarithm():
     x = henon(1500)
     i, j = np.triu_indices(1499, 6)
     far = np.maximum(np.abs(x[i] - x[j]), np.abs(x[i + 1] - x[j + 1]))
-    sums = correlation_sums(x, 1, 2, theiler=5)
+    sums = compute_correlation_sums(x, 1, 2, theiler=5)
     radius = sums.radii[np.searchsorted(sums.radii, 0.05 * np.ptp(x))]
     plain = 1.0 / np.mean(np.log(radius / far[far < radius]))
-    assert takens_theiler(sums.total[1], sums.radii, 0.0, radius) == pytest.approx(plain, rel=2e-3)
+    assert estimate_takens(sums.total[1], sums.radii, 0.0, radius) == pytest.approx(plain, rel=2e-3)
 
 
 def test_too_short_and_constant_series_are_told():
     with pytest.raises(DataError, match="record longer"):
-        correlation_sums(np.arange(20.0), 5, 5, theiler=2)
+        compute_correlation_sums(np.arange(20.0), 5, 5, theiler=2)
     with pytest.raises(DataError, match="constant"):
-        correlation_sums(np.zeros(1000), 1, 2, theiler=2)
+        compute_correlation_sums(np.zeros(1000), 1, 2, theiler=2)
 
 
 AWKWARD = {
@@ -231,9 +245,9 @@ def test_quantised_series_do_not_make_the_slope_wrong():
 
 def test_the_step_of_a_sensor_is_found_only_where_there_is_one():
     x = henon(2000)
-    assert quantisation(x) == 0.0
-    assert quantisation(0.01 * np.round(x / 0.01)) == pytest.approx(0.01, rel=1e-6)
-    assert quantisation(np.tile(np.sin(np.arange(50.0)), 40)) == 0.0
+    assert find_quantisation(x) == 0.0
+    assert find_quantisation(0.01 * np.round(x / 0.01)) == pytest.approx(0.01, rel=1e-6)
+    assert find_quantisation(np.tile(np.sin(np.arange(50.0)), 40)) == 0.0
 
 
 def test_the_noise_scale_is_the_integral_it_is_said_to_be():
@@ -261,20 +275,20 @@ def test_the_noise_level_is_good_to_a_fifth(share):
     t = 0.05 * np.arange(12_000)
     clean = np.sin(t) + 0.7 * np.sin(np.sqrt(2.0) * t)
     x = clean + share * np.std(clean) * np.random.default_rng(8).normal(size=len(t))
-    found = noise_level(x - x.mean(), Embedding(20, 4, 120))
+    found = estimate_noise_level(x - x.mean(), Embedding(20, 4, 120))
     assert found.value == pytest.approx(share / np.sqrt(1 + share**2), rel=0.2)
     assert found.low < share < found.high
 
 
 def test_clean_data_are_not_said_to_be_noisy_and_noise_is_all_noise():
-    clean = noise_level(henon(8000), Embedding(1, 2, 5))
+    clean = estimate_noise_level(henon(8000), Embedding(1, 2, 5))
     assert clean.high < 0.02
-    white = noise_level(np.random.default_rng(9).normal(size=5000), Embedding(1, 2, 5))
+    white = estimate_noise_level(np.random.default_rng(9).normal(size=5000), Embedding(1, 2, 5))
     assert 0.75 < white.value < 1.2
-    assert noise_level(np.arange(30.0), Embedding(1, 2, 5)).status == "too_short"
+    assert estimate_noise_level(np.arange(30.0), Embedding(1, 2, 5)).status == "too_short"
 
 
 def test_the_noise_level_does_not_depend_on_the_unit_or_the_offset():
     x = henon(3000) + 0.05 * np.random.default_rng(10).normal(size=3000)
-    one, two = (noise_level(y, Embedding(1, 2, 5)) for y in (x, 1e-7 * x))
+    one, two = (estimate_noise_level(y, Embedding(1, 2, 5)) for y in (x, 1e-7 * x))
     assert one.value == pytest.approx(two.value, rel=1e-6)

@@ -8,9 +8,16 @@ from scipy.signal import lfilter
 
 from lostmotion.contracts import Series
 from lostmotion.results import STATUSES, Embedding
-from lostmotion_plugins.quantifiers._kernels_divergence import follow, logarithms, same_phase, square, visits, walk
-from lostmotion_plugins.quantifiers.divergence import components, states
-from lostmotion_plugins.quantifiers.divergence_fit import Curves, Domain, line
+from lostmotion_plugins.quantifiers._kernels_divergence import (
+    compute_square,
+    find_same_phase,
+    follow,
+    select_visits,
+    take_logarithms,
+    walk,
+)
+from lostmotion_plugins.quantifiers.divergence import compute_components, reconstruct_states
+from lostmotion_plugins.quantifiers.divergence_fit import Curves, Domain, fit_line
 from lostmotion_plugins.quantifiers.kantz import Kantz
 from lostmotion_plugins.quantifiers.rosenstein import Rosenstein
 from lostmotion_plugins.quantifiers.wolf import Wolf
@@ -75,13 +82,13 @@ def slow_square(points, i, j, flow):
 def test_distance_across_the_flow(flow):
     points = RNG.standard_normal((40, 3))
     for i, j in ((1, 20), (5, 30), (38, 2)):
-        assert square(points, i, j, flow) == pytest.approx(slow_square(points, i, j, flow), rel=1e-10)
+        assert compute_square(points, i, j, flow) == pytest.approx(slow_square(points, i, j, flow), rel=1e-10)
 
 
 def test_logarithms_are_those_of_the_library():
     values = np.concatenate([10.0 ** RNG.uniform(-300, 300, 2000), 1.0 + RNG.uniform(-1e-6, 1e-6, 500), [1.0, 2.0]])
     ours = values.copy()
-    logarithms(ours, np.empty(len(values), np.int64))
+    take_logarithms(ours, np.empty(len(values), np.int64))
     np.testing.assert_allclose(ours, np.log(values), rtol=1e-14, atol=1e-15)
 
 
@@ -135,7 +142,7 @@ def slow_line(c, where, believed):
 def test_the_fit_is_that_of_least_squares():
     log, far, near = np.cumsum(RNG.random((3, 2, 2, 60)), axis=-1)
     stack = Curves(log, far, near / 100.0, log, 0.01, 30.0)
-    found = line(stack, Domain(5, (50, 33)), 0.7)
+    found = fit_line(stack, Domain(5, (50, 33)), 0.7)
     for k in range(2):
         one = Curves(log[k], far[k], near[k] / 100.0, log[k], 0.01, 30.0)
         np.testing.assert_allclose([f[k] for f in found], slow_line(one, Domain(5, (50, 33)), 0.7), rtol=1e-7)
@@ -146,7 +153,7 @@ def test_neighbours_at_the_same_phase(period):
     points = RNG.standard_normal((500, 3))
     wanted = np.arange(1, 400, 13)
     found, skipped = np.full((len(wanted), 3), -1), np.zeros(len(wanted), bool)
-    same_phase(points, wanted, (period, 30, 0.0, 450), found, skipped)
+    find_same_phase(points, wanted, (period, 30, 0.0, 450), found, skipped)
     for a, i in enumerate(wanted):
         turns = np.arange(-30, 31)
         all_of_them = np.array([round(i + k * period) for k in turns])
@@ -159,7 +166,7 @@ def test_neighbours_at_the_same_phase(period):
 
 def test_neighbours_of_one_visit_count_once():
     found = np.full((1, 3), -1)
-    visits(np.array([[50, 51, 49, 120, 52, 300, 20]]), 10, 200, found)
+    select_visits(np.array([[50, 51, 49, 120, 52, 300, 20]]), 10, 200, found)
     assert found.tolist() == [[50, 120, 20]]
 
 
@@ -167,7 +174,9 @@ def test_components_are_those_of_a_singular_value_decomposition():
     x = np.cumsum(RNG.standard_normal(400))
     frames = np.stack([x[k : k + 390] for k in range(11)], axis=1)
     own = np.linalg.svd(frames - frames.mean(axis=0), full_matrices=False)[2][:3].T
-    np.testing.assert_allclose(np.abs(components(x, 11, 3)), np.abs(frames @ own) / np.sqrt(11), rtol=1e-6, atol=1e-8)
+    np.testing.assert_allclose(
+        np.abs(compute_components(x, 11, 3)), np.abs(frames @ own) / np.sqrt(11), rtol=1e-6, atol=1e-8
+    )
 
 
 def test_wolf_skips_what_is_no_distance():
@@ -311,6 +320,6 @@ def test_the_line_lies_on_the_curve(method):
 
 
 def test_flow_is_told_from_map_by_the_delay():
-    assert states(series(tone(50), lag=12)).flow
-    assert not states(series(henon(N), lag=1, dim=2)).flow
-    assert not states(series(tone(50), lag=12, dim=1)).flow
+    assert reconstruct_states(series(tone(50), lag=12)).flow
+    assert not reconstruct_states(series(henon(N), lag=1, dim=2)).flow
+    assert not reconstruct_states(series(tone(50), lag=12, dim=1)).flow

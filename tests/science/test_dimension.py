@@ -14,10 +14,10 @@ from scipy.integrate import solve_ivp
 
 from lostmotion.contracts import Series
 from lostmotion.results import Embedding
-from lostmotion_plugins.quantifiers.correlation import Effort, correlation_sums
-from lostmotion_plugins.quantifiers.correlation_curves import takens_theiler
+from lostmotion_plugins.quantifiers.correlation import Effort, compute_correlation_sums
+from lostmotion_plugins.quantifiers.correlation_curves import estimate_takens
 from lostmotion_plugins.quantifiers.dimension import CorrelationDimension, CorrelationEntropy
-from lostmotion_plugins.quantifiers.noise import noise_level
+from lostmotion_plugins.quantifiers.noise import estimate_noise_level
 
 PERIOD = 2.0 * math.pi / 40.0
 
@@ -133,7 +133,7 @@ def test_a_record_that_keeps_step_with_its_drive_gets_the_dimension_of_the_flow(
 
 def test_the_same_record_left_in_step_shows_the_section_at_small_radii(lin):
     """What goes wrong without it: the slope at small radii is that of the section, 1.4."""
-    sums = correlation_sums(lin, 3, 5, theiler=50)
+    sums = compute_correlation_sums(lin, 3, 5, theiler=50)
     share = sums.radii / sums.extent
     low, high = np.searchsorted(share, [0.001, 0.006])
     slope = np.log(sums.total[4, high] / sums.total[4, low]) / np.log(share[high] / share[low])
@@ -146,14 +146,14 @@ def test_the_noise_of_lorenz_and_of_the_oscillator_is_good_to_a_fifth(lorenz, li
     """The scatter over seeds is about 6 %, and the oscillator's lies 10 % low: a quarter is missed in one of 200."""
     for x, theiler in ((lorenz, 100), (lin, 50)):
         noisy = x + share * np.std(x) * np.random.default_rng(1).normal(size=len(x))
-        found = noise_level(noisy - noisy.mean(), Embedding(5, 4, theiler))
+        found = estimate_noise_level(noisy - noisy.mean(), Embedding(5, 4, theiler))
         assert found.value == pytest.approx(share / np.hypot(1.0, share), rel=0.25)
         assert found.low < share < found.high
 
 
 def test_clean_recordings_hold_no_noise(lorenz, lin):
     for x, theiler in ((lorenz, 100), (lin, 50)):
-        found = noise_level(x - x.mean(), Embedding(5, 4, theiler))
+        found = estimate_noise_level(x - x.mean(), Embedding(5, 4, theiler))
         assert found.value == 0.0
         assert found.high < 0.005
 
@@ -172,7 +172,7 @@ def test_correlation_sums_of_an_independent_program(reference, key, array):
     """An independent count in single precision: equal to 1e-3 in m >= 2, 3e-3 in m = 1 at its smallest radii."""
     told = json.loads((reference / "d2_curves_reference.json").read_text())[key]
     x = np.load(reference / "lin_backlash.npz")[array]
-    sums = correlation_sums(x, told["tau"], 6, theiler=told["theiler"])
+    sums = compute_correlation_sums(x, told["tau"], 6, theiler=told["theiler"])
     at = np.searchsorted(sums.radii / sums.extent, np.array(told["r_over_range"]) * (1.0 - 1e-9))
     for m in range(1, 7):
         expected = np.array(told["C"][str(m)])
@@ -187,7 +187,7 @@ def test_close_pairs_of_a_long_record_agree_with_an_independent_program(referenc
     """100,000 samples: 4 % of the lags are counted, and close pairs in cells."""
     told = json.loads((reference / "d2_curves_reference.json").read_text())["L N=100k"]
     x = np.load(reference / "lorenz_100k.npz")["x"]
-    sums = correlation_sums(x, 8, 6, theiler=100)
+    sums = compute_correlation_sums(x, 8, 6, theiler=100)
     radii, expected = np.array(told["r_over_range"]), np.array(told["C"]["5"])
     ours = sums.total[4, np.searchsorted(sums.radii / sums.extent, radii * (1.0 - 1e-9))] / sums.pairs.sum()
     small = (radii < 0.01) & (expected > 1e-8)
@@ -200,7 +200,7 @@ def test_close_pairs_of_a_long_record_agree_with_an_independent_program(referenc
 def test_values_that_other_programs_agree_on(reference):
     """nolitsa and TISEAN: ln C to 1e-3, the fit over C in [1e-5, 1e-2] 2.084, Takens-Theiler 2.098, 2.079, 1.967."""
     x = np.load(reference / "lorenz_100k.npz")["x"][:20_000]
-    sums = correlation_sums(x, 8, 5, theiler=100)
+    sums = compute_correlation_sums(x, 8, 5, theiler=100)
     log_c, log_r = sums.log_correlation[4], np.log(sums.radii / sums.extent)
     told = {0.003: -10.537, 0.01: -8.032, 0.03: -5.744, 0.1: -3.349, 0.3: -1.318}
     for radius, expected in told.items():
@@ -209,7 +209,7 @@ def test_values_that_other_programs_agree_on(reference):
     assert np.polyfit(log_r[inside], log_c[inside], 1)[0] == pytest.approx(2.084, abs=0.01)
     for radius, expected in {0.01: 2.098, 0.03: 2.079, 0.1: 1.967}.items():
         at = int(np.argmin(np.abs(log_r - math.log(radius))))
-        assert takens_theiler(sums.total[4], sums.radii, 0.0, sums.radii[at]) == pytest.approx(expected, abs=0.02)
+        assert estimate_takens(sums.total[4], sums.radii, 0.0, sums.radii[at]) == pytest.approx(expected, abs=0.02)
 
 
 @pytest.mark.slow
@@ -244,5 +244,5 @@ def test_other_delays_are_counted_as_an_error(lorenz):
 
 
 def test_effort_is_said(lorenz):
-    sums = correlation_sums(lorenz, 8, 4, theiler=100, effort=Effort(pairs=5_000_000, near=0))
+    sums = compute_correlation_sums(lorenz, 8, 4, theiler=100, effort=Effort(pairs=5_000_000, near=0))
     assert sums.pairs.sum() == pytest.approx(5_000_000, rel=0.02)

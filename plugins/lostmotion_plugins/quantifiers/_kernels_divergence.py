@@ -8,15 +8,15 @@ import numba
 import numpy as np
 
 LOG, FAR, NEAR, COUNT = 0, 1, 2, 3
-"""What `follow` sums: the logarithm of the distance, the distance, the share of pairs in the noise, the references."""
+"""The sums of `follow`: logarithm of the distance, distance, share of pairs within the noise, number of references."""
 MANTISSA, ONE, ROOT = 0x000FFFFFFFFFFFFF, 0x3FF0000000000000, math.sqrt(2.0)
 
 
 @numba.njit(cache=True, nogil=True)
-def square(points, i, j, flow):  # type: ignore[no-untyped-def]
-    """Return the squared distance of two points; with `flow` only what stands across the mean direction of motion.
+def compute_square(points, i, j, flow):  # type: ignore[no-untyped-def]
+    """Return the squared distance of two points; with `flow` only the part perpendicular to the mean motion.
 
-    Along the flow neighbours neither part nor close up: left in, it hides how those across it part.
+    Along the flow neighbours neither diverge nor converge; this part would hide the divergence across the flow.
     """
     total, along, speed = 0.0, 0.0, 0.0
     for q in range(points.shape[1]):
@@ -31,7 +31,7 @@ def square(points, i, j, flow):  # type: ignore[no-untyped-def]
 
 @numba.njit(cache=True, nogil=True)
 def _insert(found, far, j, d):  # type: ignore[no-untyped-def]
-    """Put j into its place in the sorted lists, the farthest drops out."""
+    """Insert j with the distance d into the sorted lists and drop the farthest entry."""
     p = len(found) - 1
     while p > 0 and far[p - 1] > d:
         far[p] = far[p - 1]
@@ -42,7 +42,7 @@ def _insert(found, far, j, d):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(cache=True, nogil=True)
-def same_phase(points, wanted, phase, found, skipped):  # type: ignore[no-untyped-def]
+def find_same_phase(points, wanted, phase, found, skipped):  # type: ignore[no-untyped-def]
     """Fill `found` (q, k) with the nearest points that lie whole drive periods away, to half a sample.
 
     `phase` is (period in samples, Theiler window, squared distance of a repeat, last point that may be a neighbour).
@@ -68,7 +68,7 @@ def same_phase(points, wanted, phase, found, skipped):  # type: ignore[no-untype
 
 
 @numba.njit(cache=True, nogil=True)
-def visits(near, apart, limit, found):  # type: ignore[no-untyped-def]
+def select_visits(near, apart, limit, found):  # type: ignore[no-untyped-def]
     """Fill `found` (q, k) with those of the sorted neighbours `near` (q, m) that belong to different visits."""
     for a in range(len(near)):
         many = 0
@@ -85,10 +85,10 @@ def visits(near, apart, limit, found):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
-def logarithms(values, bits):  # type: ignore[no-untyped-def]
-    """Replace values (t,) > 0 by their natural logarithms, to 1e-15; `bits` (t,) is room for integers.
+def take_logarithms(values, bits):  # type: ignore[no-untyped-def]
+    """Replace values (t,) > 0 by their natural logarithms, to 1e-15; `bits` (t,) is work space for integers.
 
-    A series in (m - 1)/(m + 1) of the mantissa m, which the compiler spreads over vector lanes, as it does not libm.
+    It is a series in (m - 1)/(m + 1) of the mantissa m, which the compiler can vectorise, unlike the function of libm.
     """
     raw, mantissa = values.view(np.int64), bits.view(np.float64)
     for t in range(len(values)):
@@ -107,7 +107,7 @@ def logarithms(values, bits):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
-def _squares(points, i, j, total):  # type: ignore[no-untyped-def]
+def _fill_squares(points, i, j, total):  # type: ignore[no-untyped-def]
     """Fill `total` (t,) with the squared distances of the paths (dim, n) from i and from j on."""
     total[:] = 0.0
     for q in range(len(points)):
@@ -117,8 +117,8 @@ def _squares(points, i, j, total):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
-def _across(points, motion, i, j, total, room):  # type: ignore[no-untyped-def]
-    """Take out of the squares `total` (t,) what lies along the mean direction of `motion` (dim, n)."""
+def _remove_along(points, motion, i, j, total, room):  # type: ignore[no-untyped-def]
+    """Remove from the squares `total` (t,) the part along the mean direction of `motion` (dim, n)."""
     along, speed = room
     along[:] = 0.0
     speed[:] = 0.0
@@ -135,10 +135,10 @@ def _across(points, motion, i, j, total, room):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
-def _count(total, law, sums, bits):  # type: ignore[no-untyped-def]
-    """Add squared distances (t,) of one pair to sums (4, t); those of repeats, and of paths that touch, do not count.
+def _add_pair(total, law, sums, bits):  # type: ignore[no-untyped-def]
+    """Add squared distances (t,) of one pair to sums (4, t); those of repeats and of paths that touch are left out.
 
-    One loop for each row, of two arrays only: more of them, which might overlap, would not be spread over lanes.
+    There is one loop for each row, with two arrays only: with more arrays, which might overlap, it is not vectorised.
     """
     least, noise = law
     near, many, far, log = sums[NEAR], sums[COUNT], sums[FAR], sums[LOG]
@@ -150,13 +150,13 @@ def _count(total, law, sums, bits):  # type: ignore[no-untyped-def]
         far[t] += math.sqrt(total[t] if total[t] > least else 0.0)
     for t in range(len(total)):
         total[t] = total[t] if total[t] > least else 1.0
-    logarithms(total, bits)
+    take_logarithms(total, bits)
     for t in range(len(total)):
         log[t] += 0.5 * total[t]
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
-def _weigh(one, sums, before, total, bits):  # type: ignore[no-untyped-def]
+def _add_reference(one, sums, before, total, bits):  # type: ignore[no-untyped-def]
     """Add the means over one reference's neighbours, from their sums `one` (4, t), to the `sums` (4, t) of all."""
     many = one[COUNT]
     for k in range(COUNT):
@@ -164,7 +164,7 @@ def _weigh(one, sums, before, total, bits):  # type: ignore[no-untyped-def]
         if k == LOG and before:
             for t in range(len(total)):
                 total[t] = one[FAR, t] / many[t] if many[t] > 0.0 else 1.0
-            logarithms(total, bits)
+            take_logarithms(total, bits)
             for t in range(len(total)):
                 into[t] += total[t]
         else:
@@ -194,16 +194,16 @@ def follow(points, motion, wanted, groups, law, sums):  # type: ignore[no-untype
                 one[:] = 0.0
             for j in groups[a, g]:
                 if j >= 0:
-                    _squares(points, wanted[a], j, total)
+                    _fill_squares(points, wanted[a], j, total)
                     if len(motion):
-                        _across(points, motion, wanted[a], j, total, room)
-                    _count(total, (least, noise), one, bits)
-            _weigh(one, sums[g], before, total, bits)
+                        _remove_along(points, motion, wanted[a], j, total, room)
+                    _add_pair(total, (least, noise), one, bits)
+            _add_reference(one, sums[g], before, total, bits)
 
 
 @numba.njit(cache=True, nogil=True)
 def walk(points, near, rules, gained):  # type: ignore[no-untyped-def]
-    """Fill `gained` (pieces, 3) along Wolf's chain of pairs, and return how many pieces there are.
+    """Fill `gained` (pieces, 3) along Wolf's chain of pairs, and return the number of pieces.
 
     The columns are the growth of ln distance to the middle of the piece, to its end, and the distance there.
     `near` (n, k) are neighbours, the nearest first; `rules` (steps followed, squared distance of a repeat). A new
@@ -224,8 +224,8 @@ def walk(points, near, rules, gained):  # type: ignore[no-untyped-def]
             if j < 0 or turn > best:
                 best, j = turn, c
         if j >= 0:
-            begin, end = square(points, i, j, False), square(points, i + steps, j + steps, False)
-            half = square(points, i + steps // 2, j + steps // 2, False)
+            begin, end = compute_square(points, i, j, False), compute_square(points, i + steps, j + steps, False)
+            half = compute_square(points, i + steps // 2, j + steps // 2, False)
             if min(begin, half, end) > least:
                 gained[many, 0] = 0.5 * math.log(half / begin)
                 gained[many, 1] = 0.5 * math.log(end / begin)

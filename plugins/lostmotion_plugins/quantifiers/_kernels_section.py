@@ -11,8 +11,8 @@ CODES = 256
 _OFFSET = (127 - 31) * 8 - 1
 
 
-def edges() -> NDArray[np.float64]:
-    """Return the lower edge (CODES,) of each code: the first three digits of a single-precision number."""
+def compute_edges() -> NDArray[np.float64]:
+    """Return the lower edge (CODES,) of each code, which is a single-precision number with three mantissa bits."""
     bits = (np.arange(CODES) + _OFFSET).astype(np.int32) << np.int32(20)
     return bits.view(np.float32).astype(float)
 

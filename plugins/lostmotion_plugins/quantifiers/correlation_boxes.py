@@ -1,7 +1,7 @@
-"""All close pairs of a long recording, found in cells: where lags were left out, small radii are counted in full.
+"""All close pairs of a long recording, found by a grid of cells, for small radii where lags were left out.
 
 Neighbours of a flow stay neighbours for a while at the same lag. A sum over some of the lags therefore sees few
-encounters, each many times over; at small radii it is noise. Schreiber, Int. J. Bifurcation Chaos 5 (1995) 349-358.
+encounters, each of them many times, and is noisy at small radii. Schreiber, Int. J. Bifurcation Chaos 5 (1995) 349-358.
 """
 
 from __future__ import annotations
@@ -14,18 +14,19 @@ from lostmotion_plugins.quantifiers._kernels_correlation import CODES, count_nea
 
 Counts = NDArray[np.int64]
 MOST_CELLS = 1024
-"""Cells along each of two coordinates."""
+"""At most so many cells along each of two coordinates."""
 EIGHTHS = 8
+"""Codes in an octave."""
 
 
-def widest(total: Counts, share: float, near: int) -> int:
-    """Return the code below which not more than about `near` pairs lie, when `share` of all were seen in `total`."""
+def choose_widest_code(total: Counts, share: float, near: int) -> int:
+    """Return the code below which there are about `near` pairs, where `total` counts the share `share` of all pairs."""
     code: int = int(np.searchsorted(total, near * share)) - 1
     lowest = EIGHTHS * (31 - MOST_CELLS.bit_length()) + 1
     return min(max(code, lowest), EIGHTHS * 28)
 
 
-def side_of(code: int) -> int:
+def find_side(code: int) -> int:
     """Return the smallest distance (grid steps) with this code or a larger one."""
     octave, eighth = divmod(code - 1, EIGHTHS)
     return int((EIGHTHS + eighth) << octave) // EIGHTHS
@@ -36,7 +37,7 @@ def count_boxes(
 ) -> Counts:
     """Return the pairs (blocks, blocks, dims, CODES) with codes below `code`, in dimensions 2 and more."""
     blocks, dims = shape
-    side = side_of(code)
+    side = find_side(code)
     cells = (2**30) // side + 1
     order, begins = sort_cells(grid, lag, ends[-1], side, cells)
     block = np.searchsorted(np.array(ends[1:]), np.arange(ends[-1]), side="right")
@@ -51,10 +52,10 @@ def count_boxes(
     return counts
 
 
-def joined(near: Counts, sampled: Counts, code: int, share: float) -> Counts:
-    """Return counts that are those of `near` below `code`, and those of `sampled`, over its `share`, from there on.
+def join_counts(near: Counts, sampled: Counts, code: int, share: float) -> Counts:
+    """Return the counts of `near` below `code`, and those of `sampled` over its `share` from `code` on.
 
-    The first code above takes up what the two do not agree about, so that both sums are kept.
+    The count of `code` itself takes the difference between the two, so that both cumulative sums are kept.
     """
     whole = np.rint(np.cumsum(sampled, axis=-1) / share).astype(np.int64)
     below = np.cumsum(near, axis=-1)

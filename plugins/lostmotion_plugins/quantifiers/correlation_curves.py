@@ -1,4 +1,4 @@
-"""What is read off correlation sums apart from the plateau: curves for people, Takens' estimate, a fast slope."""
+"""Results from correlation sums other than the plateau: curves to draw, Takens' estimate, a fast slope."""
 
 from __future__ import annotations
 
@@ -9,30 +9,32 @@ import numpy as np
 
 from lostmotion.contracts import Array, Series
 from lostmotion.results import Estimate
-from lostmotion_plugins.quantifiers.correlation import EIGHTHS, Effort, Sums, correlation_sums, jackknife
-from lostmotion_plugins.quantifiers.correlation_plateau import ENOUGH, KEPT, Plateau
-from lostmotion_plugins.quantifiers.correlation_ready import ready
+from lostmotion_plugins.quantifiers.correlation import Effort, Sums, compute_correlation_sums, jackknife
+from lostmotion_plugins.quantifiers.correlation_boxes import EIGHTHS
+from lostmotion_plugins.quantifiers.correlation_plateau import AGREEING_DIMS, LEAST_PAIRS, Plateau
+from lostmotion_plugins.quantifiers.correlation_ready import prepare_series
 
-LEAST = 500
-QUICK = 10_000_000
+LEAST_SAMPLES = 500
+"""A shorter recording is refused."""
+QUICK_PAIRS = 10_000_000
 """Pairs for the fast slope."""
-SHARES = (3e-4, 1e-2)
+QUICK_SHARES = (3e-4, 1e-2)
 """Shares of close pairs between which the fast slope is taken."""
 
 
-def enough_dims(series: Series, dims: int) -> int:
-    """Return the largest embedding dimension: the given one, or three beyond the embedding's, as far as n allows."""
+def choose_dims(series: Series, dims: int) -> int:
+    """Return the largest embedding dimension: the given one, or three more than the embedding's, limited by n."""
     wanted = dims or min(10, max(7, series.embedding.dim + 3))
     return max(1, min(wanted, 1 + (series.n // 4) // series.embedding.lag))
 
 
-def refusal(series: Series, dims: int, *, unit: str = "1") -> Estimate | None:
-    """Return the refusal of a series that is too short or stands still, or None."""
+def refuse_unusable(series: Series, dims: int, *, unit: str = "1") -> Estimate | None:
+    """Return the refusal of a series that is too short or constant, or None."""
     free = series.n - (dims - 1) * series.embedding.lag - series.embedding.theiler
-    if series.n < LEAST or free < LEAST // 2 or dims < KEPT:
+    if series.n < LEAST_SAMPLES or free < LEAST_SAMPLES // 2 or dims < AGREEING_DIMS:
         says = (
             f"{series.n} samples with delay {series.embedding.lag} and Theiler window {series.embedding.theiler} are "
-            f"too few for a correlation sum, and {LEAST} beside these are wanted: record longer."
+            f"too few for a correlation sum, and {LEAST_SAMPLES} beside these are needed: record longer."
         )
         return Estimate.refused("too_short", says, unit=unit)
     if not np.ptp(series.x) > 0.0:
@@ -40,11 +42,11 @@ def refusal(series: Series, dims: int, *, unit: str = "1") -> Estimate | None:
     return None
 
 
-def takens_theiler(total: Array, radii: Array, low: float, high: float) -> float:
+def estimate_takens(total: Array, radii: Array, low: float, high: float) -> float:
     """Return the estimate of Takens (1985), 1 / mean of ln(high/r) over the pairs with low <= r < high.
 
-    The sum of logarithms is C(high) over the integral of C/r (Theiler 1988), a power law between two codes. Pairs below
-    `low` (ties, noise) are left out of both, which takes the part of the power law below `low` off again.
+    The mean of the logarithms is the integral of C/r over C(high) (Theiler 1988), with a power law between two codes.
+    Pairs below `low` (ties, noise) are left out of both, so that only the power law above `low` counts.
     """
     inside = np.flatnonzero((radii >= low) & (radii <= high * (1.0 + 1e-12)) & (total > 0))
     if len(inside) < 2:
@@ -55,7 +57,7 @@ def takens_theiler(total: Array, radii: Array, low: float, high: float) -> float
     return float((c[-1] - c[0]) / area)
 
 
-def curve_of(sums: Sums, found: Plateau | None) -> dict[str, Array]:
+def collect_curves(sums: Sums, found: Plateau | None) -> dict[str, Array]:
     """Return the curves: radius (radii,), log_correlation and slope (dims, radii), and the slope by dimension."""
     span = EIGHTHS // 2
     last = int(np.argmax(sums.radii >= sums.extent))
@@ -78,11 +80,11 @@ def curve_of(sums: Sums, found: Plateau | None) -> dict[str, Array]:
     return curve | dict(zip(("dimension_by_dim", "low_by_dim", "high_by_dim"), by_dim, strict=True))
 
 
-def flatness(curve: Mapping[str, Array], found: Plateau) -> tuple[float, float]:
-    """Return by how much the local slope changes across a plateau, and how far it scatters there, as shares of it.
+def measure_flatness(curve: Mapping[str, Array], found: Plateau) -> tuple[float, float]:
+    """Return the change of the local slope across a plateau (absolute), and its rms scatter, as shares of the slope.
 
-    Counted over all radii between its ends and over all dimensions from the first of the plateau on, which a motion of
-    that dimension fills alike. The first number is the mean change from one end to the other, with its sign off.
+    Both use all radii between the ends of the plateau and all dimensions from its first one on, in which the slope of a
+    motion of that dimension is the same.
     """
     low, high = found.ends
     inside = (curve["radius"] >= low) & (curve["radius"] <= high)
@@ -96,24 +98,24 @@ def flatness(curve: Mapping[str, Array], found: Plateau) -> tuple[float, float]:
     return tilt, float(np.sqrt(np.mean((rows - found.mean) ** 2))) / found.mean
 
 
-def quick_slope(data: Series) -> Estimate:
-    """Return the slope between fixed shares of close pairs, in one dimension: there is one for noise too.
+def estimate_quick_slope(data: Series) -> Estimate:
+    """Return the slope between fixed shares of close pairs, in one embedding dimension; noise has such a slope, too.
 
-    The interval is left open. Only a given period is looked at, so that a series and its surrogates are treated alike.
+    There is no interval. Only a given period is used, so that a series and its surrogates are treated alike.
     """
     dim = min(6, max(4, data.embedding.dim + 1))
     dim = max(1, min(dim, 1 + (data.n // 4) // data.embedding.lag))
-    it = ready(data, np.random.default_rng(0), guess=False)
-    effort = Effort(pairs=QUICK, near=0, blocks=8, only=(dim,))
-    sums = correlation_sums(it.x, it.lag, dim, theiler=data.embedding.theiler, effort=effort)
+    it = prepare_series(data, np.random.default_rng(0), guess=False)
+    effort = Effort(pairs=QUICK_PAIRS, near=0, blocks=8, only=(dim,))
+    sums = compute_correlation_sums(it.x, it.lag, dim, theiler=data.embedding.theiler, effort=effort)
     log_c = sums.log_correlation[dim - 1]
-    ends = math.log(max(SHARES[0], ENOUGH / float(sums.pairs.sum()))), math.log(SHARES[1])
+    ends = math.log(max(QUICK_SHARES[0], LEAST_PAIRS / float(sums.pairs.sum()))), math.log(QUICK_SHARES[1])
     rising = np.diff(sums.total[dim - 1], prepend=0.0) > 0.0
     if rising.sum() < 2:
-        says = "All pairs lie equally far apart: the recording repeats itself, or has one step only."
+        says = "All pairs have the same distance: the recording repeats itself, or has one step only."
         return Estimate.refused("no_scaling_region", says)
     low, high = np.interp(ends, log_c[rising], np.log(sums.radii[rising]))
     slope = min(float(dim), float((ends[1] - ends[0]) / max(high - low, 1e-3)))
-    says = "A slope at fixed shares of pairs, to compare series with: no dimension, and without an interval."
+    says = "A slope at fixed shares of pairs, to compare series: it is no dimension and has no interval."
     details = {"dim": float(dim), "r_low": math.exp(low), "r_high": math.exp(high), "pairs": float(sums.pairs.sum())}
     return Estimate(slope, -math.inf, math.inf, "uncertain", "1", {}, says, details)

@@ -1,8 +1,8 @@
-"""Pairs of neighbours in delay space, followed in time: what the exponents of Rosenstein and of Kantz are read from.
+"""Pairs of neighbours in delay space, followed in time: the basis of the exponents of Rosenstein and of Kantz.
 
-States are principal components of the delay window (Broomhead, King, Physica D 20 (1986) 217-236), which hold less
-noise than the delays themselves. Where a drive period is known, neighbours are sought at the same drive phase, which
-is a state of the machine. Of the distance only what stands across the flow is counted.
+States are principal components of the delay window (Broomhead, King, Physica D 20 (1986) 217-236), which contain less
+noise than the delays themselves. Where a drive period is known, neighbours are searched at the same drive phase, which
+is a state of the machine. Only the part of the distance that is perpendicular to the flow is counted.
 """
 
 from __future__ import annotations
@@ -18,33 +18,33 @@ from lostmotion.contracts import Array, Series
 from lostmotion.kernels.neighbours import Tree, grow, several
 from lostmotion.kernels.threads import spread
 from lostmotion.signals import delay_vectors
-from lostmotion_plugins.quantifiers._kernels_divergence import COUNT, FAR, follow, same_phase, visits
+from lostmotion_plugins.quantifiers._kernels_divergence import COUNT, FAR, find_same_phase, follow, select_visits
 
 Indices = NDArray[np.int64]
 FRAMES = 2000
-"""Delay windows that the principal components are taken from."""
+"""Delay windows from which the principal components are computed."""
 BLOCKS = 20
-"""Pieces of the record that are left out in turn."""
-PLAIN = 3
-"""Components in which distances are measured: two across the flow, where noise in the mean of a logarithm cancels, as
-the logarithm is harmonic in the plane (the mean of ln|d + noise| over a circle of noise is ln|d| outside it)."""
-TIES = 1e-9
-"""Distances below this share of the usual one are repeats."""
-TURNS = 30
-"""With fewer drive periods than this, neighbours are sought at all phases."""
-SMOOTH = 8
-"""Samples in a period from which on a drive is resolved, and may be averaged over."""
-HORIZON = 0.55
-"""Pairs are followed until their mean distance has come to this share of that of strangers."""
+"""Blocks of the record that are left out in turn."""
+PLANE_DIMS = 3
+"""Components in which distances are measured: two are perpendicular to the flow. In a plane, noise cancels in the mean
+of the logarithm, which is harmonic there (the mean of ln|d + noise| over a circle of noise is ln|d| outside it)."""
+TIE_SHARE = 1e-9
+"""Points closer than this share of the rms distance are repeats of each other."""
+LEAST_TURNS = 30
+"""With fewer drive periods, neighbours are searched at all phases."""
+RESOLVED_SAMPLES = 8
+"""With at least so many samples in a period a drive is resolved, and curves are averaged over a period."""
+HORIZON_SHARE = 0.55
+"""Pairs are followed until their mean distance reaches this share of the mean distance of unrelated points."""
 
 
 @dataclass(frozen=True, eq=False)
 class States:
-    """Points (n, dim) to seek neighbours in, and how they are sampled.
+    """Points (n, dim) among which neighbours are searched, and how they are sampled.
 
-    `plane` (<= 3, n) holds their paths, to measure distances in, and `motion` (<= 3, n) the velocities across which
-    they are measured, (0, n) for a map. `turn` is the drive period in samples, 0 for none; `flow` whether the motion
-    is continuous between samples.
+    `plane` (<= 3, n) has their paths, in which distances are measured, and `motion` (<= 3, n) the velocities, whose
+    direction is left out of distances; it is (0, n) for a map. `turn` is the drive period in samples, 0 for none;
+    `flow` whether the motion is continuous between samples.
     """
 
     points: Array
@@ -61,7 +61,7 @@ class States:
     def smooth(self) -> int:
         """The samples over which curves are averaged: one period of the drive, or else of the motion.
 
-        Neighbours part and close up again within each turn, which a short fit takes for growth.
+        Within each period neighbours diverge and converge again, which would disturb a short fit.
         """
         if self.turn or not self.flow:
             return round(self.turn) or 1
@@ -78,7 +78,7 @@ class States:
     @property
     def tie(self) -> float:
         """The distance below which two points are repeats of each other."""
-        return TIES * self.size
+        return TIE_SHARE * self.size
 
     @cached_property
     def tree(self) -> Tree:
@@ -87,15 +87,15 @@ class States:
 
     @property
     def locked(self) -> bool:
-        """Whether neighbours can be sought at the same drive phase."""
-        return bool(self.turn) and len(self.points) / self.turn >= TURNS
+        """Whether neighbours are searched at the same drive phase."""
+        return bool(self.turn) and len(self.points) / self.turn >= LEAST_TURNS
 
 
 @dataclass(frozen=True, eq=False)
 class Pairs:
-    """References (q,) and their neighbours (q, g, m) in groups; `repeats` is the share of references with a tie.
+    """References (q,) and their neighbours (q, g, m) in groups; `repeats` is the share of references with a repeat.
 
-    With `grows` each group holds those before it too.
+    With `grows` each group contains those before it, too.
     """
 
     wanted: Indices
@@ -107,30 +107,30 @@ class Pairs:
 
 @dataclass(frozen=True, eq=False)
 class Spread:
-    """Sums (blocks, g, 4, times) of what `follow` adds up, the distance of strangers, and the noise in one sample."""
+    """Sums (blocks, g, 4, times) of `follow`, the mean distance of unrelated points, and the noise in one sample."""
 
     sums: Array
-    strangers: float
+    unrelated: float
     noise: float
 
 
-def states(series: Series) -> States:
-    """Return the states of a recording. A delay of one sample means a map: then there is no flow."""
+def reconstruct_states(series: Series) -> States:
+    """Return the states of a recording; with a delay of one sample it is treated as a map, without a flow."""
     e = series.embedding
     flow = e.lag > 1 and e.dim > 1
-    points = components(series.x, e.window, e.dim) if flow else delay_vectors(series.x, e.lag, e.dim)
+    points = compute_components(series.x, e.window, e.dim) if flow else delay_vectors(series.x, e.lag, e.dim)
     turn = series.period / series.dt if series.period else 0.0
-    plane = np.ascontiguousarray(points[:, :PLAIN].T)
+    plane = np.ascontiguousarray(points[:, :PLANE_DIMS].T)
     motion = np.zeros((len(plane) if flow else 0, len(points)))
     motion[:, 1:-1] = plane[: len(motion), 2:] - plane[: len(motion), :-2]
-    theiler, turn = max(e.theiler, e.window), turn if turn >= SMOOTH else 0.0
+    theiler, turn = max(e.theiler, e.window), turn if turn >= RESOLVED_SAMPLES else 0.0
     return States(points, plane, motion, series.x, series.dt, e.window, theiler, turn, flow)
 
 
-def components(x: Array, window: int, dim: int) -> Array:
+def compute_components(x: Array, window: int, dim: int) -> Array:
     """Return the first `dim` principal components (n - window + 1, dim) of all windows of x, over sqrt(window).
 
-    Without BLAS, which on a busy machine takes longer to wake its threads than the work takes.
+    BLAS is not used: on a busy machine, starting its threads takes longer than the computation.
     """
     frames = sliding_window_view(x, window)
     some = frames[:: max(1, len(frames) // FRAMES)]
@@ -139,8 +139,8 @@ def components(x: Array, window: int, dim: int) -> Array:
     return np.stack([np.correlate(x, own[:, k], "valid") for k in range(dim)], axis=1)
 
 
-def strangers(made: States) -> float:
-    """Return the mean distance of points that have nothing to do with one another, at the same phase if locked."""
+def measure_unrelated_distance(made: States) -> float:
+    """Return the mean distance of unrelated points, at the same drive phase if `locked`."""
     n = len(made.points)
     i = np.arange(1, n - 1, max(1, n // 4000))
     golden = (0.381966 + 0.2360680 * (np.arange(len(i)) * 0.6180339887 % 1.0)) * n
@@ -156,14 +156,14 @@ def strangers(made: States) -> float:
     return float(sums[0, FAR, 0] / max(sums[0, COUNT, 0], 1.0))
 
 
-def neighbours(made: States, wanted: Indices, limit: int, k: int) -> tuple[Indices, float]:
-    """Return neighbours (q, k) in different visits, the nearest first, -1 for none, and the share with a repeat."""
+def find_neighbours(made: States, wanted: Indices, limit: int, k: int) -> tuple[Indices, float]:
+    """Return neighbours (q, k) in different visits, the nearest first and -1 for none, and the share with a repeat."""
     tie = made.tie
     found = np.full((len(wanted), k), -1)
     if made.locked:
         skipped = np.zeros(len(wanted), np.bool_)
         law = (made.turn, made.theiler, tie * tie, limit)
-        spread(lambda a, b: same_phase(made.points, wanted[a:b], law, found[a:b], skipped[a:b]), len(wanted))
+        spread(lambda a, b: find_same_phase(made.points, wanted[a:b], law, found[a:b], skipped[a:b]), len(wanted))
         return found, float(skipped.mean())
     tree = made.tree
     some = wanted[:: max(1, len(wanted) // 300)]
@@ -175,41 +175,41 @@ def neighbours(made: States, wanted: Indices, limit: int, k: int) -> tuple[Indic
         )
         found[left] = -1
         part = np.full((len(left), k), -1)
-        visits(near, made.theiler if made.flow else 0, limit, part)
+        select_visits(near, made.theiler if made.flow else 0, limit, part)
         found[left] = part
         left, many = left[part[:, -1] < 0], 2 * many
     return found, float((closest[:, 0] <= tie).mean())
 
 
-def horizon(made: States, away: float) -> int:
-    """Return for how many samples to follow pairs: until they are half as far apart as strangers, if ever."""
+def choose_horizon(made: States, away: float) -> int:
+    """Return for how many samples pairs are followed: until their mean distance is that of `HORIZON_SHARE`, if ever."""
     n = len(made.points)
     most = min(n // 5, max(20 * made.theiler, 10 * made.window, 100))
     wanted = np.linspace(1, n - most - 3, 200).astype(np.int64)
-    near, _ = neighbours(made, wanted, n - most - 2, 1)
+    near, _ = find_neighbours(made, wanted, n - most - 2, 1)
     good = near[:, 0] >= 0
     if not good.any():
         return most
     sums = np.zeros((1, 4, most))
     follow(made.plane, made.motion[:0], wanted[good], near[good, :1, None], (False, False, -1.0, 0.0), sums)
-    over = np.nonzero(sums[0, FAR] > HORIZON * away * sums[0, COUNT])[0]
+    over = np.nonzero(sums[0, FAR] > HORIZON_SHARE * away * sums[0, COUNT])[0]
     return int(min(most, over[0] + made.smooth + made.window if len(over) else most))
 
 
-def sought(made: States, steps: int, references: int, k: int) -> Pairs:
-    """Return about `references` points, evenly over the record, each with k neighbours in groups of one."""
+def find_pairs(made: States, steps: int, references: int, k: int) -> Pairs:
+    """Return about `references` points, evenly spread over the record, each with k neighbours in groups of one."""
     limit = len(made.points) - steps - 2
     stride = max(1, limit // references)
     wanted = np.arange(1, limit, stride)
-    found, repeats = neighbours(made, wanted, limit, k)
+    found, repeats = find_neighbours(made, wanted, limit, k)
     return Pairs(wanted, found[:, :, None], limit, repeats)
 
 
-def noise_between(made: States, pairs: Pairs) -> float:
-    """Return the standard deviation of white noise in a sample, from third differences of what parts neighbours.
+def estimate_noise(made: States, pairs: Pairs) -> float:
+    """Return the standard deviation of white noise in a sample, from third differences of pairs of neighbours.
 
-    The difference of two neighbours is small and smooth, so that its third difference is mostly noise; of a map
-    nothing can be said: 0.
+    The difference of two neighbours is small and smooth, so its third difference is mostly noise. For a map this is
+    not possible, and 0 is returned.
     """
     near = pairs.groups[:, 0, 0]
     if not made.flow or made.window < 5:
@@ -220,10 +220,10 @@ def noise_between(made: States, pairs: Pairs) -> float:
     return float(np.sqrt((third**2).mean() / 40.0)) if third.size else 0.0
 
 
-def followed(made: States, pairs: Pairs, steps: int, *, before: bool = False) -> Spread:
-    """Return what neighbours do for `steps` samples, in blocks of the record."""
-    away = strangers(made)
-    noise = noise_between(made, pairs)
+def follow_pairs(made: States, pairs: Pairs, steps: int, *, before: bool = False) -> Spread:
+    """Return the sums over pairs that are followed for `steps` samples, by block of the record."""
+    away = measure_unrelated_distance(made)
+    noise = estimate_noise(made, pairs)
     sums = np.zeros((BLOCKS, pairs.groups.shape[1], 4, steps + 1))
     law = (pairs.grows, before, made.tie**2, 2.0 * noise * noise / (made.window if made.flow else 1))
     ends = np.linspace(0, len(pairs.wanted), BLOCKS + 1).astype(int)

@@ -1,4 +1,4 @@
-"""The exponent as the paper of 1993 has it: nearest neighbours, whole distances, one straight line."""
+"""The exponent by the recipe of Rosenstein et al. (1993): nearest neighbours, full distances, one straight line."""
 
 from __future__ import annotations
 
@@ -11,16 +11,19 @@ from lostmotion.results import Estimate
 from lostmotion.signals import delay_vectors
 from lostmotion_plugins.quantifiers._kernels_divergence import COUNT, LOG, follow
 from lostmotion_plugins.quantifiers.divergence import BLOCKS, Indices
-from lostmotion_plugins.quantifiers.exponent import UNIT, refused, short
+from lostmotion_plugins.quantifiers.exponent import UNIT, refuse, refuse_short
+
+LEAST_PAIRS = 5 * BLOCKS
+"""At least so many pairs are needed: five in each block that is left out in turn."""
 
 
-def classical(series: Series, begin: float, end: float) -> Estimate:
+def estimate_classically(series: Series, begin: float, end: float) -> Estimate:
     """Return the slope (1/s) of the mean logarithm of distance between the times `begin` and `end` (s).
 
-    Without an `end`, twenty delay windows are followed and the line is fitted to the first half. The number of pairs
-    is the same at all times.
+    Without an `end`, pairs are followed for twenty delay windows and the line is fitted to the first half. The number
+    of pairs is the same at all times.
     """
-    if no := short(series):
+    if no := refuse_short(series):
         return no
     dt, e = series.dt, series.embedding
     last = round(end / dt) if end > 0.0 else min(10 * e.window, series.n // 8)
@@ -28,15 +31,13 @@ def classical(series: Series, begin: float, end: float) -> Estimate:
     points = delay_vectors(series.x, e.lag, e.dim)
     limit = len(points) - steps
     if last > steps or limit < LEAST_PAIRS:
-        return refused("too_short", f"{series.n} samples do not hold pairs followed for {last} samples.")
+        return refuse("too_short", f"{series.n} samples are too few to follow pairs for {last} samples.")
     index, _ = nearest(points[:limit], theiler=e.theiler, norm="euclidean")
-    return _fitted(points, index, (round(begin / dt), last, steps), dt)
+    return _fit_line(points, index, (round(begin / dt), last, steps), dt)
 
 
-LEAST_PAIRS = 5 * BLOCKS
-
-
-def _fitted(points: Array, index: Indices, span: tuple[int, int, int], dt: float) -> Estimate:
+def _fit_line(points: Array, index: Indices, span: tuple[int, int, int], dt: float) -> Estimate:
+    """Return the slope between the samples `first` and `last` of pairs that are followed for `steps` samples."""
     first, last, steps = span
     wanted = np.nonzero(index >= 0)[0]
     paths = np.ascontiguousarray(points.T)
@@ -58,7 +59,7 @@ def _fitted(points: Array, index: Indices, span: tuple[int, int, int], dt: float
     kept = {"time": times, "divergence": curve, "slope": np.gradient(curve, dt)}
     part = slice(first, last + 1)
     if not np.isfinite(left[:, part]).all():
-        return refused("regular", "All neighbours are exact repeats: the motion is periodic.", (kept, {}))
+        return refuse("regular", "All neighbours are exact repeats: the motion is periodic.", (kept, {}))
     slope, intercept = np.polyfit(times[part], curve[part], 1)
     others = np.polyfit(times[part], left[:, part].T, 1)[0]
     error = float(np.sqrt((BLOCKS - 1) / BLOCKS * ((others - others.mean()) ** 2).sum()))
@@ -68,6 +69,6 @@ def _fitted(points: Array, index: Indices, span: tuple[int, int, int], dt: float
         "intercept": float(intercept),
         "pairs": float(len(wanted)),
     }
-    says = "The classical recipe: its interval is that of the record only, and knows nothing of the bias of the method."
+    says = "The classical recipe: its interval is that of the record only, without the bias of the method."
     value, wide = float(slope), 2.09 * error
     return Estimate(value, value - wide, value + wide, "uncertain", UNIT, kept, says, details)

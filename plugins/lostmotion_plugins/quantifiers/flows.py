@@ -1,4 +1,4 @@
-"""Lyapunov exponents and dimension of a model, from the growth of its tangent vectors period by period."""
+"""Lyapunov exponents and dimension of a model, from the growth of its tangent vectors in each period."""
 
 from __future__ import annotations
 
@@ -12,24 +12,25 @@ from scipy.special import stdtr, stdtrit
 from lostmotion.contracts import Array, Flow, Quantifier
 from lostmotion.results import Estimate
 
-_FEWEST = 40
-"""Periods below which neither an error nor a transient can be judged."""
-_BLOCKS = 20
-"""Blocks that are at least left to judge the error from; twice as many to judge from whether the motion has settled."""
+_LEAST_PERIODS = 40
+"""With fewer periods neither an error nor a transient can be judged."""
+_LEAST_BLOCKS = 20
+"""The least number of blocks for the error; the test whether the motion has settled uses at least twice as many."""
 _PARTS = ((0.5, 0.5), (0.25, 0.5), (0.125, 0.5), (0.5, 0.75), (0.5, 0.875))
-"""Beginnings and ends of an orbit that are compared: up to the one share of it, and from the other on. A motion that
-settles early, or late, shows in the short ones."""
-_ALARM = 0.01
-"""Share of settled orbits that are taken for unsettled ones, over all these comparisons."""
-_ENDS = 1.0
-"""Standard error, in natural logarithms, of tangent growth over a whole orbit: where on the attractor an orbit begins
-and ends changes the length of a tangent vector by such a factor, however long the orbit is."""
+"""Parts of an orbit that are compared: up to the first share of it, and from the second share on. Short parts show a
+motion that settles early or late."""
+_FALSE_ALARMS = 0.01
+"""Share of settled orbits that are reported as not settled, over all these comparisons."""
+_END_ERROR = 1.0
+"""Standard error (natural logarithm) of tangent growth over a whole orbit: the positions of its start and end on the
+attractor change the length of a tangent vector by such a factor, independent of the length of the orbit."""
 _DRAWS = 400
+"""Bootstrap samples for the interval of the dimension."""
 
 
 @dataclass(frozen=True, eq=False)
 class _Growth:
-    """Growth (periods, k) of the tangent vectors behind the transient, in 1/s, or a refusal."""
+    """Growth (periods, k) of the tangent vectors after the transient, in 1/s, or a refusal."""
 
     rates: Array
     period: float
@@ -62,8 +63,8 @@ class _Mean:
 class LyapunovMax(Quantifier[Flow]):
     """Largest Lyapunov exponent (1/s, natural logarithm) of a model, by Benettin's method.
 
-    The error is that of means over blocks as long as the memory of the growth asks for, and of the ends.
-    Curve: `running`, the mean (1/s) up to each of some `periods`.
+    The error is that of means over blocks, whose length follows from the autocorrelation time of the growth, and of
+    the ends. Curve: `running`, the mean (1/s) up to each of some `periods`.
     """
 
     periods: int = 2000
@@ -74,19 +75,19 @@ class LyapunovMax(Quantifier[Flow]):
     reads = "flow"
 
     def estimate(self, data: Flow, *, rng: np.random.Generator) -> Estimate:
-        growth = _followed(data, self.periods, self.transient, 1)
+        growth = _follow_flow(data, self.periods, self.transient, 1)
         if growth.refusal:
             return growth.refusal
-        mean = _mean(growth.rates, growth.period)
-        return _largest_exponent(mean, growth, curve=_running(growth.rates))
+        mean = _average_growth(growth.rates, growth.period)
+        return _make_estimate(mean, growth, curve=_average_running(growth.rates))
 
 
 @dataclass(frozen=True)
 class LyapunovSpectrum(Quantifier[Flow]):
     """All Lyapunov exponents (1/s, natural logarithm) of a model; the value is the largest.
 
-    Curves: `spectrum` and `stderr` (n,), in 1/s. The zero of the phase of a drive is not among them. The detail `sum`
-    is the mean rate at which volumes grow.
+    Curves: `spectrum` and `stderr` (n,), in 1/s. The zero exponent of the drive phase is not among them. The detail
+    `sum` is the mean growth rate of volumes.
     """
 
     periods: int = 2000
@@ -97,13 +98,13 @@ class LyapunovSpectrum(Quantifier[Flow]):
     reads = "flow"
 
     def estimate(self, data: Flow, *, rng: np.random.Generator) -> Estimate:
-        growth = _followed(data, self.periods, self.transient, len(data.states))
+        growth = _follow_flow(data, self.periods, self.transient, len(data.states))
         if growth.refusal:
             return growth.refusal
-        mean = _mean(growth.rates, growth.period)
+        mean = _average_growth(growth.rates, growth.period)
         order = np.argsort(-mean.value, kind="stable")
-        curve = {"spectrum": mean.value[order], "stderr": mean.stderr[order], **_running(growth.rates)}
-        return _largest_exponent(mean, growth, curve=curve)
+        curve = {"spectrum": mean.value[order], "stderr": mean.stderr[order], **_average_running(growth.rates)}
+        return _make_estimate(mean, growth, curve=curve)
 
 
 @dataclass(frozen=True)
@@ -111,7 +112,7 @@ class KaplanYorke(Quantifier[Flow]):
     """Kaplan-Yorke dimension of the attractor of a model, from all its exponents.
 
     It is the dimension of the flow: under a drive the phase adds an exponent of zero, and the detail `section` is the
-    dimension of the stroboscopic section, less by one. The interval is that of resampled blocks of periods.
+    dimension of the stroboscopic section, which is less by one. The interval is that of resampled blocks of periods.
     """
 
     periods: int = 2000
@@ -122,20 +123,20 @@ class KaplanYorke(Quantifier[Flow]):
     reads = "flow"
 
     def estimate(self, data: Flow, *, rng: np.random.Generator) -> Estimate:
-        growth = _followed(data, self.periods, self.transient, len(data.states))
+        growth = _follow_flow(data, self.periods, self.transient, len(data.states))
         if growth.refusal:
             return replace(growth.refusal, unit="1")
-        mean = _mean(growth.rates, growth.period)
-        value = _dimension(mean.value, mean.stderr, growth.driven)
-        drawn = [_dimension(exponents, mean.stderr, growth.driven) for exponents in _redrawn(mean, rng)]
+        mean = _average_growth(growth.rates, growth.period)
+        value = _compute_dimension(mean.value, mean.stderr, growth.driven)
+        drawn = [_compute_dimension(exponents, mean.stderr, growth.driven) for exponents in _resample_means(mean, rng)]
         low, high = np.quantile(drawn, [0.025, 0.975])
         curve = {"spectrum": mean.value, "stderr": mean.stderr}
         details = {"section": max(value - 1.0, 0.0), "lyapunov_max": float(mean.value.max())}
-        status, says = _verdict(mean)
+        status, says = _judge_settling(mean)
         return Estimate(value, min(float(low), value), max(float(high), value), status, "1", curve, says, details)
 
 
-def _redrawn(mean: _Mean, rng: np.random.Generator) -> Array:
+def _resample_means(mean: _Mean, rng: np.random.Generator) -> Array:
     """Return means (draws, k) of resampled blocks, spread as wide as their standard errors and Student's t ask for."""
     many = len(mean.blocks)
     resampled = mean.blocks[rng.integers(many, size=(_DRAWS, many))].mean(axis=1) - mean.blocks.mean(axis=0)
@@ -145,37 +146,40 @@ def _redrawn(mean: _Mean, rng: np.random.Generator) -> Array:
     return redrawn
 
 
-def _followed(flow: Flow, periods: int, transient: int, tangents: int) -> _Growth:
-    """Return the growth over `periods` behind the transient, or the refusal that stands in its place."""
+def _follow_flow(flow: Flow, periods: int, transient: int, tangents: int) -> _Growth:
+    """Return the growth over `periods` after the transient, or a refusal."""
     nothing, driven = np.zeros((0, tangents)), flow.driven
-    if periods < _FEWEST:
-        says = f"{periods} periods are too few to judge an error from: follow {_FEWEST} or more"
-        return _Growth(nothing, flow.period, driven, _refused("too_short", says, nothing))
+    if periods < _LEAST_PERIODS:
+        says = f"{periods} periods are too few to judge an error from: follow {_LEAST_PERIODS} or more"
+        return _Growth(nothing, flow.period, driven, _refuse("too_short", says, nothing))
     orbit = flow.strobe(flow.start, periods=max(transient, 0) + periods, tangents=tangents)
     rates = orbit.growth[max(transient, 0) :] / flow.period
     if orbit.status != "ok":
-        return _Growth(nothing, flow.period, driven, _refused(orbit.status, _why(orbit.status, orbit.growth), rates))
+        return _Growth(
+            nothing, flow.period, driven, _refuse(orbit.status, _explain_status(orbit.status, orbit.growth), rates)
+        )
     return _Growth(rates, flow.period, driven)
 
 
-def _refused(status: str, says: str, rates: Array) -> Estimate:
-    return Estimate.refused(status, says, unit="1/s", curve=_running(rates[np.isfinite(rates).all(axis=1)]))
+def _refuse(status: str, says: str, rates: Array) -> Estimate:
+    """Return a refused estimate with the running mean of the growth so far."""
+    return Estimate.refused(status, says, unit="1/s", curve=_average_running(rates[np.isfinite(rates).all(axis=1)]))
 
 
-def _why(status: str, growth: Array) -> str:
-    """Return the sentence for an orbit that is no good."""
+def _explain_status(status: str, growth: Array) -> str:
+    """Return the sentence for an orbit that did not end with the status "ok"."""
     if status == "diverged":
         survived = int(np.isfinite(growth).all(axis=1).sum())
-        return f"The motion runs away after {survived} periods: check the parameters and the start."
+        return f"The motion diverges after {survived} periods: check the parameters and the start."
     if status == "jumps":
         return (
-            "The force jumps, or rises too steeply for the step, where the motion passes, and the tangent across a "
-            "jump is not followed: round the jump off over a few steps, or take the exponent from a recording."
+            "The force jumps, or rises too steeply for the step, along the motion, and tangent vectors are not "
+            "followed across a jump: smooth the jump over a few steps, or take the exponent from a recording."
         )
     return f"The flow of the model ended with the status {status}."
 
 
-def _running(rates: Array, points: int = 200) -> dict[str, Array]:
+def _average_running(rates: Array, points: int = 200) -> dict[str, Array]:
     """Return the mean rate (1/s) of the first vector up to some numbers of periods."""
     if not len(rates):
         return {}
@@ -183,34 +187,34 @@ def _running(rates: Array, points: int = 200) -> dict[str, Array]:
     return {"periods": until.astype(float), "running": np.cumsum(rates[:, 0])[until - 1] / until}
 
 
-def _mean(rates: Array, period: float) -> _Mean:
+def _average_growth(rates: Array, period: float) -> _Mean:
     """Return the means of the columns of `rates` (periods, k), with errors from means over blocks.
 
     Length of the blocks: Flyvbjerg, Petersen, J. Chemical Physics 91 (1989) 461-466, by the rule (2 tau^2 n)^(1/3)
-    with the integrated autocorrelation time tau, no longer than leaves twenty blocks. What blocks of half the length
-    give is used to take out the bias where the growth remembers longer: Vats, Flegal, Biometrika 109 (2022) 735-750.
+    with the integrated autocorrelation time tau, and at least twenty blocks. The variance from blocks of half the
+    length serves to remove the bias of long correlations: Vats, Flegal, Biometrika 109 (2022) 735-750.
     """
-    n, tau = len(rates), max(_memory(column) for column in rates.T)
+    n, tau = len(rates), max(_estimate_memory(column) for column in rates.T)
     wanted = math.ceil((2.0 * tau * tau * n) ** (1.0 / 3.0))
-    length = max(1, min(wanted, n // _BLOCKS))
-    blocks = _block_means(rates, length)
-    half = _variance(_block_means(rates, max(1, length // 2)))
-    stderr = np.sqrt(np.maximum(_variance(blocks), 2.0 * _variance(blocks) - half))
-    ends = _ENDS / (period * n)
-    short = max(1, min(wanted, n // (2 * _BLOCKS)))
-    gap, settled = _drift(_block_means(rates, short), _ENDS / (period * short))
+    length = max(1, min(wanted, n // _LEAST_BLOCKS))
+    blocks = _average_blocks(rates, length)
+    half = _compute_variance(_average_blocks(rates, max(1, length // 2)))
+    stderr = np.sqrt(np.maximum(_compute_variance(blocks), 2.0 * _compute_variance(blocks) - half))
+    ends = _END_ERROR / (period * n)
+    short = max(1, min(wanted, n // (2 * _LEAST_BLOCKS)))
+    gap, settled = _compare_parts(_average_blocks(rates, short), _END_ERROR / (period * short))
     stderr = np.hypot(stderr, ends)
     return _Mean(rates.mean(axis=0), stderr, blocks, length, gap, settled, ends)
 
 
-def _variance(blocks: Array) -> Array:
+def _compute_variance(blocks: Array) -> Array:
     """Return the variance (k,) of the mean over blocks (blocks, k)."""
     variance: Array = blocks.var(axis=0, ddof=1) / len(blocks)
     return variance
 
 
-def _drift(blocks: Array, ends: float) -> tuple[float, bool]:
-    """Return the difference (1/s) between beginning and end that chance explains least, and whether it does.
+def _compare_parts(blocks: Array, ends: float) -> tuple[float, bool]:
+    """Return the most significant difference (1/s) between beginning and end, and whether chance explains it.
 
     Welch's test on the means over blocks (blocks, k), with the fewer degrees of freedom; `ends` is the error of a block
     that is due to its ends.
@@ -224,20 +228,20 @@ def _drift(blocks: Array, ends: float) -> tuple[float, bool]:
         worst = int(np.argmin(chance))
         if chance[worst] < least:
             least, gap = float(chance[worst]), float(apart[worst])
-    return gap, least * len(_PARTS) * blocks.shape[1] > _ALARM
+    return gap, least * len(_PARTS) * blocks.shape[1] > _FALSE_ALARMS
 
 
-def _block_means(rates: Array, length: int) -> Array:
-    """Return means (blocks, k) over whole blocks of `length` periods, the first ones left out where they do not fit."""
+def _average_blocks(rates: Array, length: int) -> Array:
+    """Return means (blocks, k) over whole blocks of `length` periods; periods that do not fit are left out first."""
     many = len(rates) // length
     means: Array = rates[len(rates) - many * length :].reshape(many, length, -1).mean(axis=1)
     return means
 
 
-def _memory(x: Array) -> float:
+def _estimate_memory(x: Array) -> float:
     """Return the integrated autocorrelation time of `x` (n,) in samples, of absolute correlations up to 5 tau.
 
-    The absolute value is on the safe side: growth alternates, and what cancels in the mean still sets the scale.
+    The absolute value is conservative: the growth alternates, so that signed correlations would cancel.
     """
     y = x - x.mean()
     power = float(y @ y)
@@ -251,21 +255,21 @@ def _memory(x: Array) -> float:
     return float(tau[ends[0]]) if len(ends) else float(tau[len(tau) // 10])
 
 
-def _verdict(mean: _Mean) -> tuple[str, str]:
-    """Return the status and the sentence that beginning and end of the orbit ask for."""
+def _judge_settling(mean: _Mean) -> tuple[str, str]:
+    """Return the status and the sentence that follow from the comparison of beginning and end of the orbit."""
     if mean.settled:
         return "ok", ""
     return "uncertain", (
-        f"Beginning and end of the orbit differ by {mean.gap:.3g} 1/s, more than chance allows: "
+        f"Beginning and end of the orbit differ significantly, by {mean.gap:.3g} 1/s: "
         "the motion has not settled yet. Raise transient or periods."
     )
 
 
-def _largest_exponent(mean: _Mean, growth: _Growth, *, curve: dict[str, Array]) -> Estimate:
+def _make_estimate(mean: _Mean, growth: _Growth, *, curve: dict[str, Array]) -> Estimate:
     """Return the estimate of the largest exponent."""
     best = int(np.argmax(mean.value))
     value, stderr = float(mean.value[best]), float(mean.stderr[best])
-    status, says = _verdict(mean)
+    status, says = _judge_settling(mean)
     details = {"stderr": stderr, "block": float(mean.length), "period": growth.period}
     if mean.value.size > 1:
         details["sum"] = float(mean.value.sum())
@@ -273,7 +277,7 @@ def _largest_exponent(mean: _Mean, growth: _Growth, *, curve: dict[str, Array]) 
     return Estimate(value, value - half, value + half, status, "1/s", curve, says, details)
 
 
-def _dimension(exponents: Array, stderr: Array, driven: bool) -> float:
+def _compute_dimension(exponents: Array, stderr: Array, driven: bool) -> float:
     """Return the Kaplan-Yorke dimension; what is zero within three standard errors counts as zero."""
     slack = np.concatenate([3.0 * stderr, [0.0]]) if driven else 3.0 * stderr
     every = np.concatenate([exponents, [0.0]]) if driven else exponents

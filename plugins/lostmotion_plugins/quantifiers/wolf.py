@@ -1,4 +1,4 @@
-"""The largest Lyapunov exponent from one long chain of pairs, for reference."""
+"""The largest Lyapunov exponent from one long chain of pairs, as a reference."""
 
 from __future__ import annotations
 
@@ -13,17 +13,18 @@ from lostmotion.results import Estimate
 from lostmotion.signals import delay_vectors
 from lostmotion_plugins.quantifiers._kernels_divergence import walk
 from lostmotion_plugins.quantifiers.divergence import Indices
-from lostmotion_plugins.quantifiers.exponent import UNIT, refused, short
+from lostmotion_plugins.quantifiers.exponent import UNIT, refuse, refuse_short
 
-LEAST = 10
-"""Pieces of chain that an interval can be drawn from."""
-REPEATS = 0.5
-"""Share of points with an exact repeat from which on a record is periodic to the resolution of its sensor."""
-STRANGERS = 0.5
-"""Share of the usual distance from which on the ends of pieces tell nothing."""
+LEAST_PIECES = 10
+"""The least number of pieces of the chain for an interval."""
+MOST_REPEATS = 0.5
+"""With a larger share of exact repeats, a record is periodic within the resolution of its sensor."""
+MOST_DISTANCE = 0.5
+"""Pieces that end at a larger share of the rms distance have saturated, and no exponent is read."""
 JUMP, SUDDEN = 0.1, 0.3
-"""A growth by more than JUMP e-folds, of which less than SUDDEN as much again follows, is that of noise."""
-SAYS = "For reference: replacing neighbours turns their direction, which biases the value in ways the interval omits."
+"""Growth is due to noise where it exceeds `JUMP` e-folds in the first half of a piece and the second half adds less
+than the share `SUDDEN` of it."""
+REMARK = "For reference: replacing neighbours turns their direction, and the interval does not include this bias."
 
 
 @dataclass(frozen=True)
@@ -41,26 +42,26 @@ class Wolf(Quantifier[Series]):
     unit: ClassVar[str] = "1/s"
 
     def estimate(self, data: Series, *, rng: np.random.Generator) -> Estimate:
-        if no := short(data):
+        if no := refuse_short(data):
             return no
         e = data.embedding
         steps = self.steps or max(1, e.window // 2)
         points = delay_vectors(data.x, e.lag, e.dim)
         tie = 1e-9 * float(data.x.std())
         queries = np.arange(1, len(points) - steps, steps)
-        if (repeats := _repeating(points, e.theiler, queries, tie)) > REPEATS:
-            return refused("regular", f"{repeats:.0%} of the points repeat exactly: the motion is periodic.")
+        if (repeats := _share_repeats(points, e.theiler, queries, tie)) > MOST_REPEATS:
+            return refuse("regular", f"{repeats:.0%} of the points repeat exactly: the motion is periodic.")
         found, _ = several(points, self.choice, theiler=e.theiler, norm="euclidean", least=tie, queries=queries)
         near = np.full((len(points), self.choice), -1)
         near[queries] = found
         room = np.zeros((len(points) // steps + 1, 3))
         gained = room[: walk(points, near, (steps, tie * tie), room)]
         size = float(np.sqrt(2.0 * points.var(axis=0).sum()))
-        return _noise(gained, size) or _estimated(gained[:, 1] / (steps * data.dt), steps * data.dt)
+        return _refuse_noise(gained, size) or _average_rates(gained[:, 1] / (steps * data.dt), steps * data.dt)
 
 
-def _repeating(points: Array, theiler: int, queries: Indices, tie: float) -> float:
-    """Return the share of points with a repeat that is still one ten pieces later: chaos parts them."""
+def _share_repeats(points: Array, theiler: int, queries: Indices, tie: float) -> float:
+    """Return the share of points with a repeat that is still a repeat ten pieces later, unlike in chaotic motion."""
     index, far = nearest(points, theiler=theiler, norm="euclidean", least=-1.0, queries=queries)
     step = 10 * int(queries[1] - queries[0]) if len(queries) > 1 else 1
     same = (index >= 0) & (far <= tie) & (np.maximum(index, queries) + step < len(points))
@@ -68,23 +69,23 @@ def _repeating(points: Array, theiler: int, queries: Indices, tie: float) -> flo
     return float((np.sqrt((later**2).sum(axis=1)) <= tie).sum() / max(len(queries), 1))
 
 
-def _noise(gained: Array, size: float) -> Estimate | None:
-    """Return a refusal where pairs part at once, or are strangers at the end of their piece, as in noise."""
-    if len(gained) < LEAST:
-        return refused("too_few_neighbours", f"{len(gained)} pairs could be followed, {LEAST} are wanted.")
+def _refuse_noise(gained: Array, size: float) -> Estimate | None:
+    """Return a refusal where pairs diverge at once, or have saturated at the end of their piece, as in noise."""
+    if len(gained) < LEAST_PIECES:
+        return refuse("too_few_neighbours", f"{len(gained)} pairs could be followed, {LEAST_PIECES} are needed.")
     first, whole, far = gained.mean(axis=0)
-    if far > STRANGERS * size:
-        return refused("no_scaling_region", "Neighbours are strangers at the end of each piece, as in noise.")
+    if far > MOST_DISTANCE * size:
+        return refuse("no_scaling_region", "The distance of neighbours saturates within each piece, as in noise.")
     if first > JUMP and whole - first < SUDDEN * first:
-        return refused("below_noise", "Neighbours part at once and then no more, as noise lets them.")
+        return refuse("below_noise", "Neighbours diverge at once and then no further, as due to noise.")
     return None
 
 
-def _estimated(rates: Array, piece: float) -> Estimate:
+def _average_rates(rates: Array, piece: float) -> Estimate:
     """Return the mean of the rates (1/s) of all pieces, its interval from blocks of them, and the running mean."""
     blocks = np.array([b.mean() for b in np.array_split(rates, min(20, len(rates) // 2))])
     value, wide = float(rates.mean()), 2.1 * float(blocks.std(ddof=1)) / float(np.sqrt(len(blocks)))
     times: Array = piece * np.arange(1.0, len(rates) + 1)
     running = np.cumsum(rates) / np.arange(1, len(rates) + 1)
     curve: dict[str, Array] = {"time": times, "divergence": np.cumsum(rates) * piece, "slope": running}
-    return Estimate(value, value - wide, value + wide, "uncertain", UNIT, curve, SAYS, {"pairs": float(len(rates))})
+    return Estimate(value, value - wide, value + wide, "uncertain", UNIT, curve, REMARK, {"pairs": float(len(rates))})
