@@ -15,7 +15,7 @@ import numpy as np
 
 from fuzz_seeds import CASE, COLUMNS, TABLES, N
 from lostmotion.analysis import source
-from lostmotion.analysis.source import WantedChannel, source_of
+from lostmotion.analysis.source import WantedChannel, load_source
 from lostmotion.case import Channel, RecordingSpec, dump_case, load_case
 from lostmotion.errors import LostMotionError
 from lostmotion.identification import checkpoint as _keep
@@ -101,7 +101,7 @@ def table(kind, seeds, rng, folder, write_only):
         return
     attempts = (
         lambda: load_recording(RecordingSpec(name, *_rest()), folder),
-        lambda: source_of(path, WantedChannel(("x",)), default()),
+        lambda: load_source(path, WantedChannel(("x",)), default()),
     )
     refused = None
     for attempt in attempts:
@@ -181,7 +181,7 @@ def case(seeds, rng, folder, write_only):
     load_case(folder / "case.toml")
     ready = prepare(folder / "case.toml", default())
     known_of(System(ready.model, ready.terms), ready.case)
-    source_of(folder / "case.toml", WantedChannel(), default())
+    load_source(folder / "case.toml", WantedChannel(), default())
 
 
 def _dumped(tree, path):

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from lostmotion.analysis.report import page as page
-from lostmotion.analysis.report.view import AGAIN, ARRAYS, RESULT, view_of
+from lostmotion.analysis.report.view import ARRAYS, RERUN_HINT, RESULT, make_view
 from lostmotion.codec import to_plain
 from lostmotion.results.analysis import Analysis
 from lostmotion.storage import folder_for, load_arrays, load_result, save_datasets, save_json, save_text
@@ -45,7 +45,7 @@ class AnalysisResult:
 
     def report(self, path: str | Path = "report.html") -> Path:
         """Return the path of the page that was written: self-contained HTML."""
-        return save_text(Path(path), page.render(view_of(self.result, self.arrays)))
+        return save_text(Path(path), page.render(make_view(self.result, self.arrays)))
 
     def save(self, folder: str | Path) -> Path:
         """Return the folder into which `analysis.json`, `analysis.nc` and `report.html` were written."""
@@ -65,4 +65,4 @@ class AnalysisResult:
 
 def load_analysis(folder: Path) -> AnalysisResult:
     """Return the analysis that was saved into a folder; `DataError` where it is absent or damaged."""
-    return AnalysisResult(load_result(Analysis, folder / RESULT, AGAIN), load_arrays(folder / ARRAYS, AGAIN))
+    return AnalysisResult(load_result(Analysis, folder / RESULT, RERUN_HINT), load_arrays(folder / ARRAYS, RERUN_HINT))
