@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from dataclasses import asdict, dataclass, field, fields, replace
 from typing import NamedTuple
 
@@ -41,6 +42,7 @@ __all__ = [
     "SharedSettings",
     "UnknownSettings",
     "read",
+    "restore",
 ]
 
 
@@ -112,3 +114,14 @@ def _check_value(setting: Setting, value: object) -> float:
 def read(pairs: Mapping[str, float | str] | Settings | None) -> Settings:
     """Return settings from the argument of a caller: settings, a mapping of changes, or None."""
     return pairs if isinstance(pairs, Settings) else DEFAULT.changed(pairs or {})
+
+
+def restore(stages: object) -> Settings:
+    """Return the settings stored in the provenance of a result; absent, unknown or invalid values are the defaults."""
+    known, changes = {setting.key: setting for setting in DEFAULT}, dict[str, float]()
+    for stage, values in stages.items() if isinstance(stages, Mapping) else ():
+        for name, value in values.items() if isinstance(values, Mapping) else ():
+            if (setting := known.get(f"{stage}.{name}")) is not None:
+                with suppress(CaseError):
+                    changes[setting.key] = _check_value(setting, value)
+    return DEFAULT.changed(changes)

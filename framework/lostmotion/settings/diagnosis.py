@@ -39,6 +39,14 @@ class LocateSettings:
         ),
         most=1.0,
     )
+    visible: float = threshold(
+        0.01,
+        (
+            "A figure shows the share that a significant covariate explains from this share on: a force on another "
+            "body changes the likelihood, but hardly the force on the first body."
+        ),
+        most=1.0,
+    )
     quantisation: float = threshold(
         0.05,
         "Quantisation of the stored values counts when its variance exceeds this share of the noise variance.",
