@@ -14,7 +14,7 @@ import pytest
 
 from lostmotion.analysis.report.measures import convert_to_natural
 from lostmotion.analysis.report.page import SECTIONS, render, write_analysis
-from lostmotion.analysis.report.summary import figure_summary
+from lostmotion.analysis.report.summary import save_summary
 from lostmotion.analysis.report.tables import make_estimate_row, name_verdict, split_opening
 from lostmotion.analysis.report.view import read_analysis
 from lostmotion.codec import to_plain
@@ -250,7 +250,7 @@ def test_ticks_and_cut_words():
 
 @pytest.mark.parametrize("kind", list(made.KINDS))
 def test_summary_is_one_small_picture(folders, kind):
-    picture = figure_summary(folders[kind])
+    picture = save_summary(folders[kind])
     assert picture == folders[kind] / "summary.png"
     assert 5_000 < picture.stat().st_size < 250_000
 

@@ -14,7 +14,7 @@ import numpy as np
 from lostmotion.codec import from_plain, to_plain
 from lostmotion.diagnosis.findings import Outcome
 from lostmotion.diagnosis.report import learned, missing, page, portraits, posteriors, prediction, ranking
-from lostmotion.diagnosis.report.evidence import Evidence, evidence_with
+from lostmotion.diagnosis.report.evidence import Evidence, make_evidence
 from lostmotion.identification.predictive import predict_readings
 from lostmotion.inference import mixture
 from lostmotion.notebook.machine import FittedModel, make_fitted_model, restore_fitted_model
@@ -55,7 +55,7 @@ class DiagnosisPlots:
         if ax is None:
             return self._draw(prediction.draw)
         with style.applied(self.evidence.result.units.angle):
-            prediction.draw_window(ax, self.evidence, prediction.window_of(self.evidence))
+            prediction.draw_window(ax, self.evidence, prediction.choose_window(self.evidence))
             ax.legend()
         return ax.get_figure(root=True)  # type: ignore[return-value]
 
@@ -152,7 +152,7 @@ class DiagnosisResult:
     @cached_property
     def evidence(self) -> Evidence:
         """The result and its arrays in the form that the figures use."""
-        return evidence_with(self.result, self.arrays)
+        return make_evidence(self.result, self.arrays)
 
     @property
     def plot(self) -> DiagnosisPlots:

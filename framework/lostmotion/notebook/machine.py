@@ -78,6 +78,8 @@ class FittedModel:
         seen = moved.channels[sensor.channel]
         for term, p in moved.system.at_sensor(moved.full, moved.system.everything, sensor.place):
             seen = term.rounded(term.gain(p) * term.bent(seen, p) + term.offset(p), p)
+        for change in moved.system.changes_at_sensor(moved.full, moved.system.everything, sensor.place):
+            seen = change.apply(seen, moved.times)
         return seen
 
     def __repr__(self) -> str:

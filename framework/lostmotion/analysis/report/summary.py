@@ -16,7 +16,7 @@ from lostmotion.report import style
 Panel = Callable[[Axes, AnalysisView], None]
 
 
-def figure_summary(folder: Path) -> Path:
+def save_summary(folder: Path) -> Path:
     """Write `summary.png` into the folder (portrait, section, divergence, dimension) and return its path."""
     with style.applied():
         return style.save(draw(read_analysis(folder)), folder / "summary.png")
