@@ -26,6 +26,7 @@ from lostmotion.settings.diagnosis import (
 )
 from lostmotion.settings.identification import ChainSettings, LevelSettings, ModeSettings
 from lostmotion.settings.motion import MotionSettings
+from lostmotion.settings.recording import RecordingSettings
 
 __all__ = [
     "DEFAULT",
@@ -36,6 +37,7 @@ __all__ = [
     "ModeSettings",
     "MotionSettings",
     "NameSettings",
+    "RecordingSettings",
     "RivalSettings",
     "SelectSettings",
     "Setting",
@@ -63,6 +65,7 @@ class Setting(NamedTuple):
 class Settings:
     """All thresholds, by stage; frozen. `Settings().changed({"select.decisive": 4.0})` returns changed ones."""
 
+    recording: RecordingSettings = field(default_factory=RecordingSettings)
     locate: LocateSettings = field(default_factory=LocateSettings)
     select: SelectSettings = field(default_factory=SelectSettings)
     rival: RivalSettings = field(default_factory=RivalSettings)
