@@ -212,6 +212,12 @@ class NameSettings:
         "A named finding has a probability above this; a finding with a doubt is reported with at most this.",
         most=1.0,
     )
+    simplest: float = _number(
+        0.5,
+        "A term that explains the data better than any learned curve, but no better than a generic smooth force, has"
+        " its probability among the terms times this: the smooth force may be real.",
+        most=1.0,
+    )
     rival: float = _number(
         0.05, "A set of terms with a larger share of the posterior is reported as a rival.", most=1.0
     )

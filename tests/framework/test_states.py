@@ -8,6 +8,7 @@ import pytest
 from lostmotion.codec import to_plain
 from lostmotion.diagnosis import confirming
 from lostmotion.diagnosis import run as ways
+from lostmotion.diagnosis import search as searching
 from lostmotion.diagnosis.compare import PARTS, confirmed, worsened
 from lostmotion.diagnosis.confirming import usual
 from lostmotion.diagnosis.findings import shown
@@ -22,7 +23,7 @@ from lostmotion.diagnosis.states import (
     open_of,
     unsteady,
 )
-from lostmotion.inference.course import Visit
+from lostmotion.inference.course import Selection, Simplest, Visit
 from lostmotion.likelihood.problem import RANDOM
 from lostmotion.results import Interval
 from lostmotion.results.diagnosis import Mechanism
@@ -46,7 +47,8 @@ def fit_of(values, active, sds=None):
     free = [SimpleNamespace(key=k, log=False, unit="N" if "force" in k else "s") for k in values]
     problem = SimpleNamespace(system=system, active=frozenset(active), free=free, scales=SimpleNamespace(time=1.0))
     problem.observations = (SimpleNamespace(time=np.arange(100.0), samples=100, dt=1.0),)
-    return SimpleNamespace(problem=problem, values=values, sd=sds or dict.fromkeys(values, 0.01))
+    sds = sds or dict.fromkeys(values, 0.01)
+    return SimpleNamespace(problem=problem, values=values, sd=sds, log_evidence=0.0)
 
 
 def missing(size):
@@ -65,6 +67,8 @@ def diagnosis(after, probabilities, visits=None, **course):
         unbeaten=course.get("unbeaten", set()),
         declined=course.get("declined", set()),
         scored=course.get("scored", {}),
+        simplest=course.get("simplest"),
+        withdrawn=frozenset(),
     )
     found = tuple(after.problem.active)
     return SimpleNamespace(
@@ -128,6 +132,79 @@ def test_a_term_for_which_held_out_data_decide_is_told_so():
     after, sets = fit_of({f"{FRICTION}.force": 1.0}, [FRICTION]), {(FRICTION,): 0.99, (): 0.01}
     (doubt,) = doubts_of(diagnosis(after, sets, unbeaten={FRICTION}, scored={frozenset({FRICTION}): 12.34}), FRICTION)
     assert doubt.endswith("held-out data decide, by 12 in log score.")
+
+
+@pytest.mark.parametrize(("behind", "sure"), [(2.0, False), (4.0, True)])
+def test_another_cause_that_explains_the_fitted_data_as_well_is_a_doubt(behind, sure):
+    """A delay and a friction are no relatives: which of them it is was decided by prior odds alone."""
+    after, other = fit_of({f"{FRICTION}.force": 1.0}, [FRICTION]), fit_of({f"{DELAY}.delay": 1.0}, [DELAY])
+    other.log_evidence = -behind
+    doubts = doubts_of(diagnosis(after, {(FRICTION,): 0.99, (DELAY,): 0.01}, {(DELAY,): other}), FRICTION)
+    assert doubts == [] if sure else ["Excitation delay explains the fitted data as well" in doubts[0]] == [True]
+
+
+def test_a_set_without_the_term_that_is_a_part_of_what_was_found_is_no_other_cause():
+    after = fit_of({f"{FRICTION}.force": 1.0, f"{CHANGE}.time": 50.0}, [FRICTION, CHANGE])
+    part = fit_of({f"{CHANGE}.time": 50.0}, [CHANGE])
+    assert doubts_of(diagnosis(after, {(FRICTION, CHANGE): 0.99}, {(CHANGE,): part}), FRICTION) == []
+
+
+def test_the_simplest_explanation_is_likely_and_says_why():
+    after = fit_of({f"{FRICTION}.force": 1.0}, [FRICTION])
+    (doubt,) = doubts_of(diagnosis(after, {(FRICTION,): 0.45}, simplest=Simplest({FRICTION: 0.45}, 30.0)), FRICTION)
+    assert "better than any learned curve" in doubt
+    assert doubt.endswith("its probability is 0.45.")
+
+
+@pytest.mark.parametrize(
+    ("weights", "scores", "curve", "chosen"),
+    [
+        ({"a": 40.0}, {"a": 9.0, "smooth": 10.0, "": 0.0}, 30.0, "a"),
+        ({"a": 40.0}, {"a": 9.0, "smooth": 10.0, "": 0.0}, 41.0, None),
+        ({"a": 40.0}, {"a": 2.0, "smooth": 10.0, "": 0.0}, 30.0, None),
+        ({"a": 40.0}, {"a": 9.0, "smooth": 10.0, "": 9.5}, 30.0, None),
+        ({"a": 40.0, "ab": 42.0}, {"a": 9.0, "ab": 9.0, "smooth": 10.0, "": 0.0}, 30.0, "a"),
+        ({"a": 40.0, "ab": 45.0}, {"a": 9.0, "ab": 9.0, "smooth": 10.0, "": 0.0}, 30.0, "ab"),
+        ({"a": 40.0, "b": 41.0}, {"a": 9.0, "b": 1.0, "smooth": 10.0, "": 0.0}, 30.0, "a"),
+        ({"a": 11.0}, {"a": 9.0, "smooth": 10.0, "": 0.0}, 0.0, None),
+    ],
+)
+def test_a_law_better_than_any_curve_is_the_simplest_explanation(monkeypatch, weights, scores, curve, chosen):
+    """It beats the learned curve and the usual errors of channels (9 here), and predicts held-out data as well."""
+    fits = {k: SimpleNamespace(status="converged", key=k, problem=NOTHING) for k in scores}
+    nominal = SimpleNamespace(problem=SimpleNamespace(active=frozenset(), settings=DEFAULT))
+    visits = {frozenset(k): Visit(frozenset(k), fits[k], weights.get(k, 0.0)) for k in ("", *weights)}
+    expansion = SimpleNamespace(worse=1.0, bare=lambda worse: 9.0)
+    selection = Selection(nominal, nominal, visits)
+    monkeypatch.setattr(Selection, "won", lambda self, visit: SimpleNamespace(fit=fits["smooth"]))
+    monkeypatch.setattr(Selection, "expansion", lambda self, visit: expansion)
+    monkeypatch.setattr(confirming, "_scored", lambda fit, pieces: scores[fit.key])
+    monkeypatch.setattr(confirming, "run_errors", lambda fit, pieces, horizon: np.ones(PARTS))
+    monkeypatch.setattr(confirming, "pieces_of", lambda observations, held: ())
+    learned = SimpleNamespace(gain=curve, fit=fits["smooth"])
+    d = SimpleNamespace(
+        selection=selection, learned=learned, unexplained=False, held=(), settings=DEFAULT, after=fits["smooth"]
+    )
+    found = confirming.find_simplest(SimpleNamespace(diagnosis=d, horizon=None), ())
+    assert (found and found[0].key) == chosen
+    if found and len(weights) == 1:
+        assert found[1].probabilities["a"] == pytest.approx(DEFAULT.name.simplest / (1.0 + np.exp(-10.0)))
+
+
+def test_a_refuted_term_gives_way_to_a_simpler_set_that_was_visited(monkeypatch):
+    """Friction with a wave is refuted: plain friction, which is ahead of nothing, takes its place."""
+    free = SimpleNamespace(settings=DEFAULT)
+    fits = {k: SimpleNamespace(status="converged", key=k, problem=free) for k in ("", "wave", "plain", "weak")}
+    fits["wave"].problem = SimpleNamespace(settings=DEFAULT, active=frozenset({"wave"}))
+    weights = {"": 0.0, "wave": 90.0, "plain": 50.0, "weak": 60.0}
+    visits = {frozenset([k] if k else []): Visit(frozenset([k] if k else []), fits[k], w) for k, w in weights.items()}
+    leads = {"plain": 20.0, "weak": 1.0}
+    monkeypatch.setattr(Selection, "contest", lambda self, visit, over, needed: None)
+    monkeypatch.setattr(Selection, "lead", lambda self, visit, over: leads["".join(visit.terms)])
+    selection = Selection(fits[""], fits["wave"], visits)
+    assert searching._shrunk(selection, "wave").chosen.key == "plain"
+    leads["plain"] = 2.0
+    assert searching._shrunk(selection, "wave").chosen.key == ""
 
 
 def test_a_long_delay_is_no_more_than_likely():
@@ -207,6 +284,7 @@ def test_what_makes_predictions_worse_is_taken_back_until_they_are_not(monkeypat
     monkeypatch.setattr(ways, "simpler", simpler)
     monkeypatch.setattr(ways, "predicted_better", lambda outcome, observations: None)
     monkeypatch.setattr(ways, "decided", lambda outcome, observations: None)
+    monkeypatch.setattr(ways, "find_simplest", lambda outcome, observations: None)
     start = SimpleNamespace(found=("a", "b", "curve"), withdrawn=(), explains=True, settings=DEFAULT)
     outcome = ways.upheld(start, SimpleNamespace(observations=()), np.random.default_rng(0))
     assert outcome.diagnosis.found == ("a",)

@@ -49,7 +49,7 @@ def progress(what: str, *, quiet: bool) -> Iterator[Callable[[str], None]]:
         unit=" steps",
         leave=False,
         disable=True if quiet else None,
-        bar_format="{desc} {elapsed} · {n} steps · {postfix}",
+        bar_format="{desc} {elapsed} · {n} steps{postfix}",
     ) as bar:
         last = ""
 
@@ -81,7 +81,7 @@ class _Lines:
         now = time.monotonic()
         if now - self.last >= SELDOM:
             self.last = now
-            sys.stderr.write(f"{self.what}: {_minutes(now - self.begin)}: {step[:LONGEST]}\n")
+            sys.stderr.write(f"{self.what}: {_minutes(now - self.begin)}: {_shorten(step)}\n")
             sys.stderr.flush()
 
     def to_go(self, done: int, left: int) -> str:
@@ -89,6 +89,11 @@ class _Lines:
         if done <= 0:
             return ""
         return f", about {_minutes((time.monotonic() - self.begin) / done * left)} to go"
+
+
+def _shorten(step: str) -> str:
+    """Return a step on a line that is not too long: what is cut off at a comma is told by dots."""
+    return step if len(step) <= LONGEST else f"{step[:LONGEST].rpartition(', ')[0] or step[:LONGEST]}, ..."
 
 
 def _minutes(seconds: float) -> str:

@@ -16,7 +16,7 @@ from lostmotion.contracts import Array
 from lostmotion.diagnosis.compare import HeldOutStretch, confirmed, pieces_of, run_errors
 from lostmotion.diagnosis.findings import Outcome
 from lostmotion.diagnosis.search import Diagnosed
-from lostmotion.inference.course import Selection, Visit
+from lostmotion.inference.course import Selection, Simplest, Visit
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.learned import OverTime
 from lostmotion.inference.natural import term_of
@@ -104,6 +104,67 @@ def decided(outcome: Outcome, observations: Sequence[Observation]) -> tuple[Fit,
     if not selection.lead(best, here) + won[best.terms] - math.log(len(close)) > decisive:
         return None
     return best.fit, won
+
+
+def find_simplest(outcome: Outcome, observations: Sequence[Observation]) -> tuple[Fit, Simplest] | None:
+    """Return the fit of the terms that are the simplest explanation, with the probability of each; None without any.
+
+    It is asked where no set is ahead of a generic smooth force. A set qualifies when its log evidence, less the
+    penalties of its terms, exceeds that of the best learned curve, of the chosen set, and of the usual errors of known
+    values and channels, and when it predicts held-out data as well as the best of them. Its terms are reported as
+    likely: a smooth force without a name explains about as much.
+    """
+    d, selection = outcome.diagnosis, outcome.diagnosis.selection
+    here = selection.visits.get(selection.chosen.problem.active)
+    if here is None or not (d.learned or selection.unbeaten or d.unexplained):
+        return None
+    decisive, usual = d.settings.select.decisive, selection.expansion(here)
+    curve = d.learned.gain if d.learned else 0.0
+    least = here.weight + max(curve, decisive + max(usual.bare(usual.worse), 0.0))
+    sets = _simpler_sets(selection, here)
+    good = sorted((v for v in sets if v.weight > least), key=lambda v: -v.weight)[:ASKED]
+    best = _predicting(outcome, good, pieces_of(observations, d.held), decisive * usual.worse) if good else None
+    if best is None:
+        return None
+    weights = [(v.terms, v.weight) for v in sets] + [(here.terms, here.weight + curve)]
+    total = float(np.logaddexp.reduce([weight for _, weight in weights]))
+    keys = sorted({key for terms, _ in weights for key in terms})
+    shares = {key: sum(math.exp(weight - total) for terms, weight in weights if key in terms) for key in keys}
+    return best.fit, Simplest({key: d.settings.name.simplest * share for key, share in shares.items()}, curve)
+
+
+def _predicting(
+    outcome: Outcome, sets: Sequence[Visit], pieces: Sequence[HeldOutStretch], slack: float
+) -> Visit | None:
+    """Return the first set that predicts held-out data better than the chosen one, and as well as a smooth force.
+
+    Its log score of one-step predictions may be behind that of the best smooth force by the `slack`; its free runs may
+    not err more than those of the present model by more than chance.
+    """
+    d, selection = outcome.diagnosis, outcome.diagnosis.selection
+    here = selection.visits[selection.chosen.problem.active]
+    rival, own = selection.won(here), _scored(here.fit, pieces)
+    others = [*([rival.fit] if rival else ()), *([d.learned.fit] if d.learned else ())]
+    bar = max([own, *(_scored(fit, pieces) for fit in others)]) - slack
+    errors = run_errors(d.after, pieces, outcome.horizon)
+    for visit in sets:
+        score, its = _scored(visit.fit, pieces), run_errors(visit.fit, pieces, outcome.horizon)
+        if own < score > bar and not confirmed(errors, its, d.settings.heldout.chance):
+            return visit
+    return None
+
+
+def _simpler_sets(selection: Selection, here: Visit) -> list[Visit]:
+    """Return the visited sets, each of whose terms is decisive in it, that are neither chosen nor a part of that."""
+    barred = selection.declined | selection.withdrawn
+    sets = [v for v in selection.visits.values() if not v.terms <= here.terms and not v.terms & barred]
+    decisive = selection.nominal.problem.settings.select.decisive
+
+    def needed(visit: Visit) -> bool:
+        parts = (selection.visits.get(visit.terms - {key}) for key in visit.terms)
+        return all(visit.weight > part.weight + decisive for part in parts if part)
+
+    return [v for v in sets if v.fit.status != "diverged" and needed(v)]
 
 
 def _over_time(selection: Selection, here: Visit) -> bool:

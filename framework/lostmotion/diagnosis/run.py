@@ -22,7 +22,7 @@ from lostmotion.diagnosis.compare import (
     rates_of,
     worsened,
 )
-from lostmotion.diagnosis.confirming import decided, predicted_better, unconfirmed
+from lostmotion.diagnosis.confirming import decided, find_simplest, predicted_better, unconfirmed
 from lostmotion.diagnosis.decays import decay_in
 from lostmotion.diagnosis.disagreements import disagreement_in
 from lostmotion.diagnosis.evidences import evidence_of
@@ -197,6 +197,14 @@ def upheld(diagnosis: Diagnosed, prepared: Prepared, rng: np.random.Generator, s
         fit, scored = close
         say(f"held-out data decide for {' and '.join(sorted(fit.problem.active))}")
         weighed = replace(outcome.diagnosis.selection, scored=dict(scored))
+        trial = compare_heldout(
+            instead(replace(outcome.diagnosis, selection=weighed), fit, rng.spawn(1)[0]), prepared, rng
+        )
+        good = trial.diagnosis.explains and not worsened(outcome.before, trial.after, limits)
+        outcome = trial if good else outcome
+    elif (simplest := find_simplest(outcome, prepared.observations)) is not None:
+        fit, weighed = simplest[0], replace(outcome.diagnosis.selection, simplest=simplest[1])
+        say(f"{' and '.join(sorted(fit.problem.active))} as the simplest explanation")
         trial = compare_heldout(
             instead(replace(outcome.diagnosis, selection=weighed), fit, rng.spawn(1)[0]), prepared, rng
         )

@@ -35,6 +35,8 @@ from lostmotion.settings import DEFAULT, LocateSettings, Settings
 
 MANY = 2
 """So many terms together may stand in for one curve: then curves are tried although nothing is left over."""
+MOST_INSTEAD = 3
+"""So many sets are tried in place of one that held-out data have refuted."""
 LARGEST = 1e100
 """A missing force beyond this means that the filter ran away: its square could not be taken."""
 
@@ -211,8 +213,11 @@ def simpler(d: Diagnosed, rng: np.random.Generator) -> Diagnosed | None:
 
 
 def instead(d: Diagnosed, fit: Fit, rng: np.random.Generator) -> Diagnosed:
-    """Return the diagnosis with another set of terms that was visited, given by its fit, in place of the chosen one."""
-    gone = tuple(key for key in d.named if key not in fit.problem.active)
+    """Return the diagnosis with another set of terms that was visited, given by its fit, in place of the chosen one.
+
+    Terms of the old set are withdrawn, unless the new one is only a simpler explanation.
+    """
+    gone = () if d.selection.simplest else tuple(key for key in d.named if key not in fit.problem.active)
     return _anew(replace(d, selection=replace(d.selection, chosen=fit), learned=None), gone, rng)
 
 
@@ -227,17 +232,27 @@ def _anew(d: Diagnosed, gone: tuple[str, ...], rng: np.random.Generator) -> Diag
 
 
 def _shrunk(selection: Selection, gone: str) -> Selection:
-    """Return the selection with a term less in the set that was chosen."""
+    """Return the selection without a term of the chosen set: the rest of it, or a set that is decisively better.
+
+    A term may have taken the place of a simpler one: friction with a wave that held-out data refute is friction all
+    the same.
+    """
     chosen, visits = selection.chosen, selection.visits
-    terms = chosen.problem.active - {gone}
+    limits, terms = chosen.problem.settings, chosen.problem.active - {gone}
     if terms not in visits:
         less = maximise(chosen.problem.reduced(gone, chosen.values))
-        price = price_of(
-            term_of(chosen.problem, gone)[0], len(fitted_keys(chosen.problem.system)), chosen.problem.settings
-        )
+        price = price_of(term_of(chosen.problem, gone)[0], len(fitted_keys(chosen.problem.system)), limits)
         dearer = chosen.log_evidence - visits[chosen.problem.active].weight
         visits = {**visits, terms: Visit(terms, less, less.log_evidence - dearer + price)}
-    return replace(selection, chosen=visits[terms].fit, visits=visits, withdrawn=selection.withdrawn | {gone})
+    rest, barred = visits[terms], selection.withdrawn | {gone}
+    made = replace(selection, chosen=rest.fit, visits=visits, withdrawn=barred, simplest=None)
+    others = [v for v in visits.values() if not v.terms & (barred | selection.declined) and not v.terms <= terms]
+    others = [v for v in others if v.weight > rest.weight + limits.select.decisive and v.fit.status != "diverged"]
+    for visit in sorted(others, key=lambda v: -v.weight)[:MOST_INSTEAD]:
+        made.contest(visit, rest, limits.select.decisive)
+        if made.lead(visit, rest) > limits.select.decisive:
+            return replace(made, chosen=visit.fit)
+    return made
 
 
 def _check_moving(held: Sequence[Observation]) -> None:

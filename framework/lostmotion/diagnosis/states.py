@@ -12,6 +12,7 @@ from lostmotion.contracts import Term
 from lostmotion.diagnosis.compare import Prediction
 from lostmotion.diagnosis.search import Diagnosed
 from lostmotion.inference.natural import term_of
+from lostmotion.inference.prices import related
 from lostmotion.quantities import TIME
 from lostmotion.report.words import spoken
 from lostmotion.results.diagnosis import Mechanism, OpenTerm
@@ -43,16 +44,47 @@ def doubts_of(d: Diagnosed, key: str) -> list[str]:
     term, _ = term_of(d.after.problem, key)
     imitates = term.unlikely > 0.0 or term.acts != "motion"
     steady = unsteady(d, key) if imitates else ()
-    return [*_less_sure(d, key), *_decided_late(d, key), *_beside(d, key), *steady, *_unusual(d, key), *_early(d, key)]
+    weak = [*_less_sure(d, key), *_find_as_good(d, key), *_decided_late(d, key), *_beside(d, key)]
+    return [*weak, *steady, *_unusual(d, key), *_early(d, key)]
 
 
 def _less_sure(d: Diagnosed, key: str) -> Iterator[str]:
     p = probability_of(d, key)
+    if d.selection.simplest:
+        yield (
+            "It explains the fitted data better than any learned curve, and held-out data as well; but a small smooth"
+            f" force without a name explains about as much, so that its probability is {p:.2g}."
+        )
+        return
     if p > d.settings.name.sure:
         return
     others = _others(d, key)
     rivals = f"; its rivals are {', '.join(others)}" if others else "; its rival is a smooth force without a name"
     yield f"Its probability is {p:.2g}{rivals}."
+
+
+def _find_as_good(d: Diagnosed, key: str) -> Iterator[str]:
+    """Yield a sentence on other terms that explain the fitted data as well, without the term and without a relative.
+
+    Such a set is behind by the penalties of its terms, or by the comparison with a smooth force, not by the data.
+    """
+    chosen, problem = d.selection.chosen, d.before.problem
+    terms = chosen.problem.active
+    if probability_of(d, key) <= d.settings.name.sure:
+        return
+    barred, own = terms | d.selection.declined | d.selection.withdrawn, term_of(problem, key)[0]
+    for others, visit in d.selection.visits.items():
+        fresh = sorted(others - terms)
+        if key in others or len(others) > len(terms) or not fresh or (others - terms) & barred:
+            continue
+        near = chosen.log_evidence - visit.fit.log_evidence < d.settings.name.related
+        if near and not any(_same(own, t) or related(own, t) for t in (term_of(problem, k)[0] for k in fresh)):
+            names = " and ".join([_called(d, fresh[0]), *(spoken(term_of(problem, k)[0].name) for k in fresh[1:])])
+            yield (
+                f"{names} {'explain' if fresh[1:] else 'explains'} the fitted data as well: only the prior odds of the"
+                " terms, or the comparison with a smooth force, decide against that."
+            )
+            return
 
 
 def _decided_late(d: Diagnosed, key: str) -> Iterator[str]:

@@ -219,6 +219,8 @@ def unknown_odds(d: Diagnosed) -> tuple[float, float]:
     """Return the probability that something is at work which the library does not have, and the log evidence for it."""
     if d.learned:
         return d.learned.probability, d.learned.gain
+    if simplest := d.selection.simplest:
+        return 1.0 - max(simplest.probabilities[key] for key in d.selection.chosen.problem.active), simplest.curve
     if d.found or not d.unexplained:
         return 0.0, 0.0
     return 1.0 - math.exp(-d.random_gain), d.random_gain

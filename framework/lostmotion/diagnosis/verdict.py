@@ -187,7 +187,8 @@ def ranking_of(d: Diagnosed, found: Sequence[Mechanism], *, failed: bool) -> tup
     many = len(fitted_keys(selection.nominal.problem.system))
     for term in selection.nominal.problem.system.terms:
         key = key_of(term)
-        p = told[term.name, term.at] if key in d.named else selection.inclusion(key) * (1.0 - unknown)
+        rest = 1.0 if selection.simplest else 1.0 - unknown
+        p = told[term.name, term.at] if key in d.named else selection.inclusion(key) * rest
         rows.append(
             Candidate(
                 mechanism=term.name,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
@@ -109,6 +110,18 @@ class Lead(NamedTuple):
     value: float
 
 
+@dataclass(frozen=True)
+class Simplest:
+    """Terms that explain the data better than any learned curve, and no better than a generic smooth force.
+
+    `probabilities` are those of the terms by key; `curve` is the log evidence that the best learned curve adds, zero
+    where none is decisive.
+    """
+
+    probabilities: Mapping[str, float]
+    curve: float
+
+
 @dataclass
 class Selection:
     """The course of a selection: the nominal fit, every set visited, the hints of the first round, the set chosen.
@@ -117,7 +130,8 @@ class Selection:
     expansions of fits with the discrepancy that every name has to beat, `unbeaten` the terms that did not. `stopped`
     says that the search ended at its bound. `withdrawn` are terms that held-out data spoke against: no set with one of
     them is weighed. `scored` holds the log score of held-out data that sets have won over the best of what stands
-    against them: it is added to their log odds.
+    against them: it is added to their log odds. `simplest` replaces the probabilities where the chosen terms are only
+    the simplest explanation.
     """
 
     nominal: Fit
@@ -130,6 +144,7 @@ class Selection:
     stopped: bool = False
     withdrawn: frozenset[str] = frozenset()
     scored: dict[frozenset[str], float] = field(default_factory=dict)
+    simplest: Simplest | None = None
     smooth: dict[frozenset[str], tuple[Fit, Won | None]] = field(default_factory=dict)
     leads: dict[tuple[frozenset[str], frozenset[str]], Lead] = field(default_factory=dict)
     stood: dict[tuple[frozenset[str], frozenset[str]], tuple[Fit, Fit]] = field(default_factory=dict)
@@ -313,6 +328,8 @@ class Selection:
 
     def inclusion(self, key: str) -> float:
         """Return the posterior probability that a term is at work."""
+        if self.simplest:
+            return self.simplest.probabilities.get(key, 0.0)
         return sum(p for terms, p in self.probabilities().items() if key in terms)
 
     def gain(self, key: str) -> float:

@@ -9,9 +9,11 @@ import numpy as np
 
 from lostmotion.contracts import Array
 from lostmotion.inference.fit import Fit, Sensitivity, maximise, restarted
+from lostmotion.inference.natural import term_of
 from lostmotion.inference.standing import standing
 from lostmotion.likelihood.problem import FreeParameter, Problem
 from lostmotion.likelihood.system import ALWAYS, since_of
+from lostmotion.quantities import TIME
 from lostmotion.results import Interval
 
 TIMES = 24
@@ -26,8 +28,14 @@ PRICE = math.log(TIMES)
 
 
 def can_be_late(problem: Problem, key: str) -> bool:
-    """Return whether an onset of a term can be told: of one recording, and not of a sensor."""
-    return len(problem.observations) == 1 and since_of(key) in problem.system.index
+    """Return whether an onset of a term can be estimated: from one recording, and not of a sensor.
+
+    A term whose own parameters say when it acts (a change at a time, a warming up) has no second time beside that.
+    """
+    if len(problem.observations) > 1 or since_of(key) not in problem.system.index:
+        return False
+    term, _ = term_of(problem, key)
+    return not any(param.lasting and param.dimension == TIME for param in term.params)
 
 
 def onset(problem: Problem, key: str) -> float:

@@ -104,10 +104,21 @@ class Case:
         model, place = self._model_table(), folder_for(Path(folder))
         entries = [_written(one, place) for one in self._several]
         content: dict[str, Any] = {"title": self.title, "recordings": entries, "model": model}
-        if self.truth:
-            content["truth"] = dict(self.truth)
+        content |= self._further_tables()
         dump_case(content, place / "case.toml")
         return place / "case.toml"
+
+    def _further_tables(self) -> dict[str, Any]:
+        """Return the tables `[truth]`, `[sensor]` and `[experiment]`, those that say anything."""
+        offset, usual = self.sensor.offset, SensorSpec()
+        sensor = {
+            "noise": None if self.sensor.noise == usual.noise else self.sensor.noise,
+            "offset": None if offset is None else _prior(offset),
+        }
+        limits = {"max_level": self.experiment.max_level, "max_frequency": self.experiment.max_frequency}
+        tables: dict[str, dict[str, Any]] = {"truth": dict(self.truth), "sensor": sensor, "experiment": limits}
+        kept = {name: {k: v for k, v in told.items() if v is not None} for name, told in tables.items()}
+        return {name: told for name, told in kept.items() if told}
 
     def _model_table(self) -> dict[str, Any]:
         """Return the table `[model]`; a model that nobody else could find is refused."""
@@ -145,7 +156,13 @@ class Case:
     def _as_file(self) -> CaseFile:
         made = self._model
         told = repr(
-            (self.title, made, sorted(self.known.items()), sorted((k, repr(p)) for k, p in self.estimate.items()))
+            (
+                self.title,
+                made,
+                made.origin if isinstance(made, Written) else (),
+                sorted(self.known.items()),
+                sorted((k, repr(p)) for k, p in self.estimate.items()),
+            )
         )
         return CaseFile(
             title=self.title,
@@ -188,15 +205,20 @@ def _sensors_of(recording: Recording) -> tuple[Any, ...]:
 
 
 def _chosen(found: Prepared, terms: str | Sequence[str]) -> tuple[Any, ...]:
-    """Return the terms of these names."""
+    """Return the terms of these names, each at all its places or, as NAME@PLACE, at one of them."""
     asked = (terms,) if isinstance(terms, str) else tuple(terms)
-    known = dict.fromkeys(term.name for term in found.terms)
-    for name in asked:
-        if name not in known:
+    names = dict.fromkeys(term.name for term in found.terms)
+    keys = {f"{term.name}@{term.at}" for term in found.terms}
+    for wanted in asked:
+        name, mark, place = wanted.partition("@")
+        if name not in names:
             raise CaseError(
-                f"no term {name!r} can act in this case{nearest(name, known)}: there are {', '.join(known)}"
+                f"no term {name!r} can act in this case{nearest(name, names)}: there are {', '.join(names)}"
             )
-    return tuple(term for term in found.terms if term.name in asked)
+        if mark and wanted not in keys:
+            places = [term.at for term in found.terms if term.name == name]
+            raise CaseError(f"{name} cannot act at {place!r}{nearest(place, places)}: it can at {', '.join(places)}")
+    return tuple(term for term in found.terms if {term.name, f"{term.name}@{term.at}"} & set(asked))
 
 
 def _prior(prior: Prior) -> dict[str, Any]:

@@ -15,6 +15,8 @@ from lostmotion.codec import from_plain, to_plain
 from lostmotion.diagnosis.findings import Outcome
 from lostmotion.diagnosis.report import learned, missing, page, portraits, posteriors, prediction, ranking
 from lostmotion.diagnosis.report.evidence import Evidence, evidence_with
+from lostmotion.identification.predictive import predict_readings
+from lostmotion.inference import mixture
 from lostmotion.notebook.machine import FittedModel, fitted_of, machine_of
 from lostmotion.registry import Registry, default
 from lostmotion.report import style
@@ -28,6 +30,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 AGAIN = "run `lostmotion diagnose` again"
+PREDICTED = 500
+"""Draws of which `to_arviz` tells what they say of the readings."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,6 +39,12 @@ class DiagnosisPlots:
     """The figures of a diagnosis; each returns a matplotlib figure, and a bare call the prediction."""
 
     evidence: Evidence
+
+    def __repr__(self) -> str:
+        return (
+            "<figures of a diagnosis: .prediction(), .missing_force(), .ranking(), .parameters(), .sections(),"
+            " .learned_force()>"
+        )
 
     def __call__(self) -> Figure:
         """Return the recording with free runs over held-out data, before and after."""
@@ -159,21 +169,35 @@ class DiagnosisResult:
         return self.arrays
 
     def to_arviz(self) -> Any:
-        """Return ArviZ's `InferenceData`: draws of the parameters after (one chain), and what was observed."""
+        """Return ArviZ's `InferenceData`: draws of the parameters after (one chain), and what was observed.
+
+        Of a diagnosis that was made in this session there are `log_likelihood` and `posterior_predictive` beside them,
+        for `arviz.loo` and `arviz.plot_ppc`: of `PREDICTED` draws, over the part of the recording that was fitted.
+        """
         import arviz
 
         names = [str(name) for name in self.arrays["parameter_after"].values]
-        draws = np.asarray(self.arrays["posterior_after"], dtype=float)
+        draws, predicted = np.asarray(self.arrays["posterior_after"], dtype=float), self._predicted()
+        response = {"response": np.asarray(self.arrays["response"], dtype=float)}
         made = arviz.from_dict(
             posterior={name: draws[None, :, i] for i, name in enumerate(names)},
-            observed_data={"response": np.asarray(self.arrays["response"], dtype=float)},
+            observed_data=None if predicted else response,
+            constant_data=response if predicted else None,
             dims={"response": ["time"]},
             coords={"time": np.asarray(self.arrays["time"], dtype=float)},
         )
         for name, told in self.parameters_after.items():
             if name in made.posterior:
                 made.posterior[name].attrs["units"] = told.unit
+        made.add_groups(predicted)
         return made
+
+    def _predicted(self) -> dict[str, Any]:
+        """Return the groups of ArviZ on the readings, by name; none where the diagnosis was loaded from a folder."""
+        if self.outcome is None:
+            return {}
+        fit, rng = self.outcome.diagnosis.after, np.random.default_rng(0)
+        return predict_readings(fit.problem, mixture.draws(fit, rng, PREDICTED), (1, PREDICTED), rng)
 
     def report(self, path: str | Path = "report.html") -> Path:
         """Return the path of the page that was written: self-contained HTML."""

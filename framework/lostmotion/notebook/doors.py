@@ -6,6 +6,7 @@ Each takes the registry of this process unless it is handed another one: what `r
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -231,7 +232,7 @@ def simulate(
 
 def map(
     model: str,
-    out: str | Path,
+    out: str | Path | None = None,
     *,
     axes: str | Iterable[str],
     registry: Registry | None = None,
@@ -248,8 +249,9 @@ def map(
     unit: str = "nat",
     seed: int = 0,
     motion: str | None = None,
+    progress: bool = True,
 ) -> xarray.Dataset:
-    """Return a map of a model over `axes` (NAME=LOW:HIGH:N), kept in `out` (.zarr, .nc), which it goes on from.
+    """Return a map of a model over `axes` (NAME=LOW:HIGH:N); with `out` (.zarr, .nc) it is kept, and continued there.
 
     `sets` are NAME=VALUE, `terms` NAME[@PLACE][:param=value], `drive` a text such as "harmonic:amplitude=1,omega=2",
     `quantities` names of quantifiers beside the largest exponent, in `unit` ("nat" or "bit") a second. Each cell has so
@@ -274,7 +276,11 @@ def map(
         motion,
     )
     study = make_study(request, registry or default())
-    return make_map(study, Path(out), RunOptions(Workers(jobs), refine, fresh), lambda _done, _of: None).dataset
+    options = RunOptions(Workers(jobs), refine, fresh)
+    with shown("map", progress) as say, TemporaryDirectory() as spare:
+        place = Path(out) if out is not None else Path(spare) / "map.nc"
+        made = make_map(study, place, options, lambda done, of: say(f"{done} of {of} cells")).dataset
+        return made.load() if out is None else made
 
 
 def case_from(
@@ -326,18 +332,24 @@ def _sensor(recording: Recording, channel: str | None) -> int:
 @contextmanager
 def shown(what: str, wanted: bool) -> Iterator[Callable[[str], None]]:
     """Yield a function that is told each step, and shows it as a line in a terminal or a notebook."""
-    from tqdm.auto import tqdm
-
-    if not wanted:
+    if not (wanted and _is_watched()):
         yield lambda _step: None
         return
-    with tqdm(desc=what, unit=" steps", leave=False, bar_format="{desc} {elapsed} · {n} steps · {postfix}") as bar:
+    from tqdm.auto import tqdm
+
+    with tqdm(desc=what, unit=" steps", leave=False, bar_format="{desc} {elapsed} · {n} steps{postfix}") as bar:
 
         def say(step: str) -> None:
             bar.set_postfix_str(step, refresh=False)
             bar.update()
 
         yield say
+
+
+def _is_watched() -> bool:
+    """Return whether somebody sees a line of progress: in a terminal or in a notebook, and not in a log file."""
+    shell = sys.modules.get("IPython")
+    return sys.stderr.isatty() or (shell is not None and shell.get_ipython() is not None)
 
 
 def _texts(given: str | Iterable[str]) -> tuple[str, ...]:

@@ -111,6 +111,12 @@ def _signals(inputs: Mapping[str, Signal] | Recording, rate: float | None) -> tu
         return {str(a.attrs["of"]): np.asarray(a) for a in inputs.inputs}, inputs.rate
     if rate is None or not 0.0 < rate < math.inf:
         raise CaseError("the rate is missing: give rate=, the samples in a second of arrays and of what is simulated")
+    if not isinstance(inputs, Mapping):
+        raise CaseError("the inputs are no mapping: give {'force': array} or {'force': function of time}")
+    for name, signal in inputs.items():
+        values = None if callable(signal) else np.asarray(signal)
+        if values is not None and (values.dtype.kind not in "iufb" or values.ndim != 1):
+            raise CaseError(f"the input {name!r} is neither an array (n,) of numbers nor a function of time (s)")
     return dict(inputs), rate
 
 

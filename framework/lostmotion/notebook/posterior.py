@@ -28,6 +28,9 @@ class PosteriorPlots:
 
     view: IdentificationView
 
+    def __repr__(self) -> str:
+        return "<figures of a posterior: .corner(), .trace()>"
+
     def __call__(self) -> Figure:
         """Return the parameters drawn one against another."""
         return self.corner()

@@ -114,9 +114,11 @@ class Recording:
         array, `noise` the kind of noise of a sensor ("white", "ar1", "quantised"). Without inputs it is a free decay.
         Raises `DataError` or `CaseError` where the numbers cannot be used.
         """
-        from lostmotion.recording.made import made
+        from lostmotion.recording.made import check_units, made
 
         columns = {**(inputs or {}), **sensors}
+        if sensors:
+            check_units(units, columns, name)
         times = {} if time is None else {"time": time}
         which = ({name: name for name in inputs or {}}, {name: name for name in sensors})
         return made({**times, **columns}, which, units, None if time is None else "time", rate, noise or {}, hold, name)

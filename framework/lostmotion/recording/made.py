@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -38,6 +38,7 @@ def made(
     name: str,
 ) -> Recording:
     """Return a recording of columns (n,) in memory."""
+    _check_names(columns, which, time, name)
     arrays = {key: _numbers(key, value) for key, value in columns.items() if key in _used(which, time)}
     told = hashlib.sha256(b"".join(key.encode() + array.tobytes() for key, array in sorted(arrays.items()))).hexdigest()
     table = Table(arrays, {key: unit for key, unit in units.items() if key in arrays})
@@ -56,8 +57,28 @@ def read(
 ) -> Recording:
     """Return a recording of a file; units that are not given are those that the file tells."""
     table = read_table(path)
+    _check_names(table.columns, which, time, path.name)
     told = {**table.units, **units}
     return recording_of(_spec(which, told, time, rate, noise, hold, name or path.stem), table, path.name, digest(path))
+
+
+def _check_names(columns: Collection[str], which: Which, time: str | None, name: str) -> None:
+    """Refuse columns that are not there."""
+    for role, wanted in (("inputs", which[0].values()), ("sensors", which[1].values()), ("time", [time] * bool(time))):
+        for column in wanted:
+            if column not in columns:
+                raise DataError(
+                    f"{name} has no column {column!r}, which {role} asks for{nearest(str(column), columns)}:"
+                    f" it has {', '.join(columns)}"
+                )
+
+
+def check_units(units: Mapping[str, str], columns: Collection[str], name: str) -> None:
+    """Refuse the unit of an array that was not given: a misspelled name would otherwise pass unnoticed."""
+    known = [*columns, "time"]
+    for key in units:
+        if key not in known:
+            raise DataError(f"units names {key!r}, which is no array of {name}{nearest(key, known)}")
 
 
 def _used(which: Which, time: str | None) -> set[str]:
