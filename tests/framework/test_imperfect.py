@@ -359,7 +359,7 @@ def test_page_shows_sure_names_by_drive_and_nothing_that_needs_a_true_model():
 def test_page_of_a_perfect_world_says_nothing_of_flaws():
     row = rows()[4]
     text = page([replace(row, answer=replace(row.answer, named=()), sure=None, kind=None, worse=None)])
-    assert "flaws that no term describes" not in text
+    assert "imperfections that no term describes" not in text
     assert "Names stated with more than 0.95" not in text
 
 
