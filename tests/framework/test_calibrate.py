@@ -195,7 +195,7 @@ def test_a_right_posterior_passes():
 def test_a_bad_posterior_does_not_pass(wrong, word):
     content = summarise(rows(200, **wrong))
     assert content.passes is False
-    assert "do not hold" in content.says[0]
+    assert "not calibrated" in content.says[0]
     assert re.search(word, content.says[1])
 
 
@@ -222,7 +222,7 @@ def test_lost_machines_are_told_and_not_counted():
     many = [MachineTrial(200 + k, "unconverged", "ESS", {}) for k in range(20)]
     content = summarise([*rows(200), *many])
     assert content.passes is False
-    assert "without a posterior" in content.says[0]
+    assert "have no posterior" in content.says[0]
     assert summarise(many).says[0] == "None of the machines has a posterior."
     assert summarise(many).passes is False
 

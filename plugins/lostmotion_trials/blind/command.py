@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from lostmotion.cli import PluginName, examples
-from lostmotion.cli.options import on_a_trial
+from lostmotion.cli.options import add_common_options
 
 if TYPE_CHECKING:
     from lostmotion_trials.blind.results import Target
@@ -45,7 +45,7 @@ if TYPE_CHECKING:
     "--samples", default=20_000, show_default=True, type=click.IntRange(500), help="Samples of the longest recording."
 )
 @click.option("--fresh", is_flag=True, help="Delete an existing trial instead of continuing it.")
-@on_a_trial
+@add_common_options
 @click.pass_context
 def command(ctx: click.Context, /, out: Path, only: tuple[str, ...], **given: Any) -> None:
     """Run a blind trial of `diagnose` on simulated machines with hidden effects.

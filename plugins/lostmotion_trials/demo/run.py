@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from lostmotion.contracts import Array
-from lostmotion.diagnosis.report.hero import figure_hero
+from lostmotion.diagnosis.report.hero import save_hero
 from lostmotion.diagnosis.run import run_diagnosis
 from lostmotion.registry import Registry
 from lostmotion.results.diagnosis import Diagnosis, Mechanism
@@ -52,7 +52,7 @@ def run_demo(
     concealed = conceal_joint(rng, periods=periods, friction=0.0 if setting.clean else FRICTION)
     case = write_case(concealed, out / "case")
     diagnosis = run_diagnosis(case, out, registry, seed=setting.seed, jobs=setting.jobs, say=say)
-    figure_hero(out)
+    save_hero(out)
     found = _describe_clean(diagnosis) if setting.clean else _describe_hidden(diagnosis)
     lines = (_describe_recording(concealed.time), *found, _describe_improvement(diagnosis))
     return DemoResult(lines, judge(diagnosis, clean=setting.clean))

@@ -1,0 +1,277 @@
+"""The thresholds of a diagnosis: locating, selecting, comparing, learning and reporting what a model leaves out."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from lostmotion.settings.threshold import threshold
+
+
+@dataclass(frozen=True)
+class LocateSettings:
+    """Locating the missing force."""
+
+    significant: float = threshold(
+        8.0, "A random force beyond the usual noise of the drive counts when it gains this much in log-likelihood."
+    )
+    structured: float = threshold(
+        0.1, "A covariate counts as structure when it explains more than this share of the missing force.", most=1.0
+    )
+    level: float = threshold(
+        0.05,
+        "The probability of a false positive over all covariates together.",
+        "Vovk, Wang, Annals of Statistics 49 (2021) 1736-1754",
+        most=1.0,
+    )
+    told: float = threshold(
+        0.05, "A covariate that explains less than this share of the variance is not reported.", most=1.0
+    )
+    tied: float = threshold(
+        3.0,
+        "Covariates whose log likelihood ratios differ by less than this (a factor of twenty) are reported together.",
+    )
+    signed: float = threshold(
+        0.97,
+        (
+            "The sign of the velocity is reported in place of the velocity when it explains at least this share of "
+            "what the velocity explains."
+        ),
+        most=1.0,
+    )
+    visible: float = threshold(
+        0.01,
+        (
+            "A figure shows the share that a significant covariate explains from this share on: a force on another "
+            "body changes the likelihood, but hardly the force on the first body."
+        ),
+        most=1.0,
+    )
+    quantisation: float = threshold(
+        0.05,
+        "Quantisation of the stored values counts when its variance exceeds this share of the noise variance.",
+        most=1.0,
+    )
+
+
+@dataclass(frozen=True)
+class SelectSettings:
+    """Selecting terms."""
+
+    decisive: float = threshold(
+        math.log(20.0),
+        "A term is selected when its log odds exceed this value (odds of twenty).",
+        "Kass, Raftery, J. Am. Stat. Assoc. 90 (1995) 773-795",
+    )
+    promising: float = threshold(
+        3.0, "A term is fitted when its score test predicts at least this gain in log-likelihood."
+    )
+    most_terms: float = threshold(5.0, "The greatest number of terms that are selected.", least=1.0)
+    further: float = threshold(1.5, "The log prior penalty of each further parameter of a term.")
+    onset: float = threshold(
+        math.log(100.0), "The log prior penalty of a term that begins during the recording: one in a hundred."
+    )
+    certain: float = threshold(
+        3.0,
+        "An amplitude counts when it is at least this many robust standard deviations from its null.",
+        "White, Econometrica 50 (1982) 1-25",
+    )
+    memory: float = threshold(
+        2.0,
+        "From this ratio of robust to usual standard deviations on, the residuals count as correlated in time.",
+        least=1.0,
+    )
+    share: float = threshold(
+        0.2, "Where residuals are correlated in time, a term has to reduce the random force by this share.", most=1.0
+    )
+    outshone: float = threshold(
+        0.1,
+        "Terms of which each gains less than this share of the gain that one learned curve predicts only imitate it.",
+        most=1.0,
+    )
+    commoner: float = threshold(
+        6.0, "A more common law is reported in place of a found one whose log evidence is higher by no more than this."
+    )
+    noise_memory: float = threshold(
+        8.0,
+        (
+            "Noise of a sensor is modelled as AR(1) when this raises the log-likelihood by at least this much: for "
+            "white noise the two parameters of AR(1) have no effect."
+        ),
+    )
+
+
+@dataclass(frozen=True)
+class RivalSettings:
+    """Usual imperfections of real machines, with which each candidate term is compared."""
+
+    known: float = threshold(
+        0.01,
+        "The relative standard deviation of a known value: drawings and data sheets are not more accurate.",
+        most=1.0,
+    )
+    scale: float = threshold(0.01, "The relative standard deviation of the gain of a sensor and of a drive.", most=1.0)
+    bent: float = threshold(
+        0.005,
+        "The standard deviation of the quadratic and of the cubic error of a sensor, relative to its range.",
+        most=1.0,
+    )
+    late: float = threshold(
+        0.5,
+        "The standard deviation of the delay between channels, in samples: acquisition systems filter and multiplex.",
+    )
+    much: float = threshold(
+        20.0,
+        (
+            "A smooth force that predicts at least this gain in log evidence is fitted before a term is named, and a "
+            "prediction counts for no more than this."
+        ),
+    )
+    absurd: float = threshold(
+        100.0,
+        "A predicted gain above this of which a fit realises nothing shows that the local expansion is not valid.",
+    )
+    lasting: float = threshold(
+        4.0,
+        "From this excess of the scatter of scores on, their correlation is long and only predicted gains count.",
+        least=1.0,
+    )
+
+
+@dataclass(frozen=True)
+class UnknownSettings:
+    """Learning an unexplained force as a curve, and describing it."""
+
+    hope: float = threshold(
+        0.3, "Curves are tried that predict at least this share of the gain of the best set of terms.", most=1.0
+    )
+    kept: float = threshold(
+        0.2, "A curve that changes the size of a named law by more than this share belongs to that law.", most=1.0
+    )
+    alike: float = threshold(
+        0.8, "A curve resembles a law that explains at least this share of its variance.", most=1.0
+    )
+    alike_two: float = threshold(
+        0.9, "A curve resembles two laws that together explain at least this share of its variance.", most=1.0
+    )
+    formula: float = threshold(
+        0.8, "A formula is proposed when it explains at least this share of the variance of a curve.", most=1.0
+    )
+
+
+@dataclass(frozen=True)
+class HeldOutSettings:
+    """Comparing models on held-out data."""
+
+    share: float = threshold(
+        0.3, "The share of a recording, or of the recordings, that is held out.", least=0.05, most=0.7
+    )
+    rise: float = threshold(0.01, "An error of free runs that rises by a smaller share than this counts as unchanged.")
+    missing: float = threshold(
+        1.02,
+        "A missing force that rises by more than this factor on held-out data is not explained by the found terms.",
+        least=1.0,
+    )
+    fall: float = threshold(
+        0.01,
+        (
+            "A log score that falls by more than this per sample is evidence against a model, unless the error of its"
+            " free runs is much smaller."
+        ),
+    )
+    less: float = threshold(0.5, "The error of free runs is much smaller when it falls below this share.", most=1.0)
+    chance: float = threshold(
+        0.05,
+        "The significance level for calling a model better: Student's paired test over ten parts of held-out data.",
+        most=1.0,
+    )
+    explains: float = threshold(
+        0.5,
+        "A set of terms is compared on held-out data when its gain in the fit is this share of that of the chosen set.",
+        most=1.0,
+    )
+    behind: float = threshold(
+        10.0,
+        (
+            "A term is not compared on held-out data when a smooth force exceeds it by more than these log odds in "
+            "the fit."
+        ),
+    )
+
+
+@dataclass(frozen=True)
+class NameSettings:
+    """Reporting a finding as named, likely or open."""
+
+    sure: float = threshold(
+        0.95,
+        "A named finding has a probability above this; a finding with a doubt is reported with at most this.",
+        most=1.0,
+    )
+    simplest: float = threshold(
+        0.5,
+        "A term that explains the data better than any learned curve, but no better than a generic smooth force, has"
+        " its probability among the terms times this: the smooth force may be real.",
+        most=1.0,
+    )
+    rival: float = threshold(
+        0.05, "A set of terms with a larger share of the posterior is reported as a rival.", most=1.0
+    )
+    worth: float = threshold(0.01, "A term that was not found is listed when its probability is above this.", most=1.0)
+    related: float = threshold(
+        math.log(20.0),
+        (
+            "A term that resembles a found one is reported when its log evidence, without the penalty of its"
+            " parameters, is within this distance."
+        ),
+    )
+    moved: float = threshold(
+        5.0, "An amplitude that moves by this many standard deviations when a further term is added was not identified."
+    )
+    moved_share: float = threshold(
+        0.2, "The amplitude must also move by this share of itself (see `name.moved`).", most=1.0
+    )
+    beside: float = threshold(
+        3.0,
+        "Where a curve was learned too, a finding is named when its gain in log evidence is this many times that of the"
+        " curve: with less it may be a part of the unexplained force.",
+        "`lostmotion prove --world imperfect --seed 900`: names below this ratio were wrong as often as right",
+    )
+    remains: float = threshold(
+        0.5,
+        "A finding is at most likely where the remaining random force exceeds this share of the missing force.",
+        most=1.0,
+    )
+    late: float = threshold(
+        0.05,
+        "A delay of more than this share of a natural period is unusual: acquisition systems are faster.",
+        most=1.0,
+    )
+    early: float = threshold(
+        0.04,
+        "A change that is complete within this share of the recording is at most likely: a known value that is wrong"
+        " from the beginning looks the same.",
+        most=1.0,
+    )
+    error: float = threshold(
+        0.3,
+        "A model is rejected when the error of free runs exceeds this share of the response (see `name.error_noise`).",
+    )
+    error_noise: float = threshold(
+        5.0, "The error of free runs must also exceed this many times the noise (see `name.error`)."
+    )
+    white: float = threshold(
+        0.01,
+        "A p-value of whiteness below this is reported as a finding, and below five times this as a doubt.",
+        most=1.0,
+    )
+
+
+@dataclass(frozen=True)
+class SharedSettings:
+    """Comparing a parameter between several recordings."""
+
+    level: float = threshold(0.01, "The significance level for calling parameters different.", most=1.0)
+    alike: float = threshold(
+        0.01, "Values that differ by less than this share count as equal in engineering terms.", most=1.0
+    )
