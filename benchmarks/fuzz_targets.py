@@ -15,7 +15,7 @@ import numpy as np
 
 from fuzz_seeds import CASE, COLUMNS, TABLES, N
 from lostmotion.analysis import source
-from lostmotion.analysis.source import WantedChannel, source_of
+from lostmotion.analysis.source import WantedChannel, load_source
 from lostmotion.case import Channel, RecordingSpec, dump_case, load_case
 from lostmotion.errors import LostMotionError
 from lostmotion.identification import checkpoint as _keep
@@ -101,7 +101,7 @@ def table(kind, seeds, rng, folder, write_only):
         return
     attempts = (
         lambda: load_recording(RecordingSpec(name, *_rest()), folder),
-        lambda: source_of(path, WantedChannel(("x",)), default()),
+        lambda: load_source(path, WantedChannel(("x",)), default()),
     )
     refused = None
     for attempt in attempts:
@@ -181,7 +181,7 @@ def case(seeds, rng, folder, write_only):
     load_case(folder / "case.toml")
     ready = prepare(folder / "case.toml", default())
     known_of(System(ready.model, ready.terms), ready.case)
-    source_of(folder / "case.toml", WantedChannel(), default())
+    load_source(folder / "case.toml", WantedChannel(), default())
 
 
 def _dumped(tree, path):
@@ -192,7 +192,7 @@ def _dumped(tree, path):
 def plugin(seeds, rng, folder, write_only):
     """Give a class with strange metadata to a registry, and ask it for what `plugins show` prints."""
     from lostmotion.cli.plugins import _print_sheet
-    from lostmotion.cli.sheets import sheet_of
+    from lostmotion.cli.sheets import make_sheet
     from lostmotion.contracts import Param, Term
     from lostmotion.quantities import FORCE
 
@@ -215,7 +215,7 @@ def plugin(seeds, rng, folder, write_only):
         registry = Registry().add(made)
         (entry,) = registry.entries()
         with redirect_stdout(io.StringIO()):
-            _print_sheet(sheet_of(entry, registry.load("term", entry.name)))
+            _print_sheet(make_sheet(entry, registry.load("term", entry.name)))
 
 
 def _tree(value, rng, depth=0, spare=0.02):

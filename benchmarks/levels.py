@@ -240,7 +240,7 @@ def decide(folder: Path) -> None:
     case = oscillator({"x0": Prior(low=0.002, high=0.012), "zeta": Prior(low=0.01, high=0.06)})
     for seed in range(1, 4):
         rng, drives = np.random.default_rng(seed), [(a, OMEGA) for a in TWO_GAPS]
-        reads = simulate_levels(case, default(), TRUE_GAP, drives, rng, bench=CAREFUL)
+        reads = simulate_levels(case, default(), TRUE_GAP, drives, rng, plan=CAREFUL)
         both = make_inversion(case, tuple(read.level for read in reads), default(), folder, MapGrid(), say=progress)
         gaps, points = grid_of(both)
         for name, posterior in (("exponents alone", both.without_d2()), ("with dimensions", both)):

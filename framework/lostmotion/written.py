@@ -83,7 +83,7 @@ def _make_class(
         "rhs": staticmethod(space["rhs"]),
         "observe": staticmethod(space["observe"]),
     }
-    made: type[Model] = dataclass(frozen=True)(type("Written", (Written,), members))
+    made: type[Model] = dataclass(frozen=True, repr=False)(type("Written", (Written,), members))
     return made
 
 
@@ -93,6 +93,9 @@ class Written(Model):
     equations: ClassVar[tuple[str, ...]]
     coordinates: ClassVar[tuple[str, ...]]
     origin: ClassVar[tuple[Any, ...]]
+
+    def __repr__(self) -> str:
+        return f"<model {'; '.join(self.equations)} ({self.motion})>"
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _rebuild_model, (self.origin, self.motion)

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from lostmotion.analysis.source import WantedChannel, source_of
+from lostmotion.analysis.source import WantedChannel, load_source
 from lostmotion.case import CaseFile, Measured, Prior, SensorSpec, dump_case, load_case
 from lostmotion.errors import CaseError
 from lostmotion.preparation.prepare import prepare
@@ -160,7 +160,7 @@ def test_recordings_must_be_there(tmp_path: Path, empty: str) -> None:
 def test_a_case_may_be_without_recordings_until_they_are_needed(tmp_path: Path) -> None:
     got = case(tmp_path, '[model]\nname = "lin_backlash"')
     assert (got.recordings, got.levels, got.sensor) == ((), (), SensorSpec("each", None))
-    for needs in (lambda path: prepare(path, Registry()), lambda path: source_of(path, WantedChannel(), Registry())):
+    for needs in (lambda path: prepare(path, Registry()), lambda path: load_source(path, WantedChannel(), Registry())):
         with pytest.raises(CaseError, match=r"has no \[\[recordings\]\]: add one"):
             needs(tmp_path / "case.toml")
 

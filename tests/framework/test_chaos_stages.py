@@ -110,7 +110,7 @@ def test_an_embedder_that_breaks_its_contract_is_named(chosen):
     [
         (1.0, "returned float"),
         (Estimate(1.0, 2.0, 3.0, "ok"), "outside of its interval"),
-        (Estimate(np.nan, np.nan, np.nan, "ok"), "all is well"),
+        (Estimate(np.nan, np.nan, np.nan, "ok"), "the status 'ok' with the value nan"),
         (Estimate(1.0, 0.0, 3.0, "fine"), "status 'fine'"),
         (Estimate(1.0, 0.0, 3.0, "uncertain"), "without a sentence"),
     ],

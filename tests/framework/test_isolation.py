@@ -11,7 +11,7 @@ from click.testing import CliRunner
 
 from lostmotion import registry
 from lostmotion.analysis import run as analyse
-from lostmotion.analysis.beat import Beat
+from lostmotion.analysis.period import BasePeriod
 from lostmotion.cli import main
 from lostmotion.contracts import Series
 from lostmotion.diagnosis import run as diagnose
@@ -78,18 +78,18 @@ def test_a_package_that_does_not_import_is_among_what_was_set_aside(tmp_path, mo
 def test_a_method_is_set_aside_and_its_samples_are_as_they_were(known, cls, why):
     x = np.sin(0.3 * np.arange(1200.0)) + 0.1 * np.random.default_rng(0).normal(size=1200)
     series = Series(x.copy(), 0.05, Embedding(8, 3, 10))
-    watch, request, beat = Guests(known), analyse.Request(draws=19), Beat(None, "none")
+    watch, request, base = Guests(known), analyse.AnalysisRequest(draws=19), BasePeriod(None, "none")
     if issubclass(cls, third_party.Crest):
-        found = analyse._Measured(series, watch, request, beat, print)(cls.name, "others")
+        found = analyse._SeriesMeasurer(series, watch, request, base, print)(cls.name, "others")
         assert (found.status, found.says) == ("failed", watch.said[0])
     elif issubclass(cls, third_party.Pair):
-        assert analyse._embedded(series.x, watch, cls.name, 0.05, beat).embedding.methods != ("given", "given")
+        assert analyse._embed_series(series.x, watch, cls.name, 0.05, base).embedding.methods != ("given", "given")
     elif issubclass(cls, third_party.Shuffle):
-        assert [t.method for t in analyse._tests(series, watch, replace(request, surrogates=(cls.name,)), print)] == [
-            "iaaft"
-        ]
+        assert [
+            t.method for t in analyse._run_tests(series, watch, replace(request, surrogates=(cls.name,)), print)
+        ] == ["iaaft"]
     else:
-        denoised, how = analyse._cleaned(series, watch, replace(request, denoiser=cls.name))
+        denoised, how = analyse._reduce_noise(series, watch, replace(request, denoiser=cls.name))
         assert (denoised.series, how) == (series, "none")
     (said,) = watch.said
     assert why in said
@@ -101,12 +101,12 @@ def test_a_method_is_set_aside_and_its_samples_are_as_they_were(known, cls, why)
 @pytest.mark.slow
 def test_good_methods_are_used(known):
     x = np.sin(0.3 * np.arange(1200.0)) + 0.1 * np.random.default_rng(0).normal(size=1200)
-    watch, beat = Guests(known), Beat(None, "none")
-    series = analyse._embedded(x, watch, "guest_pair", 0.05, beat)
+    watch, base = Guests(known), BasePeriod(None, "none")
+    series = analyse._embed_series(x, watch, "guest_pair", 0.05, base)
     assert (series.embedding.lag, series.embedding.dim) == (8, 3)
-    request = analyse.Request(denoiser="guest_mean", surrogates=("guest_shuffle",), draws=19)
-    assert analyse._cleaned(series, watch, request)[1] == "guest_mean"
-    (test,) = analyse._tests(series, watch, request, print)
+    request = analyse.AnalysisRequest(denoiser="guest_mean", surrogates=("guest_shuffle",), draws=19)
+    assert analyse._reduce_noise(series, watch, request)[1] == "guest_mean"
+    (test,) = analyse._run_tests(series, watch, request, print)
     assert test.method == "guest_shuffle"
     assert watch.said == []
 

@@ -9,7 +9,7 @@ import pytest
 import xarray as xr
 
 import lostmotion as lm
-from lostmotion.case import load_case
+from lostmotion.case import Experiment, SensorSpec, load_case
 from lostmotion.registry import Registry
 
 N = 400
@@ -72,6 +72,7 @@ def test_a_frame_a_dataset_and_a_file_are_the_same_recording(tmp_path):
     ("change", "says"),
     [
         ({"units": {"force": "N"}}, "the sensor 'position' has no unit"),
+        ({"units": {**UNITS, "positon": "m"}}, "units names 'positon'.*did you mean 'position'"),
         ({"units": {"force": "N", "position": "kg"}}, "does not measure position"),
         ({"rate": 100.0}, "both time and rate"),
         ({"inputs": {"force": U[:-1]}}, "differ in length"),
@@ -135,32 +136,36 @@ def test_a_model_of_ones_own_makes_a_case(tmp_path):
     case = lm.Case(
         recording(), Cart(), known={"m": 1.0}, estimate={"c": lm.LogUniform(0.1, 9.0), "k": lm.Uniform(1, 99)}
     )
-    assert case.prepared(Registry.discover()).model == Cart()
-    with pytest.raises(lm.LostMotionError, match="stands in no file"):
+    assert case.prepare(Registry.discover()).model == Cart()
+    with pytest.raises(lm.LostMotionError, match="no file defines"):
         case.write(tmp_path / "folder")
     assert not (tmp_path / "folder").exists()
 
 
 def test_terms_are_chosen_by_name():
     case = lm.Case(recording(), "linear_oscillator", {"m": 1.0}, {"c": lm.LogUniform(0.1, 9.0), "k": lm.Uniform(1, 99)})
-    found = case.prepared(Registry.discover(), ["coulomb_friction", "offset_force"])
+    found = case.prepare(Registry.discover(), ["coulomb_friction", "offset_force"])
     assert {term.name for term in found.terms} == {"coulomb_friction", "offset_force"}
+    (one,) = case.prepare(Registry.discover(), ["coulomb_friction@ground"]).terms
+    assert (one.name, one.at) == ("coulomb_friction", "ground")
+    with pytest.raises(lm.LostMotionError, match="coulomb_friction cannot act at 'base': it can at ground"):
+        case.prepare(Registry.discover(), ["coulomb_friction@base"])
     with pytest.raises(lm.LostMotionError, match="did you mean 'coulomb_friction'"):
-        case.prepared(Registry.discover(), "coulomb_frction")
+        case.prepare(Registry.discover(), "coulomb_frction")
 
 
 def test_a_recording_and_a_model_are_a_case_with_wide_priors():
-    from lostmotion.notebook.doors import case_from
+    from lostmotion.notebook.doors import make_case
 
-    case = case_from(recording(), "m*x'' + c*x' + k*x = force", {"m": 1.0}, None, Registry.discover())
+    case = make_case(recording(), "m*x'' + c*x' + k*x = force", {"m": 1.0}, None, Registry.discover())
     assert set(case.estimate) == {"c", "k"}
     assert all(prior.kind == "log-uniform" for prior in case.estimate.values())
     with pytest.raises(lm.LostMotionError, match="a recording alone is no case"):
-        case_from(recording(), None, None, None, Registry.discover())
+        make_case(recording(), None, None, None, Registry.discover())
 
 
 def test_a_folder_without_a_result_is_refused(tmp_path):
-    with pytest.raises(lm.LostMotionError, match="holds no result"):
+    with pytest.raises(lm.LostMotionError, match="contains no result"):
         lm.load(tmp_path)
 
 
@@ -170,3 +175,37 @@ def test_no_option_hides_behind_stars(name):
     if not isinstance(door, type) and name != "model":
         kinds = [one.kind for one in inspect.signature(door).parameters.values()]
         assert inspect.Parameter.VAR_KEYWORD not in kinds
+
+
+def test_a_column_that_is_not_there_is_named(tmp_path):
+    np.savetxt(tmp_path / "run.csv", np.c_[T, U, X], delimiter=",", header="t,F,x", comments="")
+    which = {"sensors": {"position": "x"}, "units": {"x": "mm"}}
+    with pytest.raises(lm.LostmotionError, match=r"no column 'G', which inputs asks for: it has t, F, x"):
+        lm.Recording.read(tmp_path / "run.csv", time="t", inputs={"force": "G"}, **which)
+
+
+def test_what_a_case_says_beside_its_model_is_written_too(tmp_path):
+    limits, sensor = Experiment(max_level=5.0), SensorSpec("shared", lm.Normal(0.0, 1e-3))
+    model = lm.model("linear_oscillator")
+    priors = {"c": lm.LogUniform(0.1, 10.0), "k": lm.Normal(25.0, 5.0)}
+    case = lm.Case(recording(), model, {"m": 1.0}, priors, experiment=limits, sensor=sensor)
+    again = lm.Case.read(case.write(tmp_path / "folder"))
+    assert (again.experiment, again.sensor) == (limits, sensor)
+    assert repr(again.estimate["k"]) == "Normal(25.0, 5.0)"
+
+
+def test_a_prior_that_cannot_be_meant_is_refused_in_a_sentence():
+    with pytest.raises(lm.LostmotionError, match="the prior has low = 3 and high = 2"):
+        lm.LogUniform(3.0, 2.0)
+
+
+def test_an_equation_shows_itself_as_a_model():
+    assert repr(lm.model("m*x'' + c*x' = force")) == "<model m*x'' + c*x' = force (translation)>"
+
+
+def test_a_map_without_a_place_leaves_no_file(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    few = {"periods": 40, "transient": 5, "starts": 1}
+    found = lm.map("lin_backlash", axes="alpha=0.3:0.4:2", sets=("zeta=0.05",), **few)
+    assert found.sizes["alpha"] == 2
+    assert not list(tmp_path.iterdir())

@@ -134,3 +134,18 @@ def test_volts_keep_their_unit_in_a_remark(tmp_path):
     draft = begun(tmp_path / "run.csv", tmp_path / "case.toml", GivenRoles(), Registry.discover())
     assert "the file says V, which may need a factor: N and force are guesses" in draft.text
     assert any("drive [V] (V, taken for N)" in line for line in draft.found)
+
+
+def test_a_short_drive_that_repeats_is_said_to_repeat(tmp_path):
+    force = 5.0 * np.cos(2.0 * np.pi * 2.07 * T)
+    path = table(tmp_path, "t,F,x\ns,N,mm", T, force, np.roll(force, 9))
+    found = begun(path, tmp_path / "case.toml", GivenRoles(), Registry.discover()).found
+    assert "the drive repeats every 0.4831 s" in found
+
+
+def test_a_column_without_a_unit_is_shown_with_what_it_is_taken_for(tmp_path):
+    force, x = recorded()
+    found = begun(
+        table(tmp_path, "t,F,qm", T, force, x), tmp_path / "case.toml", GivenRoles(), Registry.discover()
+    ).found
+    assert any("qm (no unit, taken for m): position" in line and "-> response" in line for line in found)

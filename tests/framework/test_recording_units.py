@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from lostmotion.analysis.source import WantedChannel, source_of
+from lostmotion.analysis.source import WantedChannel, load_source
 from lostmotion.errors import DataError
 from lostmotion.quantities import si_factor
 from lostmotion.recording import Channel, RecordingSpec, load_recording
@@ -152,7 +152,7 @@ def test_a_case_that_contradicts_the_header_is_doubted(tmp_path: Path) -> None:
 
 
 def test_a_bare_file_is_analysed_at_its_true_rate(tmp_path: Path) -> None:
-    source = source_of(logged(tmp_path) / "run.csv", WantedChannel(columns=("x",)), Registry())
+    source = load_source(logged(tmp_path) / "run.csv", WantedChannel(columns=("x",)), Registry())
     assert 1 / source.dt == pytest.approx(RATE, rel=1e-6)
     np.testing.assert_allclose(source.x[2:-2], 1e3 * np.sin(40 * np.arange(N) / RATE)[2:-2], atol=3e-2)
     assert any("read in ms" in note for note in source.notes)
@@ -161,6 +161,6 @@ def test_a_bare_file_is_analysed_at_its_true_rate(tmp_path: Path) -> None:
 def test_a_second_name_is_no_second_column(tmp_path: Path) -> None:
     rows = "".join(f"{1e3 * t:.6f},{np.sin(40 * t):.6f}\n" for t in EVEN)
     (tmp_path / "run.csv").write_text("Time [ms],angle [rad]\n" + rows)
-    source = source_of(tmp_path / "run.csv", WantedChannel(), Registry())
+    source = load_source(tmp_path / "run.csv", WantedChannel(), Registry())
     assert source.label == "angle [rad]"
     assert 1 / source.dt == pytest.approx(RATE, rel=1e-6)

@@ -12,10 +12,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from lostmotion.analysis.report.measures import natural
+from lostmotion.analysis.report.measures import convert_to_natural
 from lostmotion.analysis.report.page import SECTIONS, render, write_analysis
-from lostmotion.analysis.report.summary import figure_summary
-from lostmotion.analysis.report.tables import estimate, opening, verdict
+from lostmotion.analysis.report.summary import save_summary
+from lostmotion.analysis.report.tables import make_estimate_row, name_verdict, split_opening
 from lostmotion.analysis.report.view import read_analysis
 from lostmotion.codec import to_plain
 from lostmotion.errors import DataError
@@ -88,8 +88,8 @@ def test_it_opens_with_the_verdict_and_its_first_sentence(pages):
     page = pages["chaotic"]
     assert '<p class="badge chaotic">Chaotic</p>' in page
     assert re.search(r"<h1>(.*?)</h1>", page)[1].startswith("Neighbouring states part at 7.3 1/s [6.6, 8.1]")
-    assert page.index("<h1>") < page.index("Largest Lyapunov exponent") < page.index("What to mind")
-    assert page.index("What to mind") < page.index("<figure>")
+    assert page.index("<h1>") < page.index("Largest Lyapunov exponent") < page.index("Limitations")
+    assert page.index("Limitations") < page.index("<figure>")
 
 
 @pytest.mark.parametrize(
@@ -97,12 +97,12 @@ def test_it_opens_with_the_verdict_and_its_first_sentence(pages):
     [
         ("It is 0.5 s. No more is known.", ["It is 0.5 s.", "No more is known."]),
         ("p = 0.02 vs. noise", ["P = 0.02 vs. noise."]),
-        ("", ["Nothing was said about this recording."]),
-        (" ", ["Nothing was said about this recording."]),
+        ("", ["The analysis has no sentence about this recording."]),
+        (" ", ["The analysis has no sentence about this recording."]),
     ],
 )
 def test_sentences_are_told_apart(whole, says, parts):
-    assert opening(replace(whole.result, says=says)) == parts
+    assert split_opening(replace(whole.result, says=says)) == parts
 
 
 def test_all_figures_stand_in_their_order(pages):
@@ -175,7 +175,7 @@ def test_refusals_are_said_in_place_of_a_number(pages):
     ],
 )
 def test_one_estimate_in_words(facts, value, kind):
-    row = estimate("It", facts)
+    row = make_estimate_row("It", facts)
     assert (row.value, row.kind) == (value, kind)
     assert kind == "ok" or row.remark.endswith(".")
 
@@ -239,7 +239,7 @@ def test_facts_that_no_command_wrote_are_refused(tmp_path, facts, says):
 def test_line_has_the_slope_of_the_exponent_in_any_unit(whole, unit, value):
     drive = DrivePeriod(period=0.5, samples_per_period=50.0, source="given")
     said = _said(whole, lyapunov=measure(2.0, unit=unit), drive=drive)
-    assert natural(said, 2.0) == pytest.approx(value)
+    assert convert_to_natural(said, 2.0) == pytest.approx(value)
 
 
 def test_ticks_and_cut_words():
@@ -250,7 +250,7 @@ def test_ticks_and_cut_words():
 
 @pytest.mark.parametrize("kind", list(made.KINDS))
 def test_summary_is_one_small_picture(folders, kind):
-    picture = figure_summary(folders[kind])
+    picture = save_summary(folders[kind])
     assert picture == folders[kind] / "summary.png"
     assert 5_000 < picture.stat().st_size < 250_000
 
@@ -277,4 +277,4 @@ def test_each_sign_stands_with_its_state_and_why(whole):
     ("strength", "word"), [("firm", "Chaotic"), ("likely", "Probably chaotic"), ("open", "Chaotic")]
 )
 def test_the_badge_is_as_firm_as_the_signs(whole, strength, word):
-    assert verdict(replace(whole.result, strength=strength)) == ("chaotic", word)
+    assert name_verdict(replace(whole.result, strength=strength)) == ("chaotic", word)

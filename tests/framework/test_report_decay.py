@@ -57,9 +57,9 @@ def test_wild_cycles_and_models_do_not_set_the_scale():
 
 def test_without_a_decay_there_is_no_figure():
     assert decay.draw_cycles([], unit="m") is None
-    assert "3 decays, one after each hit" in decay.caption_of(3)
-    assert "after the hit" in decay.caption_of()
-    assert "hit" not in decay.caption_of(struck=False)
+    assert "3 decays, one after each hit" in decay.caption_cycles(3)
+    assert "after the hit" in decay.caption_cycles()
+    assert "hit" not in decay.caption_cycles(struck=False)
 
 
 DECAY = {
@@ -115,5 +115,5 @@ def test_where_nothing_drives_the_page_speaks_of_no_drive(tmp_path):
     assert "<h2>Phase portrait</h2>" in page
     assert "Its share of the inertial force" in page
     assert "Poincar" not in words
-    assert "winds inwards" in words
+    assert "follows the same spiral" in words
     assert "hit" not in words.partition("Free decay")[2].partition("</section>")[0].replace("white", "")

@@ -57,9 +57,9 @@ def test_each_sensor_has_its_panels_and_its_row(data, tmp_path):
     units = [axes.get_ylabel().rpartition("(")[2] for axes in figure.axes]
     assert [unit.removesuffix(")").removeprefix("m") for unit in units[:2]] == ["m", "m"]
     assert all(unit.endswith("m/s)") for unit in units[2:])
-    assert sensors.table(evidence).rows == [
+    assert sensors.make_table(evidence).rows == [
         ["motor <b>", "position", "40 µm", "white", "19 %", "1.2 %"],
-        ["load", "second velocity", "2 mm/s", "with a memory", "23 %", "1.3 %"],
+        ["load", "second velocity", "2 mm/s", "autocorrelated", "23 %", "1.3 %"],
     ]
     page = write_report(home).read_text(encoding="utf-8")
     assert page.index("section-prediction") < page.index("section-sensors") < page.index("section-missing")
@@ -69,7 +69,7 @@ def test_each_sensor_has_its_panels_and_its_row(data, tmp_path):
 @pytest.mark.usefixtures("unsaved")
 def test_one_model_has_one_column_of_errors(data, tmp_path):
     evidence = read_evidence(made.write(tmp_path, facts(made.adequate), two_sensors(made.alone(data))))
-    table = sensors.table(evidence)
+    table = sensors.make_table(evidence)
     assert table.head[-1] == "Error"
     assert [row[-1] for row in table.rows] == ["19 %", "23 %"]
 

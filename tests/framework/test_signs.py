@@ -8,12 +8,13 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from lostmotion.analysis.beat import Beat, MotionEvidence
-from lostmotion.analysis.motion import _locked, verdict_on
-from lostmotion.analysis.signs import FEWEST_SAMPLES, signs_of
+from lostmotion.analysis.motion import _find_common_period, judge_motion
+from lostmotion.analysis.period import BasePeriod, MotionEvidence
+from lostmotion.analysis.signs import collect_signs
 from lostmotion.analysis.surrogates import SurrogateTest
 from lostmotion.contracts import Series
 from lostmotion.results import Embedding, Estimate
+from lostmotion.settings import DEFAULT
 from lostmotion_plugins.quantifiers.correlation_curves import measure_flatness
 from lostmotion_plugins.quantifiers.dimension import MOST_SCATTER, MOST_TILT
 
@@ -22,7 +23,7 @@ NOTHING = Estimate.refused("no_scaling_region", "There is no straight piece.")
 GROWN = {"e_folds": 1.6, "fit_begin": 0.5, "fit_end": 1.7}
 EXPONENTS = {
     "for": Estimate(2.0, 1.5, 2.5, "ok", "1/s", details=GROWN),
-    "against": Estimate.refused("regular", "Near states do not part."),
+    "against": Estimate.refused("regular", "Neighbouring states do not diverge."),
     "silent": NOTHING,
 }
 DIMENSIONS = {
@@ -48,28 +49,28 @@ def evidence(*, exponent=NOTHING, dimension=NOTHING, entropy=NOTHING, ranks=(0.0
     raw = Series(x, dt, Embedding(4, 4, 20), period)
     level = SimpleNamespace(value=0.0, low=0.0, high=0.001)
     tests = tuple(ranked(p, m) for p, m in zip(ranks, ("iaaft", "pseudo_periodic"), strict=False))
-    beat = Beat(period, "given" if period else "none")
-    return MotionEvidence(beat, raw, SimpleNamespace(series=raw, before=level), exponent, dimension, entropy, tests)
+    base = BasePeriod(period, "given" if period else "none")
+    return MotionEvidence(base, raw, SimpleNamespace(series=raw, before=level), exponent, dimension, entropy, tests)
 
 
 def state(it, key):
-    return next(s for s in signs_of(it) if s.key == key).state
+    return next(s for s in collect_signs(it) if s.key == key).state
 
 
 @pytest.mark.parametrize("wanted", ["for", "against", "silent"])
 def test_each_sign_has_its_state_and_a_sentence_why(wanted):
     it = evidence(exponent=EXPONENTS[wanted], dimension=DIMENSIONS[wanted], entropy=ENTROPIES[wanted],
                   ranks=(RANKS[wanted],))  # fmt: skip
-    for sign in signs_of(it)[1:]:
+    for sign in collect_signs(it)[1:]:
         assert sign.state == wanted, sign
-    assert all(sign.says.endswith((".", ":")) and sign.excludes for sign in signs_of(it))
+    assert all(sign.says.endswith((".", ":")) and sign.excludes for sign in collect_signs(it))
 
 
 @pytest.mark.parametrize("states", list(itertools.product(("for", "against", "silent"), repeat=4)))
 def test_the_headline_says_no_more_than_the_weakest_sign_allows(states):
     """All 81 combinations of test, exponent, dimension and entropy, on a motion that never comes back."""
     test, exponent, dimension, entropy = states
-    found = verdict_on(evidence(exponent=EXPONENTS[exponent], dimension=DIMENSIONS[dimension],
+    found = judge_motion(evidence(exponent=EXPONENTS[exponent], dimension=DIMENSIONS[dimension],
                             entropy=ENTROPIES[entropy], ranks=(RANKS[test],)))  # fmt: skip
     assert [s.state for s in found.signs] == ["for", *states]
     measured = states[1:].count("for")
@@ -86,7 +87,7 @@ def test_the_headline_says_no_more_than_the_weakest_sign_allows(states):
 
 def test_what_is_silent_is_not_called_noise():
     """It was "stochastic": no exponent and no dimension could be read, of chaos recorded for 26 periods."""
-    found = verdict_on(evidence())
+    found = judge_motion(evidence())
     assert found.motion == "undecided"
     assert "1 silent" not in found.says
     assert "3 silent" in found.says
@@ -95,7 +96,7 @@ def test_what_is_silent_is_not_called_noise():
 def test_the_page_that_was_seen_is_undecided():
     """Growth by 0.6 e-foldings within less than a period, no entropy, and no plateau: "all signs agree" stood there."""
     brief = Estimate(7.0, 5.9, 8.1, "uncertain", "1/s", details={"e_folds": 0.6, "fit_begin": 0.2, "fit_end": 0.6})
-    found = verdict_on(evidence(exponent=brief))
+    found = judge_motion(evidence(exponent=brief))
     assert found.motion == "undecided"
     assert state(evidence(exponent=brief), "exponent") == "silent"
     assert "All" not in found.says
@@ -117,7 +118,7 @@ def test_the_dimension_of_a_closed_curve_speaks_against_chaos():
 
 def test_a_number_with_a_doubt_is_no_sign():
     doubted = Estimate(2.3, 2.1, 2.5, "uncertain", says="Too few pairs.")
-    sign = next(s for s in signs_of(evidence(dimension=doubted)) if s.key == "dimension")
+    sign = next(s for s in collect_signs(evidence(dimension=doubted)) if s.key == "dimension")
     assert (sign.state, sign.says) == ("silent", "Too few pairs.")
 
 
@@ -126,7 +127,7 @@ def test_no_entropy_in_a_turn_speaks_against_chaos():
 
 
 def test_a_short_recording_silences_its_tests():
-    it = evidence(x=np.random.default_rng(0).normal(size=FEWEST_SAMPLES - 1))
+    it = evidence(x=np.random.default_rng(0).normal(size=int(DEFAULT.motion.fewest_samples) - 1))
     assert state(it, "surrogates_iaaft") == "silent"
 
 
@@ -135,20 +136,20 @@ def test_a_few_cycles_of_a_sine_are_not_called_noise():
     t = 0.02 * np.arange(3000)
     it = evidence(x=np.sin(2.0 * np.pi * 7.0 * t / t[-1]), ranks=(0.6,), period=None)
     assert state(it, "surrogates_iaaft") == "silent"
-    assert verdict_on(it).motion == "undecided"
+    assert judge_motion(it).motion == "undecided"
 
 
 def test_cycles_that_can_be_shuffled_forbid_chaos():
     both = {"exponent": EXPONENTS["for"], "dimension": DIMENSIONS["for"], "entropy": ENTROPIES["for"]}
-    assert verdict_on(evidence(**both, ranks=(0.01, 0.01))).strength == "firm"
-    found = verdict_on(evidence(**both, ranks=(0.01, 0.4)))
+    assert judge_motion(evidence(**both, ranks=(0.01, 0.01))).strength == "firm"
+    found = judge_motion(evidence(**both, ranks=(0.01, 0.4)))
     assert found.motion == "undecided"
     assert "1 against it (order of the cycles)" in found.says
 
 
 def test_growth_in_a_motion_that_comes_back_is_said():
     x = np.sin(2.0 * np.pi * 0.02 * np.arange(1500) / PERIOD)
-    calm, odd = (verdict_on(evidence(x=x, exponent=EXPONENTS[k])) for k in ("against", "for"))
+    calm, odd = (judge_motion(evidence(x=x, exponent=EXPONENTS[k])) for k in ("against", "for"))
     assert (calm.motion, calm.strength) == ("periodic", "firm")
     assert (odd.motion, odd.strength) == ("periodic", "likely")
     assert "contradicts" in odd.says
@@ -158,7 +159,7 @@ def test_growth_in_a_motion_that_comes_back_is_said():
 def test_a_motion_that_changes_is_told_nothing_of(what):
     t = np.linspace(0.0, 1.0, 8000)
     x = {"size": np.exp(-4.0 * t) * np.sin(900.0 * t), "pace": np.sin(1000.0 * t**4)}[what]
-    found = verdict_on(evidence(x=x, period=None))
+    found = judge_motion(evidence(x=x, period=None))
     assert found.motion == "undecided"
     assert f"The {what} of the motion changes" in found.says
 
@@ -168,7 +169,7 @@ def test_a_motion_that_changes_is_told_nothing_of(what):
 )
 def test_frequencies_are_told_apart_as_far_as_a_recording_resolves_them(ratio, periods, after):
     """A beam in one well at 4/3 of its drive: four seconds of it were called quasiperiodic."""
-    assert _locked(ratio, periods) == after
+    assert _find_common_period(ratio, DEFAULT.motion.resolution / periods) == after
 
 
 def find_plateau(rows, first=3):

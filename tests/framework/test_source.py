@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from lostmotion.analysis.source import WantedChannel, source_of
+from lostmotion.analysis.source import WantedChannel, load_source
 from lostmotion.errors import CaseError, DataError
 from lostmotion.registry import Registry
 
@@ -37,7 +37,7 @@ def folder(tmp_path):
 
 
 def test_a_case_gives_its_first_recording_in_si_units_and_says_so(folder):
-    source = source_of(folder / "case.toml", WantedChannel(), Registry())
+    source = load_source(folder / "case.toml", WantedChannel(), Registry())
     assert source.unit == "m"
     assert np.ptp(source.x) == pytest.approx(2e-3, rel=0.01)
     assert source.excitation is not None
@@ -45,31 +45,31 @@ def test_a_case_gives_its_first_recording_in_si_units_and_says_so(folder):
 
 
 def test_another_recording_is_had_by_its_name(folder):
-    source = source_of(folder / "case.toml", WantedChannel(columns=("high",)), Registry())
+    source = load_source(folder / "case.toml", WantedChannel(columns=("high",)), Registry())
     assert np.ptp(source.x) == pytest.approx(4e-3, rel=0.01)
     with pytest.raises(CaseError, match="did you mean 'high'"):
-        source_of(folder / "case.toml", WantedChannel(columns=("hihg",)), Registry())
+        load_source(folder / "case.toml", WantedChannel(columns=("hihg",)), Registry())
 
 
 @pytest.mark.parametrize("name", ["case.toml", "low.csv"])
 def test_the_longest_stretch_without_a_gap_is_taken(folder, name):
-    source = source_of(folder / name, WantedChannel(columns=() if name == "case.toml" else ("position",)), Registry())
+    source = load_source(folder / name, WantedChannel(columns=() if name == "case.toml" else ("position",)), Registry())
     assert len(source.x) == ROWS - 8
     assert any(f"{ROWS - 8} of {ROWS} samples" in note for note in source.notes)
 
 
 def test_a_rate_stands_in_for_time(folder):
     np.savetxt(folder / "bare.csv", np.sin(np.arange(300)), header="angle", comments="")
-    assert source_of(folder / "bare.csv", WantedChannel(rate=250.0), Registry()).dt == pytest.approx(0.004)
+    assert load_source(folder / "bare.csv", WantedChannel(rate=250.0), Registry()).dt == pytest.approx(0.004)
     with pytest.raises(DataError, match="--rate HZ"):
-        source_of(folder / "bare.csv", WantedChannel(), Registry())
+        load_source(folder / "bare.csv", WantedChannel(), Registry())
 
 
 def test_pieces_are_joined_in_order_and_thinned(folder):
     np.savez(folder / "blocks.npz", angle=np.arange(900.0).reshape(3, 300))
-    source = source_of(folder / "blocks.npz", WantedChannel(columns=("angle[*]",), rate=100.0, every=3), Registry())
+    source = load_source(folder / "blocks.npz", WantedChannel(columns=("angle[*]",), rate=100.0, every=3), Registry())
     assert source.x.tolist() == list(np.arange(0.0, 900.0, 3.0))
     assert source.dt == pytest.approx(0.03)
     assert any("3 pieces are joined" in note for note in source.notes)
     with pytest.raises(DataError, match="did you mean"):
-        source_of(folder / "blocks.npz", WantedChannel(columns=("angel[*]",), rate=100.0), Registry())
+        load_source(folder / "blocks.npz", WantedChannel(columns=("angel[*]",), rate=100.0), Registry())

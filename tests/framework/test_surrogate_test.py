@@ -168,7 +168,7 @@ def test_too_few_draws_are_refused(sided, draws):
 
 
 def test_unknown_side():
-    with pytest.raises(DataError, match="say two, low"):
+    with pytest.raises(DataError, match="give two, low"):
         ranked(np.mean, sided="left")
 
 

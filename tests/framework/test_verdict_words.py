@@ -8,7 +8,7 @@ import report_fixture as made
 
 from lostmotion.diagnosis import verdict
 from lostmotion.diagnosis.notes import drowned
-from lostmotion.diagnosis.report.opening import badge
+from lostmotion.diagnosis.report.opening import make_badge
 from lostmotion.diagnosis.run import unused
 from lostmotion.diagnosis.search import _check_moving
 from lostmotion.errors import DataError
@@ -80,7 +80,7 @@ def test_noise_that_may_be_motion_is_doubted():
 def test_a_force_without_a_name_is_not_called_explained(mechanism, words):
     facts = made.mismatch()
     facts["found"][0] |= {"mechanism": mechanism, "state": words}
-    assert badge(made.evidence(facts).result).words == f"Mismatch, {words}"
+    assert make_badge(made.evidence(facts).result).words == f"Mismatch, {words}"
 
 
 def test_a_number_without_a_dimension_has_no_unit():

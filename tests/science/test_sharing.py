@@ -176,5 +176,5 @@ def test_a_diagnosis_says_whether_friction_holds(tmp_path, odd):
     assert first.shared.holds is (odd == 1.0)
     assert bool(first.doubts) is (odd != 1.0)
     page = (tmp_path / "out" / "report.html").read_text()
-    assert "What recordings share" in page
+    assert "Parameters in each recording" in page
     assert ("no, differs in" in page) is (odd != 1.0)

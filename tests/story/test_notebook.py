@@ -84,6 +84,16 @@ def test_the_posterior_agrees_with_the_diagnosis(run):
     assert "coulomb_friction.force" in space["posterior"].to_arviz().posterior
 
 
+def test_the_diagnosis_serves_arviz(run):
+    import arviz as az
+
+    data = run[0]["found"].to_arviz()
+    left_out = az.loo(data)
+    assert 1.0 < left_out.p_loo < 20.0
+    assert float((left_out.pareto_k > 0.7).mean()) < 0.05
+    assert az.plot_ppc(data, show=False) is not None
+
+
 def test_the_posterior_serves_arviz(run):
     """Blocks add up to the density that was sampled but for the priors, which are flat but for their coordinates."""
     import arviz as az

@@ -1,1 +1,1 @@
-"""The chaos laboratory: from a recording to what kind of motion it is, step by step, and the page."""
+"""Nonlinear time series analysis: from a recording to the kind of its motion, and the page."""

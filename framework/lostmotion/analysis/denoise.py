@@ -1,4 +1,4 @@
-"""Noise taken off without a model, its level measured before and after."""
+"""Noise reduction without a model, with the noise level before and after."""
 
 from __future__ import annotations
 
@@ -23,24 +23,24 @@ class Denoised:
 def denoise(series: Series, denoiser: Denoiser, meter: Quantifier[Series], *, rng: np.random.Generator) -> Denoised:
     """Return the cleaned series; `meter` measures the noise, as a share of the signal's standard deviation.
 
-    A series in which `meter` finds no noise comes back as it is. What is left of the noise is not measured on the
-    cleaned series, where it is no longer white and hides from any meter: noise of the same level is put on the cleaned
-    series and cleaned off again, and what is left of that is known. Raises `ContractError` when the denoiser returns
-    something that is no series of the same length.
+    A series without measurable noise is returned unchanged. The remaining noise is not measured on the cleaned series,
+    because it is no longer white there and no meter detects it. Instead, noise of the same level is added to the
+    cleaned series and removed again; the remainder of this known noise gives the level. Raises `ContractError` when the
+    denoiser does not return finite samples of the same length.
     """
     before = meter.estimate(series, rng=rng)
     if not before.value > 0.0:
         return Denoised(series, before, before)
     size = float(np.std(series.x))
-    # A denoiser that may take off less than there is stops short; one that may take off a little more does no harm.
+    # With too low a limit a denoiser removes too little; a limit that is a little too high does no harm.
     most = before.high * size
-    cleaned = replace(series, x=_cleaned(series, denoiser, most, rng))
+    cleaned = replace(series, x=_clean_samples(series, denoiser, most, rng))
     again = replace(cleaned, x=cleaned.x + before.value * size * rng.normal(size=series.n))
-    left = float(np.std(_cleaned(again, denoiser, most, rng) - cleaned.x)) / size
-    return Denoised(cleaned, before, _scaled(before, left / before.value))
+    left = float(np.std(_clean_samples(again, denoiser, most, rng) - cleaned.x)) / size
+    return Denoised(cleaned, before, _scale_level(before, left / before.value))
 
 
-def _cleaned(series: Series, denoiser: Denoiser, noise: float, rng: np.random.Generator) -> Array:
+def _clean_samples(series: Series, denoiser: Denoiser, noise: float, rng: np.random.Generator) -> Array:
     """Return the cleaned samples (n,), finite."""
     x = np.asarray(denoiser.clean(series, noise=noise, rng=rng), dtype=float)
     if x.shape != series.x.shape or not np.isfinite(x).all():
@@ -51,7 +51,7 @@ def _cleaned(series: Series, denoiser: Denoiser, noise: float, rng: np.random.Ge
     return x
 
 
-def _scaled(before: Estimate, share: float) -> Estimate:
-    """Return the level when so much of it is left; it is as uncertain as it was."""
+def _scale_level(before: Estimate, share: float) -> Estimate:
+    """Return the level multiplied by a share, with the same relative uncertainty."""
     value, low, high = (share * v for v in (before.value, before.low, before.high))
     return Estimate(value, low, high, before.status, before.unit, says=before.says)

@@ -1,4 +1,4 @@
-"""From a recorded channel to a series that is embedded: the first stage of the chaos laboratory."""
+"""Delay embedding of a recorded channel: the first stage of the analysis."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from lostmotion.errors import ContractError, DataError
 from lostmotion.results import STATUSES, Embedding
 from lostmotion.signals import checked
 
-FEWEST = 100
-"""Fewer delay vectors than this are refused."""
+MIN_DELAY_VECTORS = 100
+"""Smallest number of delay vectors that is accepted."""
 
 
 def embed(values: ArrayLike, embedder: Embedder, *, dt: float, period: float | None = None) -> Series:
-    """Return the series of `values` (n,) sampled every `dt` s, centred, with the embedding that `embedder` chooses.
+    """Return the centred series of `values` (n,), sampled every `dt` s, with the embedding that `embedder` chooses.
 
     `period` (s) is that of the drive, if there is one. Raises `DataError` for values that cannot be analysed.
     """
@@ -42,8 +42,8 @@ def _require_sound(chosen: Embedding, name: str) -> None:
 
 def _require_room(n: int, chosen: Embedding) -> None:
     rows = n - chosen.window + 1
-    if rows < FEWEST:
+    if rows < MIN_DELAY_VECTORS:
         raise DataError(
             f"a series of {n} samples is too short for dim {chosen.dim} and lag {chosen.lag} ({max(rows, 0)} delay "
-            f"vectors, {FEWEST} wanted): record longer, or lower the dimension"
+            f"vectors, {MIN_DELAY_VECTORS} needed): record longer, or lower the dimension"
         )

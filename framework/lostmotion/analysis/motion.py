@@ -1,4 +1,4 @@
-"""What kind of motion it is: periodic, quasiperiodic, chaotic or stochastic, and how firmly its signs bear that."""
+"""The verdict on a motion: periodic, quasiperiodic, chaotic or stochastic, and the strength of its evidence."""
 
 from __future__ import annotations
 
@@ -7,26 +7,22 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from lostmotion.analysis.beat import MOST_PERIODS, MotionEvidence, returned, returns
-from lostmotion.analysis.signs import FEWEST_SAMPLES, grows, signs_of, turn_of
+from lostmotion.analysis.period import MAX_RETURN_PERIODS, MotionEvidence, find_return, measure_returns
+from lostmotion.analysis.signs import collect_signs, format_estimate, is_growing, measure_turn
 from lostmotion.contracts import Series
 from lostmotion.defaults import SURROGATE_OF_CYCLES
-from lostmotion.results import Estimate, percent
+from lostmotion.results import percent
 from lostmotion.results.analysis import MotionKind, Sign, State, Strength
 
-ENOUGH_PERIODS = 100
-FEWEST_VALUES = 16
-TOLD_APART = 0.25
-"""Frequencies closer than this share of one line of the spectrum are not told apart."""
-MEASURED = ("exponent", "dimension", "entropy")
-"""What is measured of a motion."""
-LINEAR = "surrogates_"
-TESTED_CYCLES = LINEAR + SURROGATE_OF_CYCLES
+MEASURED_SIGNS = ("exponent", "dimension", "entropy")
+"""The keys of the signs that are measured quantities."""
+TEST_PREFIX = "surrogates_"
+CYCLE_TEST = TEST_PREFIX + SURROGATE_OF_CYCLES
 
 
 @dataclass(frozen=True)
 class Verdict:
-    """The kind of motion, how firmly, one or two sentences, what it rests on, and the state of every sign of chaos."""
+    """The kind of motion, the strength of the evidence, one or two sentences, the reasons, and all signs of chaos."""
 
     motion: MotionKind
     says: str
@@ -36,47 +32,57 @@ class Verdict:
 
 
 @dataclass(frozen=True, eq=False)
-class Weighed:
+class SignedEvidence:
     """The evidence with its signs."""
 
     evidence: MotionEvidence
     signs: tuple[Sign, ...]
 
-    def state(self, key: str) -> State:
+    def get_state(self, key: str) -> State:
         """Return the state of one sign, silent where it is absent."""
         return next((s.state for s in self.signs if s.key == key), "silent")
 
-    def those(self, state: State) -> tuple[Sign, ...]:
+    def select(self, state: State) -> tuple[Sign, ...]:
         """Return the signs in this state."""
         return tuple(s for s in self.signs if s.state == state)
 
     @property
     def tests(self) -> tuple[Sign, ...]:
         """The surrogate tests."""
-        return tuple(s for s in self.signs if s.key.startswith(LINEAR))
+        return tuple(s for s in self.signs if s.key.startswith(TEST_PREFIX))
 
     @property
     def linear(self) -> tuple[Sign, ...]:
         """The surrogate tests of linear noise."""
-        return tuple(s for s in self.tests if s.key != TESTED_CYCLES)
+        return tuple(s for s in self.tests if s.key != CYCLE_TEST)
 
-    def verdict(self, motion: MotionKind, says: str, strength: Strength, first: tuple[str, ...] = ()) -> Verdict:
-        """Return a verdict with all signs, and what it rests on: `first`, and what the signs that spoke said."""
+    def make_verdict(self, motion: MotionKind, says: str, strength: Strength, first: tuple[str, ...] = ()) -> Verdict:
+        """Return a verdict with all signs and its reasons: `first`, then the texts of the signs that are not silent."""
         spoken = (f"{s.name}: {s.says}" for s in self.signs if s.state != "silent")
         return Verdict(motion, says, (*first, *spoken), strength, self.signs)
 
 
-def verdict_on(evidence: MotionEvidence) -> Verdict:
-    """Return the verdict on a motion: that of the first rule that holds, else undecided."""
-    it = Weighed(evidence, signs_of(evidence))
-    for rule in (_unsteady, _periodic, _quasiperiodic, _coarse, _regular, _jittering, _chaotic, _short, _stochastic):
+def judge_motion(evidence: MotionEvidence) -> Verdict:
+    """Return the verdict on a motion: that of the first rule that applies, else undecided."""
+    it = SignedEvidence(evidence, collect_signs(evidence))
+    for rule in (
+        _judge_unsteady,
+        _judge_periodic,
+        _judge_quasiperiodic,
+        _judge_coarse,
+        _judge_regular,
+        _judge_fluctuating,
+        _judge_chaotic,
+        _judge_short,
+        _judge_stochastic,
+    ):
         if found := rule(it):
             return found
-    return it.verdict("undecided", _undecided_words(it), "open")
+    return it.make_verdict("undecided", _write_undecided(it), "open")
 
 
-def _unsteady(it: Weighed) -> Verdict | None:
-    """Return that nothing can be told of a motion whose size or pace changes, if it is more than slow linear noise."""
+def _judge_unsteady(it: SignedEvidence) -> Verdict | None:
+    """Return undecided for a motion whose size or speed changes, if it is not slow linear noise."""
     if not any(s.state == "for" for s in it.linear):
         return None
     dt, halves = it.evidence.raw.dt, np.array_split(it.evidence.denoised.series.x, 2)
@@ -86,205 +92,215 @@ def _unsteady(it: Weighed) -> Verdict | None:
         if max(first, second) > it.evidence.limits.uneven * min(first, second):
             says = (
                 f"The {what} of the motion changes along the recording, from {first:.3g}{unit} in its first half to "
-                f"{second:.3g}{unit} in its second one (root mean square): all signs suppose a steady motion, so look "
-                "at a stretch where it is one."
+                f"{second:.3g}{unit} in its second half (root mean square). All signs assume a stationary motion: "
+                "analyse a section in which the motion is stationary."
             )
-            return it.verdict("undecided", says, "open")
+            return it.make_verdict("undecided", says, "open")
     return None
 
 
-def _periodic(it: Weighed) -> Verdict | None:
-    """Return the verdict if the motion comes back to itself after some periods, to within its noise."""
-    period = it.evidence.beat.period
-    times, left = (0, 0.0) if period is None else returned(it.evidence.raw, period, it.evidence.noise)
+def _judge_periodic(it: SignedEvidence) -> Verdict | None:
+    """Return periodic if the motion repeats after some periods to within its noise."""
+    period = it.evidence.base.period
+    times, left = (
+        (0, 0.0) if period is None else find_return(it.evidence.raw, period, it.evidence.noise, it.evidence.limits)
+    )
     if not times or period is None:
         return None
     cycle = "each period" if times == 1 else f"every {times} periods"
     noise = f"{percent(left)}"
-    says = f"The motion repeats itself {cycle} of {period:.4g} s; {noise} of it does not repeat, no more than noise."
+    says = f"The motion repeats {cycle} of {period:.4g} s; {noise} of it does not repeat, which is within the noise."
     rests = f"return after {times} periods: {noise}, noise at most {percent(it.evidence.noise)}"
-    return it.verdict("periodic", says + _all_the_same(it), _unless_growth(it), (rests,))
+    return it.make_verdict("periodic", says + _note_contradiction(it), _rate_strength(it), (rests,))
 
 
-def _quasiperiodic(it: Weighed) -> Verdict | None:
-    """Return the verdict if two frequencies and their combinations explain the motion, to within its noise."""
-    evidence, period = it.evidence, it.evidence.beat.period
+def _judge_quasiperiodic(it: SignedEvidence) -> Verdict | None:
+    """Return quasiperiodic if two frequencies and their combinations explain the motion to within its noise."""
+    evidence, period = it.evidence, it.evidence.base.period
     found = next(s.figures for s in it.signs if s.key == "return")
     if period is None or "second" not in found or (evidence.exponent.ok and evidence.exponent.low > 0.0):
         return None
     pair = f"{1.0 / period:.4g} Hz and {found['second']:.4g} Hz"
     duration = evidence.raw.n * evidence.raw.dt
-    locked = _locked(found["second"] * period, duration / period)
-    if locked and not _drifts(evidence.raw, locked * period):
+    resolution = evidence.limits.resolution
+    locked = _find_common_period(found["second"] * period, resolution / (duration / period))
+    if locked and not _has_growing_miss(evidence.raw, locked * period, resolution):
         says = (
-            f"The motion is regular: {pair} make it up. In a recording of {duration / period:.0f} periods it is not "
-            f"told whether they have a common period of {locked} of these (periodic) or none (quasiperiodic)."
+            f"The motion is regular and consists of {pair}. A recording of {duration / period:.0f} periods does not "
+            f"show whether they have a common period of {locked} of these (periodic) or none (quasiperiodic)."
         )
-        return it.verdict("undecided", says, "open")
+        return it.make_verdict("undecided", says, "open")
     says = (
-        f"Two frequencies, {pair}, and their combinations make up the motion; "
-        f"{percent(found['left'])} of it is left, no more than noise."
+        f"The motion consists of two frequencies, {pair}, and their combinations; "
+        f"{percent(found['left'])} of it remains, which is within the noise."
     )
-    rests = f"left by two tones: {percent(found['left'])}, noise at most {percent(evidence.noise)}"
-    return it.verdict("quasiperiodic", says + _all_the_same(it), _unless_growth(it), (rests,))
+    rests = f"remainder beside two tones: {percent(found['left'])}, noise at most {percent(evidence.noise)}"
+    return it.make_verdict("quasiperiodic", says + _note_contradiction(it), _rate_strength(it), (rests,))
 
 
-def _locked(ratio: float, periods: float) -> int:
-    """Return after how many periods two frequencies of this ratio may come back together; 0 for never.
+def _find_common_period(ratio: float, tolerance: float) -> int:
+    """Return after how many periods two frequencies of this ratio may repeat together; 0 for never.
 
-    They do after q if the ratio lies within what the length of a recording resolves of a multiple of 1/q.
+    They do after q periods if the ratio lies within `tolerance` of a multiple of 1/q.
     """
-    for q in range(1, MOST_PERIODS // 2 + 1):
-        if abs(ratio - round(ratio * q) / q) < TOLD_APART / periods:
+    for q in range(1, MAX_RETURN_PERIODS // 2 + 1):
+        if abs(ratio - round(ratio * q) / q) < tolerance:
             return q
     return 0
 
 
-def _drifts(raw: Series, period: float) -> bool:
-    """Return whether a motion misses itself by ever more after 1, 2, ... of these periods, as two frequencies do."""
+def _has_growing_miss(raw: Series, period: float, resolution: float) -> bool:
+    """Return whether the difference grows after 1, 2, ... of these periods, as with two frequencies."""
     most = max(2, int(0.5 * raw.n * raw.dt / period))
-    spread = returns(raw, period, most)
-    return bool(np.nanmax(spread) > 1.0 / TOLD_APART * spread[0])
+    spread = measure_returns(raw, period, most)
+    return bool(np.nanmax(spread) > 1.0 / resolution * spread[0])
 
 
-def _coarse(it: Weighed) -> Verdict | None:
-    """Return that nothing can be told if the sensor shows too few values for near states to be told apart."""
-    values = len(np.unique(it.evidence.raw.x))
-    if values >= FEWEST_VALUES:
+def _judge_coarse(it: SignedEvidence) -> Verdict | None:
+    """Return undecided if the sensor shows too few values to distinguish neighbouring states."""
+    values, fewest = len(np.unique(it.evidence.raw.x)), it.evidence.limits.fewest_values
+    if values >= fewest:
         return None
     says = (
-        f"The recording holds {values} different values only, and near states cannot be told apart: "
-        f"{FEWEST_VALUES} are wanted, so use a finer sensor or a larger motion."
+        f"The recording has only {values} different values, so neighbouring states cannot be distinguished: "
+        f"{fewest:g} are needed. Use a finer sensor or a larger motion."
     )
-    return it.verdict("undecided", says, "open")
+    return it.make_verdict("undecided", says, "open")
 
 
-def _regular(it: Weighed) -> Verdict | None:
-    """Return the verdict if near states do not part, the motion is no noise, and it does not come back either."""
+def _judge_regular(it: SignedEvidence) -> Verdict | None:
+    """Return quasiperiodic if neighbouring states do not diverge, the motion is not noise, and it does not repeat."""
     exponent = it.evidence.exponent
     tested = bool(it.tests) and all(s.state == "for" for s in it.tests)
     if exponent.status != "regular" or not np.isfinite(exponent.value) or not tested:
         return None
     says = (
-        "Near states do not part, and yet no number of periods brings the motion back: "
+        "Neighbouring states do not diverge, but the motion does not repeat after any number of periods: "
         f"the exponent is {exponent.value:.2g} {exponent.unit} [{exponent.low:.2g}, {exponent.high:.2g}]."
     )
-    return it.verdict("quasiperiodic", says, "likely")
+    return it.make_verdict("quasiperiodic", says, "likely")
 
 
-def _jittering(it: Weighed) -> Verdict | None:
-    """Return the verdict if most of the motion repeats itself, and what does not shows no sign of being ruled."""
-    evidence, period = it.evidence, it.evidence.beat.period
+def _judge_fluctuating(it: SignedEvidence) -> Verdict | None:
+    """Return periodic if most of the motion repeats, and the rest shows no sign of being deterministic."""
+    evidence, period = it.evidence, it.evidence.base.period
     if period is None:
         return None
-    left = float(np.nanmin(returns(evidence.raw, period)))
-    shuffled = it.state(TESTED_CYCLES) == "against"
-    signs = "for" in (it.state("exponent"), it.state("dimension")) or grows(evidence.exponent)
+    left = float(np.nanmin(measure_returns(evidence.raw, period)))
+    shuffled = it.get_state(CYCLE_TEST) == "against"
+    signs = "for" in (it.get_state("exponent"), it.get_state("dimension")) or is_growing(evidence.exponent)
     if left**2 > it.evidence.limits.left or (signs and not shuffled):
         return None
     p = next((t.p for t in evidence.tests if t.method == SURROGATE_OF_CYCLES), np.nan)
     why = (
-        f"cycles in any other order look just like it (p = {p:.2g})"
+        f"cycles in any other order look the same (p = {p:.2g})"
         if shuffled
-        else "neither a growth of small differences nor a dimension can be found in them"
+        else "they show neither a growth of small differences nor a dimension"
     )
     says = (
-        f"The motion repeats itself with a period of {period:.4g} s but for random fluctuations of {percent(left)}: "
-        f"{why}."
+        f"The motion repeats with a period of {period:.4g} s except for random fluctuations of {percent(left)}: {why}."
     )
-    return it.verdict("periodic", says + _all_the_same(it), "likely")
+    return it.make_verdict("periodic", says + _note_contradiction(it), "likely")
 
 
-def _chaotic(it: Weighed) -> Verdict | None:
-    """Return chaotic if all tests and two of growth, dimension and entropy speak for it, and no sign against it.
+def _judge_chaotic(it: SignedEvidence) -> Verdict | None:
+    """Return chaotic if all tests and two of growth, dimension and entropy indicate chaos, and no sign is against it.
 
-    It is firm where every sign speaks for it, and likely where some are silent.
+    The verdict is firm where every sign indicates chaos, and likely where some signs are silent.
     """
     tested = bool(it.tests) and all(s.state == "for" for s in it.tests)
-    measured = sum(it.state(key) == "for" for key in MEASURED)
-    if it.those("against") or not tested or measured < it.evidence.limits.measured:
+    measured = sum(it.get_state(key) == "for" for key in MEASURED_SIGNS)
+    if it.select("against") or not tested or measured < it.evidence.limits.measured:
         return None
-    silent, spoken = it.those("silent"), it.those("for")
-    opening = f"{len(spoken)} of {len(it.signs)} signs speak for chaos and none against it; silent: {_named(silent)}."
+    silent, spoken = it.select("silent"), it.select("for")
+    opening = (
+        f"{len(spoken)} of {len(it.signs)} signs speak for chaos and none against it; silent: {_list_names(silent)}."
+    )
     opening = opening if silent else f"All {len(it.signs)} signs speak for chaos."
-    parts = {"exponent": "near states part at {}", "dimension": "the correlation dimension levels off at {}",
+    parts = {"exponent": "neighbouring states diverge at {}", "dimension": "the correlation dimension levels off at {}",
              "entropy": "the entropy is {}"}  # fmt: skip
     found = it.evidence.exponent, it.evidence.dimension, it.evidence.entropy
-    told = [parts[k].format(_spanned(f)) for k, f in zip(MEASURED, found, strict=True) if it.state(k) == "for"]
-    measured_words = ", and ".join(told[:2])
+    parts_found = [
+        parts[k].format(format_estimate(f))
+        for k, f in zip(MEASURED_SIGNS, found, strict=True)
+        if it.get_state(k) == "for"
+    ]
+    measured_words = ", and ".join(parts_found[:2])
     says = f"{opening} {measured_words[0].upper()}{measured_words[1:]}."
-    return it.verdict("chaotic", says, "likely" if silent else "firm")
+    return it.make_verdict("chaotic", says, "likely" if silent else "firm")
 
 
-def _short(it: Weighed) -> Verdict | None:
-    """Return what the recording lacks for silence to say something of the motion, and not only of the recording."""
-    evidence = it.evidence
-    if evidence.raw.n < FEWEST_SAMPLES:
-        says = f"A recording of {evidence.raw.n} samples is too short to tell: {FEWEST_SAMPLES} are wanted at least."
-        return it.verdict("undecided", says, "open")
-    known = "for" in (it.state("exponent"), it.state("dimension"))
-    if known or not any(s.state == "for" for s in it.linear) or _long_enough(evidence):
+def _judge_short(it: SignedEvidence) -> Verdict | None:
+    """Return undecided where the recording is so short that a silent sign says nothing about the motion."""
+    evidence, limits = it.evidence, it.evidence.limits
+    if evidence.raw.n < limits.fewest_samples:
+        says = (
+            f"A recording of {evidence.raw.n} samples is too short for a verdict: at least "
+            f"{limits.fewest_samples:g} are needed."
+        )
+        return it.make_verdict("undecided", says, "open")
+    known = "for" in (it.get_state("exponent"), it.get_state("dimension"))
+    if known or not any(s.state == "for" for s in it.linear) or _is_long_enough(evidence):
         return None
     says = (
-        "It is not linear noise, but the recording is too short for an exponent or a dimension: "
-        f"{ENOUGH_PERIODS} periods are wanted at least."
+        "The motion is not linear noise, but the recording is too short for an exponent or a dimension: "
+        f"at least {limits.enough_periods:g} periods are needed."
     )
-    return it.verdict("undecided", says, "open")
+    return it.make_verdict("undecided", says, "open")
 
 
-def _long_enough(evidence: MotionEvidence) -> bool:
+def _is_long_enough(evidence: MotionEvidence) -> bool:
     """Return whether there were enough points and turns for an exponent and a dimension."""
     statuses = {evidence.exponent.status, evidence.dimension.status}
     short = statuses & {"too_short", "too_few_neighbours", "failed"}
-    return not short and evidence.raw.n * evidence.raw.dt / turn_of(evidence) >= ENOUGH_PERIODS
+    return not short and evidence.raw.n * evidence.raw.dt / measure_turn(evidence) >= evidence.limits.enough_periods
 
 
-def _stochastic(it: Weighed) -> Verdict | None:
-    """Return stochastic if something speaks for noise: a test that noise passes, a dimension or entropy of noise.
+def _judge_stochastic(it: SignedEvidence) -> Verdict | None:
+    """Return stochastic if there is evidence for noise: a test that noise passes, or a dimension or entropy of noise.
 
-    Silence alone is none: what cannot be read from a recording may be there all the same.
+    Silent signs alone are no evidence: what a recording does not show may still be present.
     """
-    if "for" in (it.state("exponent"), it.state("dimension")):
+    if "for" in (it.get_state("exponent"), it.get_state("dimension")):
         return None
     linear = [s for s in it.linear if s.state == "against"]
-    endless = [k for k in ("dimension", "entropy") if it.state(k) == "against"]
+    endless = [k for k in ("dimension", "entropy") if it.get_state(k) == "against"]
     if not linear and not endless:
         return None
     if linear:
         p = min(s.figures["p"] for s in linear)
-        says = f"Noise with the same spectrum and values looks just like it (p = {p:.2g}): nothing speaks for chaos."
-        return it.verdict("stochastic", says, "firm" if endless else "likely")
+        says = f"Noise with the same spectrum and values looks the same (p = {p:.2g}): there is no evidence of chaos."
+        return it.make_verdict("stochastic", says, "firm" if endless else "likely")
     what = " and the ".join(endless)
     says = (
-        f"It is not linear noise, yet the {what} rise{'s' if len(endless) == 1 else ''} without end, as that of noise "
-        "does, and no separation of near states can be found."
+        f"The motion is not linear noise, but the {what} rise{'s' if len(endless) == 1 else ''} without limit, as for "
+        "noise, and there is no divergence of neighbouring states."
     )
-    return it.verdict("stochastic", says, "likely")
+    return it.make_verdict("stochastic", says, "likely")
 
 
-def _all_the_same(it: Weighed) -> str:
-    return " Near states seem to part all the same, which contradicts it." if it.state("exponent") == "for" else ""
+def _note_contradiction(it: SignedEvidence) -> str:
+    return (
+        " However, neighbouring states seem to diverge, which contradicts it."
+        if it.get_state("exponent") == "for"
+        else ""
+    )
 
 
-def _unless_growth(it: Weighed) -> Strength:
-    return "likely" if it.state("exponent") == "for" else "firm"
+def _rate_strength(it: SignedEvidence) -> Strength:
+    return "likely" if it.get_state("exponent") == "for" else "firm"
 
 
-def _named(signs: Iterable[Sign]) -> str:
+def _list_names(signs: Iterable[Sign]) -> str:
     return ", ".join(s.name[0].lower() + s.name[1:] for s in signs)
 
 
-def _spanned(found: Estimate) -> str:
-    unit = "" if found.unit == "1" else f" {found.unit}"
-    return f"{found.value:.3g}{unit} [{found.low:.3g}, {found.high:.3g}]"
-
-
-def _undecided_words(it: Weighed) -> str:
-    """Return how many signs are in which state, and which of them do not speak for chaos."""
-    pro, con, silent = it.those("for"), it.those("against"), it.those("silent")
-    against = f"{len(con)} against it ({_named(con)})" if con else "none against it"
-    rest = f"{len(silent)} silent ({_named(silent)})" if silent else "none silent"
+def _write_undecided(it: SignedEvidence) -> str:
+    """Return how many signs are in which state, and the names of those that do not indicate chaos."""
+    pro, con, silent = it.select("for"), it.select("against"), it.select("silent")
+    against = f"{len(con)} against it ({_list_names(con)})" if con else "none against it"
+    rest = f"{len(silent)} silent ({_list_names(silent)})" if silent else "none silent"
     return (
         f"Of {len(it.signs)} signs {len(pro)} speak{'s' if len(pro) == 1 else ''} for chaos, {against}, and {rest}: "
-        "that is not enough for a verdict. A longer or cleaner recording may tell."
+        "this is not enough for a verdict. A longer or cleaner recording may decide."
     )

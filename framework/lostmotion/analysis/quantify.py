@@ -1,4 +1,4 @@
-"""One number of a recording or of a model, held to its contract."""
+"""One quantity of a recording or of a model; the estimate is checked against the contract of quantifiers."""
 
 from __future__ import annotations
 
@@ -17,18 +17,18 @@ def quantify(data: Data, quantifier: Quantifier[Data], *, rng: np.random.Generat
     A refusal is a status with a sentence. Raises `ContractError` when the quantifier breaks its contract.
     """
     estimate = quantifier.estimate(data, rng=rng)
-    if wrong := _wrong(estimate):
+    if wrong := _explain_violation(estimate):
         raise ContractError(f"{quantifier.name} {wrong}: write to its author")
     return estimate
 
 
-def _wrong(estimate: object) -> str:
+def _explain_violation(estimate: object) -> str:
     if not isinstance(estimate, Estimate):
         return f"returned {type(estimate).__name__}, and an Estimate was wanted"
     if estimate.status not in STATUSES:
         return f"returned the status {estimate.status!r}, which is none of {', '.join(STATUSES)}"
     if estimate.status == "ok" and not math.isfinite(estimate.value):
-        return f"says that all is well, and returned {estimate.value}"
+        return f"returned the status 'ok' with the value {estimate.value}"
     if estimate.low > estimate.value or estimate.value > estimate.high:
         return f"returned {estimate.value:g} outside of its interval [{estimate.low:g}, {estimate.high:g}]"
     if estimate.status != "ok" and not estimate.says:

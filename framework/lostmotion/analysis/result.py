@@ -1,4 +1,4 @@
-"""What was measured of a channel as a result: its numbers and sentences, and the arrays behind them."""
+"""The result of an analysis: numbers and sentences, and the arrays behind them."""
 
 from __future__ import annotations
 
@@ -21,21 +21,22 @@ from lostmotion.results.analysis import (
     SurrogateOutcome,
 )
 from lostmotion.results.background import Origin
+from lostmotion.settings import DEFAULT, MotionSettings
 from lostmotion.signals import poincare, spectrum, stroboscopic, without_harmonics
 from lostmotion.storage import StoredArray
 
 if TYPE_CHECKING:
     from lostmotion.analysis.run import AnalysedChannel
 
-SHARE = "share of the signal's standard deviation"
-CORRELATION = "grassberger_procaccia"
+NOISE_UNIT = "share of the signal's standard deviation"
+CORRELATION_METHOD = "grassberger_procaccia"
 Columns = dict[str, StoredArray]
-UNITS = {"lag": "s", "time": "s", "ami": "nat", "ami_floor": "nat", "slope": "1"}
-"""The units of curves that have one."""
+CURVE_UNITS = {"lag": "s", "time": "s", "ami": "nat", "ami_floor": "nat", "slope": "1"}
+"""The units of curves; other curves have unit 1."""
 
 
-def statement(found: AnalysedChannel, origin: Origin) -> Analysis:
-    """Return what was found out about a channel."""
+def make_result(found: AnalysedChannel, origin: Origin, limits: MotionSettings = DEFAULT.motion) -> Analysis:
+    """Return the result of the analysis of a channel."""
     clean, denoised, embedding = found.clean, found.denoised, found.clean.embedding
     delay, dimension = embedding.methods
     return Analysis(
@@ -50,22 +51,22 @@ def statement(found: AnalysedChannel, origin: Origin) -> Analysis:
         noise=RecordedNoise(
             before=denoised.before.value,
             after=denoised.after.value,
-            unit=SHARE,
+            unit=NOISE_UNIT,
             before_interval=(denoised.before.low, denoised.before.high),
             method=found.denoiser,
         ),
-        lyapunov=measure(found.exponent, found.exponent_method),
-        d2=measure(found.dimension, CORRELATION),
-        k2=measure(found.entropy, CORRELATION),
-        others=tuple(measure(one, name, name) for name, one in found.others.items()),
-        surrogates=tuple(map(outcome, found.tests)),
-        drive=_drive(found),
-        notes=notes(found),
+        lyapunov=make_measure(found.exponent, found.exponent_method),
+        d2=make_measure(found.dimension, CORRELATION_METHOD),
+        k2=make_measure(found.entropy, CORRELATION_METHOD),
+        others=tuple(make_measure(one, name, name) for name, one in found.others.items()),
+        surrogates=tuple(map(make_outcome, found.tests)),
+        drive=_make_drive(found),
+        notes=write_notes(found, limits),
         provenance=origin,
     )
 
 
-def measure(found: Estimate, method: str, name: str | None = None) -> Measure:
+def make_measure(found: Estimate, method: str, name: str | None = None) -> Measure:
     """Return an estimate without its curves."""
     return Measure(
         name=name,
@@ -80,7 +81,7 @@ def measure(found: Estimate, method: str, name: str | None = None) -> Measure:
     )
 
 
-def outcome(test: SurrogateTest) -> SurrogateOutcome:
+def make_outcome(test: SurrogateTest) -> SurrogateOutcome:
     """Return a surrogate test without its draws."""
     return SurrogateOutcome(
         null=test.null,
@@ -94,48 +95,48 @@ def outcome(test: SurrogateTest) -> SurrogateOutcome:
     )
 
 
-def _drive(found: AnalysedChannel) -> DrivePeriod:
-    period = math.nan if found.beat.period is None else found.beat.period
-    return DrivePeriod(period=period, samples_per_period=period / found.source.dt, source=found.beat.source)
+def _make_drive(found: AnalysedChannel) -> DrivePeriod:
+    period = math.nan if found.base.period is None else found.base.period
+    return DrivePeriod(period=period, samples_per_period=period / found.source.dt, source=found.base.source)
 
 
-def notes(found: AnalysedChannel) -> tuple[str, ...]:
-    """Return what a reader should doubt."""
+def write_notes(found: AnalysedChannel, limits: MotionSettings = DEFAULT.motion) -> tuple[str, ...]:
+    """Return the notes on limitations of the result."""
     source, embedding = found.source, found.clean.embedding
-    said = [*source.notes, *found.beat.notes, *found.aside]
+    notes = [*source.notes, *found.base.notes, *found.aside]
     if embedding.status != "ok":
-        said.append(embedding.says)
+        notes.append(embedding.says)
     for what, one in (("exponent", found.exponent), ("correlation dimension", found.dimension)):
         if one.status == "uncertain" or (one.ok and one.says):
-            said.append(f"On the {what}: {one.says}")
-    periods = math.nan if found.beat.period is None else len(source.x) * source.dt / found.beat.period
-    if periods < 50:
-        said.append(
-            f"The recording holds {periods:.0f} periods: exponents and dimensions want some hundreds, so record longer."
+            notes.append(f"On the {what}: {one.says}")
+    periods = math.nan if found.base.period is None else len(source.x) * source.dt / found.base.period
+    if periods < limits.note_periods:
+        notes.append(
+            f"The recording has {periods:.0f} periods: exponents and dimensions need some hundreds, so record longer."
         )
-    return tuple(dict.fromkeys(said))
+    return tuple(dict.fromkeys(notes))
 
 
-def arrays_of(found: AnalysedChannel) -> tuple[Columns, Columns]:
+def collect_arrays(found: AnalysedChannel) -> tuple[Columns, Columns]:
     """Return the variables and the coordinates of `analysis.nc`."""
     variables = {
-        **_series(found),
-        **_spectra(found),
-        **_sections(found),
-        **_embedding("embedding_", found.clean.embedding),
-        **_exponent(found.exponent),
-        **_dimension(found.dimension),
-        **_tests(found),
+        **_collect_series(found),
+        **_collect_spectra(found),
+        **_collect_sections(found),
+        **_collect_embedding("embedding_", found.clean.embedding),
+        **_collect_exponent(found.exponent),
+        **_collect_dimension(found.dimension),
+        **_collect_tests(found),
     }
     if found.clean is not found.raw:
-        variables |= _embedding("embedding_raw_", found.raw.embedding)
+        variables |= _collect_embedding("embedding_raw_", found.raw.embedding)
     time = np.arange(found.raw.n) * found.raw.dt
     return variables, {"time": StoredArray(("time",), time, "s", "time from the start")}
 
 
-def _series(found: AnalysedChannel) -> Columns:
+def _collect_series(found: AnalysedChannel) -> Columns:
     source, raw, clean = found.source, found.raw, found.clean
-    table = {"x": StoredArray(("time",), raw.x, source.unit, f"{source.label}, mean taken off")}
+    table = {"x": StoredArray(("time",), raw.x, source.unit, f"{source.label}, mean removed")}
     if clean is not raw:
         table["cleaned"] = StoredArray(("time",), clean.x, source.unit, f"{source.label}, noise reduced")
     if source.excitation is not None:
@@ -143,7 +144,7 @@ def _series(found: AnalysedChannel) -> Columns:
     return table
 
 
-def _spectra(found: AnalysedChannel) -> Columns:
+def _collect_spectra(found: AnalysedChannel) -> Columns:
     raw, unit = found.raw, found.source.unit
     density = f"({unit})^2/Hz" if unit else "1/Hz"
     frequency, power = spectrum(raw.x, raw.dt)
@@ -151,53 +152,55 @@ def _spectra(found: AnalysedChannel) -> Columns:
         "frequency": StoredArray(("frequency",), frequency, "Hz", "frequency"),
         "density": StoredArray(("frequency",), power, density, "power spectral density"),
     }
-    if found.beat.period is not None:
-        rest, _ = without_harmonics(raw.x, raw.dt, found.beat.period)
+    if found.base.period is not None:
+        rest, _ = without_harmonics(raw.x, raw.dt, found.base.period)
         table["density_rest"] = StoredArray(
-            ("frequency",), spectrum(rest, raw.dt)[1], density, "power spectral density, harmonics taken out"
+            ("frequency",), spectrum(rest, raw.dt)[1], density, "power spectral density without harmonics"
         )
     return table
 
 
-def _sections(found: AnalysedChannel) -> Columns:
+def _collect_sections(found: AnalysedChannel) -> Columns:
     unit = found.source.unit
-    table = {"section": StoredArray(("hit", "axis"), _section(found.raw), unit, "section as recorded")}
+    table = {"section": StoredArray(("hit", "axis"), _compute_section(found.raw), unit, "section as recorded")}
     if found.clean is not found.raw:
-        table["section_cleaned"] = StoredArray(("hit_cleaned", "axis"), _section(found.clean), unit, "section, cleaned")
+        table["section_cleaned"] = StoredArray(
+            ("hit_cleaned", "axis"), _compute_section(found.clean), unit, "section, cleaned"
+        )
     return table
 
 
-def _section(series: Series) -> Array:
-    """Return the section (hits, 2) at drive phase 0, or where a series without a drive crosses its mean upwards."""
+def _compute_section(series: Series) -> Array:
+    """Return the section (points, 2) at drive phase 0; without a drive, where the series crosses its mean upwards."""
     lag = series.embedding.lag
     if series.period is None:
         return np.asarray(poincare(series.x, dt=series.dt, lag=lag).points)
     return np.asarray(stroboscopic(series.x, series.dt, series.period, lag=lag).points)
 
 
-def _embedding(prefix: str, chosen: Embedding) -> Columns:
-    """Return the curves of an embedding: those over the lag, those over the dimension, those of false neighbours."""
+def _collect_embedding(prefix: str, chosen: Embedding) -> Columns:
+    """Return the curves of an embedding over the lag and over the dimension, and those of false neighbours."""
     axes = {"lag": ("lag", "ami", "ami_floor", "autocorrelation"), "dim": ("dim", "e1", "e2")}
     axes["dim_fnn"] = ("dim_fnn", "fnn", "fnn_distance", "fnn_loneliness")
     table = {}
     for axis, names in axes.items():
         for name in (n for n in names if n in chosen.curves):
-            table[prefix + name] = StoredArray((prefix + axis,), chosen.curves[name], UNITS.get(name, "1"), name)
+            table[prefix + name] = StoredArray((prefix + axis,), chosen.curves[name], CURVE_UNITS.get(name, "1"), name)
     return table
 
 
-def _exponent(found: Estimate) -> Columns:
-    """Return the divergence with its variants and local slopes; the slope in the unit of the estimate."""
+def _collect_exponent(found: Estimate) -> Columns:
+    """Return the divergence with its variants and its local slopes (1/s)."""
     dims = {"members": ("lyapunov_variant", "lyapunov_time")}
     table = {}
     for name in ("time", "divergence", "members", "slope"):
         if name in found.curve:
-            unit = UNITS.get(name, "1") if name != "slope" else "1/s"
+            unit = CURVE_UNITS.get(name, "1") if name != "slope" else "1/s"
             table[f"lyapunov_{name}"] = StoredArray(dims.get(name, ("lyapunov_time",)), found.curve[name], unit, name)
     return table
 
 
-def _dimension(found: Estimate) -> Columns:
+def _collect_dimension(found: Estimate) -> Columns:
     plane, line = ("d2_dim", "d2_radius"), ("d2_dim",)
     dims: Mapping[str, tuple[str, ...]] = {
         "radius": ("d2_radius",),
@@ -213,7 +216,7 @@ def _dimension(found: Estimate) -> Columns:
     }
 
 
-def _tests(found: AnalysedChannel) -> Columns:
+def _collect_tests(found: AnalysedChannel) -> Columns:
     if not found.tests:
         return {}
     width = max(len(t.values) for t in found.tests)
@@ -226,6 +229,7 @@ def _tests(found: AnalysedChannel) -> Columns:
         "surrogate_original": StoredArray(("test",), originals, "1", "statistic of the recording"),
     }
     if found.surrogate_dims is not None:
-        said = "dimension of surrogates"
-        table["surrogate_d2_by_dim"] = StoredArray(("d2_draw", "d2_dim"), found.surrogate_dims, "1", said)
+        table["surrogate_d2_by_dim"] = StoredArray(
+            ("d2_draw", "d2_dim"), found.surrogate_dims, "1", "dimension of surrogates"
+        )
     return table

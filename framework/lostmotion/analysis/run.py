@@ -1,4 +1,4 @@
-"""The chaos laboratory from end to end: a recording in, `analysis.json`, `analysis.nc` and `report.html` out."""
+"""Run an analysis: from a recording to `analysis.json`, `analysis.nc` and `report.html`."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from lostmotion.analysis.beat import Beat, MotionEvidence, beat_of, returns
 from lostmotion.analysis.denoise import Denoised, denoise
 from lostmotion.analysis.embed import embed
-from lostmotion.analysis.motion import Verdict, verdict_on
+from lostmotion.analysis.motion import Verdict, judge_motion
+from lostmotion.analysis.period import BasePeriod, MotionEvidence, find_base_period, measure_returns
 from lostmotion.analysis.quantify import quantify
 from lostmotion.analysis.report.page import write_analysis
-from lostmotion.analysis.result import arrays_of, statement
-from lostmotion.analysis.source import Source, WantedChannel, source_of
+from lostmotion.analysis.result import collect_arrays, make_result
+from lostmotion.analysis.source import Source, WantedChannel, load_source
 from lostmotion.analysis.surrogates import SurrogateTest, surrogate_test
 from lostmotion.codec import to_plain
 from lostmotion.contracts import Array, Quantifier, Series
@@ -40,26 +40,24 @@ from lostmotion.rates import exponent_in
 from lostmotion.registry import Registry
 from lostmotion.results import Estimate
 from lostmotion.results.analysis import Analysis
-from lostmotion.settings import DEFAULT, Settings
+from lostmotion.settings import DEFAULT, MotionSettings, Settings
 from lostmotion.signals import checked
 from lostmotion.storage import dataset_of, folder_for, save_datasets, save_json
 
 if TYPE_CHECKING:
     import xarray as xr
 
-Say = Callable[[str], None]
+ProgressCallback = Callable[[str], None]
 STREAMS = ("denoise", "exponent", "dimension", "entropy", "surrogates", "others", "dimensions")
-QUIET, LOUD = 0.003, 0.3
-"""Noise below this share of the standard deviation is left alone, as no method here sees it; and above it, as no
-motion can be told from it."""
-PICTURED = 9
-FEW, APART = 8, 0.7
-"""A motion that returns after k of up to 8 periods so much better than after one is taken to be k times longer."""
+PICTURED_SURROGATES = 9
+"""Number of surrogates whose dimension is shown in the figure."""
+MAX_PERIODS_TOGETHER = 8
+"""Largest number of cycles that surrogates keep together."""
 
 
 @dataclass(frozen=True)
 class AnalysisRequest:
-    """What is asked for: which channel, which methods, how many surrogates, the unit of exponents, seed and cores."""
+    """Options of an analysis: channel, methods, number of surrogates, unit of exponents, seed and cores."""
 
     columns: tuple[str, ...] = ()
     rate: float | None = None
@@ -75,17 +73,17 @@ class AnalysisRequest:
     jobs: int = 2
     settings: Settings = DEFAULT
 
-    def rng(self, stream: str) -> np.random.Generator:
-        """Return the random stream of one stage: no stage depends on what another one has drawn."""
+    def make_rng(self, stream: str) -> np.random.Generator:
+        """Return the random generator of one stage; the stages do not depend on each other's draws."""
         return np.random.default_rng([self.seed, STREAMS.index(stream)])
 
 
 @dataclass(frozen=True, eq=False)
 class AnalysedChannel:
-    """Everything that was found out about one recorded channel."""
+    """The results of all stages for one recorded channel."""
 
     source: Source
-    beat: Beat
+    base: BasePeriod
     raw: Series
     denoised: Denoised
     exponent: Estimate
@@ -101,17 +99,17 @@ class AnalysedChannel:
 
     @property
     def clean(self) -> Series:
-        """The series that was measured: cleaned, and embedded anew."""
+        """The analysed series: with reduced noise and its own embedding."""
         return self.denoised.series
 
 
 def run_analysis(
-    path: Path, out: Path, registry: Registry, request: AnalysisRequest, say: Say = lambda _step: None
+    path: Path, out: Path, registry: Registry, request: AnalysisRequest, say: ProgressCallback = lambda _step: None
 ) -> Analysis:
-    """Return what was found after writing `analysis.json`, the arrays and the report into the folder `out`."""
+    """Return the result after writing `analysis.json`, the arrays and the report into the folder `out`."""
     say("reading")
     wanted = WantedChannel(request.columns, request.rate, request.every)
-    source = source_of(path, wanted, registry, request.settings.recording)
+    source = load_source(path, wanted, registry, request.settings.recording)
     _require_known(registry, request)
     folder = folder_for(out)
     result, arrays = analyse_source(source, registry, request, say)
@@ -123,42 +121,42 @@ def run_analysis(
 
 
 def analyse_source(
-    source: Source, registry: Registry, request: AnalysisRequest, say: Say = lambda _step: None
+    source: Source, registry: Registry, request: AnalysisRequest, say: ProgressCallback = lambda _step: None
 ) -> tuple[Analysis, xr.Dataset]:
-    """Return what was found and the arrays behind it; nothing is written."""
+    """Return the result and the arrays behind it; no file is written."""
     found = analyse(source, registry, request, say)
     settings = {k: v for k, v in asdict(request).items() if k not in ("jobs", "seed", "settings")}
     settings["thresholds"] = asdict(request.settings.motion)
     settings["recording_thresholds"] = asdict(request.settings.recording)
     made = origin_of("analyse", settings, request.seed, {**registry.origins(), **source.inputs})
-    variables, coords = arrays_of(found)
-    return statement(found, made), dataset_of(variables, coords, {"title": source.title})
+    variables, coords = collect_arrays(found)
+    return make_result(found, made, request.settings.motion), dataset_of(variables, coords, {"title": source.title})
 
 
 def analyse(
-    source: Source, registry: Registry, request: AnalysisRequest, say: Say = lambda _step: None
+    source: Source, registry: Registry, request: AnalysisRequest, say: ProgressCallback = lambda _step: None
 ) -> AnalysedChannel:
-    """Return what the chain finds: delay, dimension, noise, exponent, correlation dimension, surrogate tests."""
-    beat = beat_of(checked(source.x), source, request.period)
+    """Return the results of all stages: delay, dimension, noise, exponent, correlation dimension, surrogate tests."""
+    base = find_base_period(checked(source.x), source, request.period)
     third_party = Guests(registry)
     say("delay and dimension")
-    raw = _embedded(source.x, third_party, request.embedder, source.dt, beat)
+    raw = _embed_series(source.x, third_party, request.embedder, source.dt, base)
     say("noise")
-    denoised, denoiser = _cleaned(raw, third_party, request)
+    denoised, denoiser = _reduce_noise(raw, third_party, request)
     if denoised.series is not raw:
-        again = _embedded(denoised.series.x, third_party, request.embedder, source.dt, beat)
+        again = _embed_series(denoised.series.x, third_party, request.embedder, source.dt, base)
         denoised = replace(denoised, series=again)
-    # What noise reduction leaves is no longer white and makes growth look slow: exponents are read from the raw series.
-    grown = _Measured(raw, third_party, request, beat, say)
-    measured = _Measured(denoised.series, third_party, request, beat, say)
+    # The noise that remains after reduction is not white and hides fast growth: exponents come from the raw series.
+    grown = _SeriesMeasurer(raw, third_party, request, base, say)
+    measured = _SeriesMeasurer(denoised.series, third_party, request, base, say)
     exponent, dimension = grown(EXPONENT, "exponent"), measured(DIMENSION, "dimension")
     entropy = measured(ENTROPY, "entropy")
     others = {name: grown(name, "others") for name in dict.fromkeys((*EXPONENT_CHECKS, *request.quantifiers))}
-    tests = _tests(raw, third_party, request, say)
-    weighed = MotionEvidence(beat, raw, denoised, exponent, dimension, entropy, tests, request.settings.motion)
+    tests = _run_tests(raw, third_party, request, say)
+    weighed = MotionEvidence(base, raw, denoised, exponent, dimension, entropy, tests, request.settings.motion)
     return AnalysedChannel(
         source=source,
-        beat=beat,
+        base=base,
         raw=raw,
         denoised=denoised,
         exponent=exponent,
@@ -166,68 +164,69 @@ def analyse(
         entropy=entropy,
         others=others,
         tests=tests,
-        surrogate_dims=_surrogate_dims(raw, registry, request, say),
-        verdict=verdict_on(weighed),
+        surrogate_dims=_measure_surrogate_dims(raw, registry, request, say),
+        verdict=judge_motion(weighed),
         exponent_method=EXPONENT.removeprefix("lyapunov_"),
         denoiser=denoiser,
         aside=tuple(dict.fromkeys(third_party.said)),
     )
 
 
-def _embedded(x: Array, third_party: Guests, name: str, dt: float, beat: Beat) -> Series:
-    """Return the series with delay and dimension; the usual embedder takes the place of one that breaks down."""
+def _embed_series(x: Array, third_party: Guests, name: str, dt: float, base: BasePeriod) -> Series:
+    """Return the embedded series; the default embedder replaces one that fails."""
 
     def work(name: str) -> Series:
-        return embed(x, third_party.registry.make("embedder", name), dt=dt, period=beat.period)
+        return embed(x, third_party.registry.make("embedder", name), dt=dt, period=base.period)
 
     return third_party("embedder", name, x, lambda: work(name)) or work(EMBEDDER)
 
 
 @dataclass(frozen=True, eq=False)
-class _Measured:
-    """Quantifiers by name on one series, exponents in the unit that was asked for."""
+class _SeriesMeasurer:
+    """Estimates of quantifiers by name on one series, exponents in the requested unit."""
 
     series: Series
     third_party: Guests
     request: AnalysisRequest
-    beat: Beat
-    say: Say
+    base: BasePeriod
+    say: ProgressCallback
 
     def __call__(self, name: str, stream: str) -> Estimate:
-        """Return the estimate of the quantifier `name`, which is a refusal where that breaks its contract."""
+        """Return the estimate of the quantifier `name`; it is a refusal where the quantifier breaks its contract."""
         self.say(name.replace("_", " "))
-        reader, rng = _reader(self.third_party.registry, name), self.request.rng(stream)
+        reader, rng = _make_quantifier(self.third_party.registry, name), self.request.make_rng(stream)
         found = self.third_party("quantifier", name, self.series.x, lambda: quantify(self.series, reader, rng=rng))
         if found is None:
             return Estimate.refused("failed", self.third_party.said[-1], unit=reader.unit)
-        return _converted(found, self.request, self.beat)
+        return _convert_unit(found, self.request, self.base)
 
 
 def _require_known(registry: Registry, request: AnalysisRequest) -> None:
-    """Refuse a name that is unknown before the work begins."""
+    """Raise an error for an unknown name before the work begins."""
     registry.load("embedder", request.embedder)
     for name in request.surrogates:
         registry.load("surrogate", name)
     for name in request.quantifiers:
-        _reader(registry, name)
+        _make_quantifier(registry, name)
     if request.denoiser not in (None, "none"):
         registry.load("denoiser", str(request.denoiser))
 
 
-def _reader(registry: Registry, name: str) -> Quantifier[Series]:
-    """Return the quantifier of recordings of this name."""
+def _make_quantifier(registry: Registry, name: str) -> Quantifier[Series]:
+    """Return the quantifier of this name; raise `DataError` if it does not read a series."""
     quantifier: Quantifier[Series] = registry.make("quantifier", name)
     if quantifier.reads != "series":
         raise DataError(f"{name} measures a model, not a recording: name one that reads a series")
     return quantifier
 
 
-def _cleaned(raw: Series, third_party: Guests, request: AnalysisRequest) -> tuple[Denoised, str]:
-    """Return the series with less noise, and how that was done; a denoiser that breaks down leaves it as it is."""
+def _reduce_noise(raw: Series, third_party: Guests, request: AnalysisRequest) -> tuple[Denoised, str]:
+    """Return the series with reduced noise, and the name of the method; the series is unchanged if that fails."""
     registry = third_party.registry
-    meter, rng = _reader(registry, METER), request.rng("denoise")
+    meter, rng = _make_quantifier(registry, METER), request.make_rng("denoise")
     level = meter.estimate(raw, rng=rng)
-    if request.denoiser == "none" or (request.denoiser is None and not QUIET < level.value < LOUD):
+    limits = request.settings.motion
+    if request.denoiser == "none" or (request.denoiser is None and not limits.quiet < level.value < limits.loud):
         return Denoised(raw, level, level), "none"
     name = request.denoiser or DENOISER
     denoiser = registry.make("denoiser", name)
@@ -235,44 +234,57 @@ def _cleaned(raw: Series, third_party: Guests, request: AnalysisRequest) -> tupl
     return (cleaned, name) if cleaned else (Denoised(raw, level, level), "none")
 
 
-def _converted(estimate: Estimate, request: AnalysisRequest, beat: Beat) -> Estimate:
-    """Return an exponent in the unit that was asked for; any other estimate as it is."""
+def _convert_unit(estimate: Estimate, request: AnalysisRequest, base: BasePeriod) -> Estimate:
+    """Return an exponent in the requested unit, and any other estimate unchanged."""
     if estimate.unit != "1/s":
         return estimate
-    if request.unit.endswith("/period") and beat.period is None:
+    if request.unit.endswith("/period") and base.period is None:
         raise DataError(f"the unit {request.unit} needs a period, and none was found: give --period, or another unit")
-    return exponent_in(estimate, request.unit, period=beat.period)
+    return exponent_in(estimate, request.unit, period=base.period)
 
 
-def _tests(raw: Series, third_party: Guests, request: AnalysisRequest, say: Say) -> tuple[SurrogateTest, ...]:
-    """Return the surrogate tests: on the recording as it is, since noise reduction makes any series look ruled."""
+def _run_tests(
+    raw: Series, third_party: Guests, request: AnalysisRequest, say: ProgressCallback
+) -> tuple[SurrogateTest, ...]:
+    """Return the surrogate tests of the raw series, since noise reduction makes any series look deterministic."""
     names = request.surrogates or ((SURROGATE, SURROGATE_OF_CYCLES) if raw.period else (SURROGATE,))
-    statistic, tests = _reader(third_party.registry, STATISTIC), []
-    for stream, name in zip(request.rng("surrogates").spawn(len(names)), names, strict=True):
+    statistic, tests = _make_quantifier(third_party.registry, STATISTIC), []
+    for stream, name in zip(request.make_rng("surrogates").spawn(len(names)), names, strict=True):
         say(f"{name} surrogates")
-        surrogate = third_party.registry.make("surrogate", name, **_options(name, raw))
-        test = partial(surrogate_test, raw, surrogate, statistic, draws=request.draws, sided="low", jobs=request.jobs)
+        surrogate = third_party.registry.make("surrogate", name, **_choose_options(name, raw, request.settings.motion))
+        test = partial(
+            surrogate_test,
+            raw,
+            surrogate,
+            statistic,
+            draws=request.draws,
+            sided="low",
+            jobs=request.jobs,
+            level=request.settings.motion.level,
+        )
         tests.append(third_party("surrogate", name, raw.x, partial(test, rng=stream)))
     found = tuple(test for test in tests if test)
-    return found or _tests(raw, third_party, replace(request, surrogates=(SURROGATE,)), say)
+    return found or _run_tests(raw, third_party, replace(request, surrogates=(SURROGATE,)), say)
 
 
-def _options(name: str, raw: Series) -> dict[str, int]:
-    """Return the options of a surrogate: cycles stay together over as many periods as the motion needs to return."""
+def _choose_options(name: str, raw: Series, limits: MotionSettings) -> dict[str, int]:
+    """Return the options of a surrogate: the number of cycles that stay together, after which the motion returns."""
     if name != SURROGATE_OF_CYCLES or raw.period is None:
         return {}
-    spread = returns(raw, raw.period)[:FEW]
+    spread = measure_returns(raw, raw.period)[:MAX_PERIODS_TOGETHER]
     best = int(np.nanargmin(spread))
-    return {"together": best + 1} if spread[best] < APART * spread[0] else {}
+    return {"together": best + 1} if spread[best] < limits.together * spread[0] else {}
 
 
-def _surrogate_dims(raw: Series, registry: Registry, request: AnalysisRequest, say: Say) -> Array | None:
-    """Return the dimension of a few surrogates over the embedding dimension (draws, dims), as in Fig. 21."""
+def _measure_surrogate_dims(
+    raw: Series, registry: Registry, request: AnalysisRequest, say: ProgressCallback
+) -> Array | None:
+    """Return the dimension of a few surrogates (draws, dims) over the embedding dimension, as in Fig. 21."""
     say("dimension of surrogates")
-    rng = request.rng("dimensions")
+    rng = request.make_rng("dimensions")
     quantifier = registry.make("quantifier", DIMENSION, fast=True)
     rows = []
-    for x in registry.make("surrogate", SURROGATE).draw(raw, draws=PICTURED, rng=rng):
+    for x in registry.make("surrogate", SURROGATE).draw(raw, draws=PICTURED_SURROGATES, rng=rng):
         found = quantify(replace(raw, x=x), quantifier, rng=rng)
         if "dimension_by_dim" in found.curve:
             rows.append(found.curve["dimension_by_dim"])

@@ -1,6 +1,7 @@
-"""The signs of chaos, one by one: what each says of a motion, for it, against it or nothing, and why.
+"""The signs of chaos: each is for chaos, against it or silent, with its reason.
 
-Each sign rules out one other explanation. A sign that could not be read is silent: it counts neither for nor against.
+Each sign excludes one other explanation. A sign that could not be measured is silent: it counts neither for nor against
+chaos.
 """
 
 from __future__ import annotations
@@ -9,31 +10,30 @@ import math
 
 import numpy as np
 
-from lostmotion.analysis.beat import MOST_PERIODS, SLACK, MotionEvidence, returned
+from lostmotion.analysis.period import MAX_RETURN_PERIODS, MotionEvidence, find_return
 from lostmotion.analysis.surrogates import SurrogateTest
 from lostmotion.defaults import SURROGATE_OF_CYCLES
 from lostmotion.results import Estimate, percent
 from lostmotion.results.analysis import Sign, State
 from lostmotion.signals.tones import TwoTones, two_tones
 
-FEWEST_SAMPLES = 1000
-"""With fewer samples the rank among surrogates and the slopes depend on single stretches of the orbit."""
-FEWEST_PERIODS = 20
-"""With fewer periods it is not told whether a motion comes back, nor how many frequencies it has. Within fewer turns
-surrogates are like any motion that is a line or two of the spectrum, so that a test they pass is silent."""
-TONES_FLOOR = 0.02
+
+def collect_signs(evidence: MotionEvidence) -> tuple[Sign, ...]:
+    """Return all signs in the evidence, each with its state."""
+    tests = (_assess_test(test, evidence) for test in evidence.tests)
+    return (
+        _assess_return(evidence),
+        *tests,
+        _assess_growth(evidence),
+        _assess_dimension(evidence),
+        _assess_entropy(evidence),
+    )
 
 
-def signs_of(evidence: MotionEvidence) -> tuple[Sign, ...]:
-    """Return all signs that the evidence holds, each with its state."""
-    tests = (_test(test, evidence) for test in evidence.tests)
-    return (_return(evidence), *tests, _growth(evidence), _dimension(evidence), _entropy(evidence))
-
-
-def turn_of(evidence: MotionEvidence) -> float:
-    """Return how long one turn of the motion lasts (s): a period, or else that of a sine as fast as this motion."""
-    if evidence.beat.period is not None:
-        return evidence.beat.period
+def measure_turn(evidence: MotionEvidence) -> float:
+    """Return the duration (s) of one cycle of the motion: its period, or that of a sine with the same speed."""
+    if evidence.base.period is not None:
+        return evidence.base.period
     x, dt = evidence.raw.x, evidence.raw.dt
     if evidence.raw.embedding.lag == 1:
         return dt
@@ -41,49 +41,51 @@ def turn_of(evidence: MotionEvidence) -> float:
     return 2.0 * math.pi * float(np.std(x)) / pace if pace > 0.0 else math.inf
 
 
-def tones_of(evidence: MotionEvidence) -> TwoTones | None:
+def find_tones(evidence: MotionEvidence) -> TwoTones | None:
     """Return the two frequencies that explain the motion to within its noise, or None."""
-    period, raw = evidence.beat.period, evidence.raw
+    period, raw = evidence.base.period, evidence.raw
     if period is None:
         return None
     tones = two_tones(raw.x, raw.dt, 1.0 / period)
-    explained = tones.left <= SLACK * evidence.noise + TONES_FLOOR
-    return tones if explained and tones.second * raw.n * raw.dt >= FEWEST_PERIODS else None
+    limits = evidence.limits
+    explained = tones.left <= limits.slack * evidence.noise + limits.tones_floor
+    return tones if explained and tones.second * raw.n * raw.dt >= limits.fewest_periods else None
 
 
-def grows(exponent: Estimate) -> bool:
-    """Return whether an exponent is above zero by its interval."""
+def is_growing(exponent: Estimate) -> bool:
+    """Return whether the interval of an exponent lies above zero."""
     return exponent.status in ("ok", "uncertain") and exponent.low > 0.0
 
 
-def _return(evidence: MotionEvidence) -> Sign:
-    """Return whether the motion comes back to itself, or is made up of two frequencies."""
+def _assess_return(evidence: MotionEvidence) -> Sign:
+    """Return the sign for a motion that repeats, or that consists of two frequencies."""
 
     def sign(state: State, says: str, **figures: float) -> Sign:
         return Sign("return", "No return", state, says, "periodic and quasiperiodic motion", figures)
 
-    period = evidence.beat.period
+    period = evidence.base.period
     if period is None:
-        return sign("silent", "No period is known, so that no return could be looked for.")
+        return sign("silent", "No period is known, so a return could not be searched for.")
     many = evidence.raw.n * evidence.raw.dt / period
-    times, left = returned(evidence.raw, period, evidence.noise)
+    fewest = evidence.limits.fewest_periods
+    times, left = find_return(evidence.raw, period, evidence.noise, evidence.limits)
     figures = {"miss": left, "noise": evidence.noise, "periods": many}
     if times:
         cycle = "each period" if times == 1 else f"every {times} periods"
-        return sign("against", f"The motion comes back {cycle}, but for {percent(left)} of its size.", **figures)
-    if tones := tones_of(evidence):
-        says = f"Two frequencies make up the motion, but for {percent(tones.left)} of its size."
+        return sign("against", f"The motion repeats {cycle}, except for {percent(left)} of its size.", **figures)
+    if tones := find_tones(evidence):
+        says = f"The motion consists of two frequencies, except for {percent(tones.left)} of its size."
         return sign("against", says, second=tones.second, left=tones.left, **figures)
-    if many < FEWEST_PERIODS:
-        return sign("silent", f"The recording holds {many:.0f} periods, and {FEWEST_PERIODS} are wanted.", **figures)
+    if many < fewest:
+        return sign("silent", f"The recording has {many:.0f} periods, and {fewest:g} are needed.", **figures)
     says = (
-        f"The motion does not come back within {MOST_PERIODS} periods: it misses by {percent(left)} of its size at "
-        f"best, and its noise is {percent(evidence.noise)} at most. Noise does not come back either."
+        f"The motion does not repeat within {MAX_RETURN_PERIODS} periods: the smallest difference is {percent(left)} "
+        f"of its size, and its noise is {percent(evidence.noise)} at most. Noise does not repeat either."
     )
     return sign("for", says, **figures)
 
 
-def _test(test: SurrogateTest, evidence: MotionEvidence) -> Sign:
+def _assess_test(test: SurrogateTest, evidence: MotionEvidence) -> Sign:
     cycles = test.method == SURROGATE_OF_CYCLES
     name = "Order of the cycles" if cycles else f"Not linear noise ({test.method.replace('_', ' ')})"
     excludes = "a periodic motion with noise" if cycles else test.null
@@ -93,20 +95,21 @@ def _test(test: SurrogateTest, evidence: MotionEvidence) -> Sign:
 
     if not math.isfinite(test.p):
         return sign("silent", test.says)
-    if evidence.raw.n < FEWEST_SAMPLES:
-        return sign("silent", f"{evidence.raw.n} samples are too few for this test: {FEWEST_SAMPLES} are wanted.")
-    turns = evidence.raw.n * evidence.raw.dt / turn_of(evidence)
-    if not test.rejects(evidence.limits.level) and turns < FEWEST_PERIODS:
-        says = f"The surrogates are as easy to predict, but {turns:.0f} turns of the motion are too few to say more."
+    limits, fewest = evidence.limits, evidence.limits.fewest_samples
+    if evidence.raw.n < fewest:
+        return sign("silent", f"{evidence.raw.n} samples are too few for this test: {fewest:g} are needed.")
+    turns = evidence.raw.n * evidence.raw.dt / measure_turn(evidence)
+    if not test.rejects(limits.level) and turns < limits.fewest_periods:
+        says = f"The surrogates are as easy to predict, but {turns:.0f} cycles of the motion are too few to decide."
         return sign("silent", says)
-    if test.rejects(evidence.limits.level):
+    if test.rejects(limits.level):
         return sign("for", f"The recording is easier to predict than its surrogates (p = {test.p:.2g}).")
     return sign("against", f"The surrogates are as easy to predict as the recording (p = {test.p:.2g}).")
 
 
-def _growth(evidence: MotionEvidence) -> Sign:
-    """Return what the exponent says: growth counts only over enough e-foldings, and over a turn at least."""
-    found, turn = evidence.exponent, turn_of(evidence)
+def _assess_growth(evidence: MotionEvidence) -> Sign:
+    """Return the sign of the exponent: growth counts only over enough e-foldings, and over at least one cycle."""
+    found, turn = evidence.exponent, measure_turn(evidence)
     folds = found.details.get("e_folds", math.nan)
     turns = (found.details.get("fit_end", math.nan) - found.details.get("fit_begin", math.nan)) / turn
 
@@ -120,19 +123,25 @@ def _growth(evidence: MotionEvidence) -> Sign:
 
     if found.status == "regular":
         return sign("against", found.says)
-    if not grows(found):
-        value = f"The interval of the exponent, {_spanned(found)}, holds zero." if math.isfinite(found.value) else ""
+    if not is_growing(found):
+        value = (
+            f"The interval of the exponent, {format_estimate(found)}, includes zero."
+            if math.isfinite(found.value)
+            else ""
+        )
         return sign("silent", value or found.says)
-    over = f"Near states part by {folds:.2g} e-foldings within {turns:.2g} turns of the motion"
+    over = f"Neighbouring states diverge by {folds:.2g} e-foldings within {turns:.2g} cycles of the motion"
     if not folds >= limits.efolds:
-        says = f"{over}: fewer than {limits.efolds:g} e-foldings are no sign, as noise shows so many too."
+        says = f"{over}: fewer than {limits.efolds:g} e-foldings are no evidence, as noise shows as many."
         return sign("silent", says)
     if not turns >= limits.turns:
-        return sign("silent", f"{over}: within less than {limits.turns:g} turn distances rise and fall by themselves.")
-    return sign("for", f"{over}, at {_spanned(found)}.")
+        return sign(
+            "silent", f"{over}: within less than {limits.turns:g} cycle, distances rise and fall in any motion."
+        )
+    return sign("for", f"{over}, at {format_estimate(found)}.")
 
 
-def _dimension(evidence: MotionEvidence) -> Sign:
+def _assess_dimension(evidence: MotionEvidence) -> Sign:
     found = evidence.dimension
 
     def sign(state: State, says: str) -> Sign:
@@ -146,18 +155,18 @@ def _dimension(evidence: MotionEvidence) -> Sign:
     if found.status == "uncertain":
         return sign("silent", found.says or "A condition for the interval of the dimension does not hold.")
     if evidence.raw.embedding.lag > 1 and found.high < evidence.limits.flat:
-        return sign("against", f"The dimension is {_spanned(found)}, that of a closed curve.")
+        return sign("against", f"The dimension is {format_estimate(found)}, that of a closed curve.")
     flat = ""
     if {"tilt", "scatter"} <= found.details.keys():
         flat = (
             f"; across the plateau the local slope changes by {100 * found.details['tilt']:.0f} % and scatters by "
             f"{100 * found.details['scatter']:.0f} %"
         )
-    return sign("for", f"The dimension levels off at {_spanned(found)}{flat}.")
+    return sign("for", f"The dimension levels off at {format_estimate(found)}{flat}.")
 
 
-def _entropy(evidence: MotionEvidence) -> Sign:
-    found, turn = evidence.entropy, turn_of(evidence)
+def _assess_entropy(evidence: MotionEvidence) -> Sign:
+    found, turn = evidence.entropy, measure_turn(evidence)
 
     def sign(state: State, says: str) -> Sign:
         figures = {"low": found.low, "high": found.high}
@@ -168,12 +177,13 @@ def _entropy(evidence: MotionEvidence) -> Sign:
     if found.status not in ("ok", "uncertain") or not math.isfinite(found.value):
         return sign("silent", found.says)
     if found.high * turn < evidence.limits.still:
-        return sign("against", f"The entropy is {_spanned(found)}: next to nothing in one turn of the motion.")
+        return sign("against", f"The entropy is {format_estimate(found)}: practically zero in one cycle of the motion.")
     if not found.low > 0.0:
-        return sign("silent", f"The interval of the entropy, {_spanned(found)}, holds zero.")
-    return sign("for", f"The entropy is {_spanned(found)}, above zero and finite.")
+        return sign("silent", f"The interval of the entropy, {format_estimate(found)}, includes zero.")
+    return sign("for", f"The entropy is {format_estimate(found)}, above zero and finite.")
 
 
-def _spanned(found: Estimate) -> str:
+def format_estimate(found: Estimate) -> str:
+    """Return value, unit and interval of an estimate as text."""
     unit = "" if found.unit == "1" else f" {found.unit}"
     return f"{found.value:.3g}{unit} [{found.low:.3g}, {found.high:.3g}]"

@@ -1,4 +1,4 @@
-"""What `analyse` is given: the one channel that is looked at, from a case or from a bare recording."""
+"""The input of `analyse`: one channel, from a case or from a recording file."""
 
 from __future__ import annotations
 
@@ -20,15 +20,15 @@ from lostmotion.registry import Registry
 from lostmotion.settings import DEFAULT, RecordingSettings
 
 Array = NDArray[np.float64]
-TIMES = ("time", "t", "Time", "time_s")
-"""Columns that are taken for time in a bare recording."""
+TIME_COLUMNS = ("time", "t", "Time", "time_s")
+"""Names of columns that are read as time in a recording file."""
 
 
 @dataclass(frozen=True)
 class WantedChannel:
-    """Which channel is meant: columns or the name of a recording; the rate (Hz) where there is no time; one in `every`.
+    """The requested channel: columns or the name of a recording, the rate (Hz) where there is no time column.
 
-    Several columns are pieces of one motion, and joined in their order; one sample in `every` is kept.
+    Several columns are pieces of one motion and are joined in this order; one sample of `every` is kept.
     """
 
     columns: tuple[str, ...] = ()
@@ -37,15 +37,15 @@ class WantedChannel:
 
     @property
     def column(self) -> str | None:
-        """The one column or recording that was named, if one was."""
+        """The one column or recording that was named, or None."""
         if len(self.columns) > 1:
-            raise CaseError(f"a case gives one recording at a time, and {len(self.columns)} were named: name one")
+            raise CaseError(f"one recording of a case can be analysed, and {len(self.columns)} were named: name one")
         return self.columns[0] if self.columns else None
 
 
 @dataclass(frozen=True, eq=False)
 class Source:
-    """A channel `x` (n,) in `unit`, sampled every `dt` s, and what drove the machine, if that was recorded."""
+    """A channel `x` (n,) in `unit`, sampled every `dt` s, and the excitation of the machine, if it was recorded."""
 
     title: str
     x: Array
@@ -57,15 +57,15 @@ class Source:
     notes: tuple[str, ...] = ()
 
 
-def source_of(
+def load_source(
     path: Path, wanted: WantedChannel, registry: Registry, limits: RecordingSettings = DEFAULT.recording
 ) -> Source:
-    """Return the channel to look at: the response of a case file (.toml), or the column of a bare recording."""
+    """Return the channel to analyse: a response of a case file (.toml), or a column of a recording file."""
     is_case = path.suffix.lower() == ".toml"
-    source = _of_case(case_of(path, registry), wanted, limits) if is_case else _of_file(path, wanted)
+    source = _load_from_case(case_of(path, registry), wanted, limits) if is_case else _load_from_file(path, wanted)
     if wanted.every == 1:
         return source
-    note = f"One sample of {wanted.every} is kept, as asked: what is faster than that folds back."
+    note = f"One sample of {wanted.every} is kept, as requested: higher frequencies are aliased."
     drive = None if source.excitation is None else source.excitation[:: wanted.every]
     return replace(
         source,
@@ -76,7 +76,8 @@ def source_of(
     )
 
 
-def _of_case(case: CaseFile, wanted: WantedChannel, limits: RecordingSettings) -> Source:
+def _load_from_case(case: CaseFile, wanted: WantedChannel, limits: RecordingSettings) -> Source:
+    """Return the requested recording and sensor of a case, else the first ones, with a note."""
     if not case.recordings:
         raise CaseError(f"{case.title!r} has no [[recordings]]: add one, or analyse a recording by itself")
     names, asked = [spec.label for spec in case.recordings], wanted.column
@@ -93,17 +94,17 @@ def _of_case(case: CaseFile, wanted: WantedChannel, limits: RecordingSettings) -
     if len(sensors) > 1 and asked not in sensors:
         notes.append(f"The first of {len(sensors)} sensors is analysed: name another one with --column.")
     recording = load_recording(chosen, case.folder, limits)
-    found = source_in(recording, sensors.index(asked) if asked in sensors else 0)
+    found = extract_source(recording, sensors.index(asked) if asked in sensors else 0)
     inputs = {"case": case.digest, **found.inputs}
     return replace(found, title=case.title, inputs=inputs, notes=(*found.notes, *notes))
 
 
-def source_in(recording: Recording, sensor: int = 0) -> Source:
-    """Return one sensor of a recording, by its number, as the channel to look at: its longest stretch without a gap."""
+def extract_source(recording: Recording, sensor: int = 0) -> Source:
+    """Return one sensor of a recording, by its number, as the channel to analyse: its longest section without gaps."""
     notes, response = list(recording.notes), recording.sensors[sensor]
-    every = _paced(np.asarray(response))
+    every = _find_sampled_rows(np.asarray(response))
     x = np.asarray(response)[every]
-    keep = _whole_stretch(x, notes)
+    keep = _find_longest_stretch(x, notes)
     return Source(
         title=recording.name,
         x=x[keep],
@@ -116,15 +117,15 @@ def source_in(recording: Recording, sensor: int = 0) -> Source:
     )
 
 
-def _paced(x: Array) -> slice:
-    """Return which samples are those of a sensor that is read in every k-th row."""
+def _find_sampled_rows(x: Array) -> slice:
+    """Return the rows of a sensor that has a reading in every k-th row only."""
     taken = np.flatnonzero(np.isfinite(x))
     step = int(np.median(np.diff(taken))) if len(taken) > 1 else 1
     return slice(int(taken[0]), None, step) if step > 1 else slice(None)
 
 
-def _whole_stretch(x: Array, notes: list[str]) -> slice:
-    """Return the longest stretch without a lost sample; a note says what was left aside."""
+def _find_longest_stretch(x: Array, notes: list[str]) -> slice:
+    """Return the longest section without a lost sample, and add a note about the rest."""
     lost = ~np.isfinite(x)
     if not lost.any():
         return slice(None)
@@ -132,24 +133,25 @@ def _whole_stretch(x: Array, notes: list[str]) -> slice:
     longest = int(np.argmax(np.diff(edges)))
     keep = slice(int(edges[longest]) + 1, int(edges[longest + 1]))
     notes.append(
-        f"{int(lost.sum())} samples were lost: the longest stretch without a gap is analysed, "
+        f"{int(lost.sum())} samples are missing: the longest section without gaps is analysed, "
         f"{keep.stop - keep.start} of {len(x)} samples."
     )
     return keep
 
 
-def _of_file(path: Path, wanted: WantedChannel) -> Source:
+def _load_from_file(path: Path, wanted: WantedChannel) -> Source:
+    """Return the requested columns of a recording file as one channel."""
     table = read_table(path)
-    column = next((name for name in TIMES if name in table.columns), None)
-    names = _named(table, wanted.columns, column, path.name)
-    clock, time = _clocked(table, column, wanted, len(table.columns[names[0]]), path.name)
+    column = next((name for name in TIME_COLUMNS if name in table.columns), None)
+    names = _choose_columns(table, wanted.columns, column, path.name)
+    clock, time = _read_clock(table, column, wanted, len(table.columns[names[0]]), path.name)
     notes = list(clock.notes)
-    series = [_even(table.columns[name], clock, time) for name in names]
-    pieces = [values[_whole_stretch(values, notes)] for values in series]
+    series = [_resample(table.columns[name], clock, time) for name in names]
+    pieces = [values[_find_longest_stretch(values, notes)] for values in series]
     if len(pieces) > 1:
         notes.append(
             f"{len(pieces)} pieces are joined, {', '.join(map(str, sorted({len(p) for p in pieces})))} samples long: "
-            "they are taken for one motion whose drive keeps its phase, and what spans a joint is wrong."
+            "they are treated as one motion whose drive keeps its phase, and results across a joint are wrong."
         )
     return Source(
         title=path.stem,
@@ -163,37 +165,41 @@ def _of_file(path: Path, wanted: WantedChannel) -> Source:
     )
 
 
-def _even(values: Array, clock: EvenClock, time: Array) -> Array:
-    """Return a channel (n,) on the even grid of its recording; values that are infinite count as lost."""
+def _resample(values: Array, clock: EvenClock, time: Array) -> Array:
+    """Return a channel (n,) on the uniform time grid of its recording; infinite values count as missing."""
     return resample_channel(time, values, clock) if clock.uneven and values.size == time.size else values
 
 
-def _named(table: Table, asked: tuple[str, ...], clock: str | None, source: str) -> tuple[str, ...]:
-    """Return the columns that are meant; `name[*]` stands for name[0], name[1], ..."""
+def _choose_columns(table: Table, asked: tuple[str, ...], clock: str | None, source: str) -> tuple[str, ...]:
+    """Return the names of the requested columns; `name[*]` means name[0], name[1], ..."""
     if asked:
-        return tuple(found for name in asked for found in _matching(table.columns, name, source))
+        return tuple(found for name in asked for found in _match_columns(table.columns, name, source))
     time = table.columns[clock] if clock else None
     others = [name for name in table.full_names if table.columns[name] is not time]
     if len(others) != 1:
-        raise DataError(f"{source} has {len(others)} columns besides time ({_listed(others)}): name one with --column")
+        raise DataError(
+            f"{source} has {len(others)} columns besides time ({_list_names(others)}): name one with --column"
+        )
     return (others[0],)
 
 
-def _matching(columns: Mapping[str, Array], name: str, source: str) -> list[str]:
+def _match_columns(columns: Mapping[str, Array], name: str, source: str) -> list[str]:
     stem = name.removesuffix("[*]")
     found = [c for c in columns if c == name or (stem != name and c.startswith(f"{stem}["))]
     if not found:
-        raise DataError(f"{source} has no column {name!r}{nearest(name, columns)}: it has {_listed(list(columns))}")
+        raise DataError(f"{source} has no column {name!r}{nearest(name, columns)}: it has {_list_names(list(columns))}")
     return found
 
 
-def _listed(names: list[str], most: int = 12) -> str:
+def _list_names(names: list[str], most: int = 12) -> str:
     more = f" and {len(names) - most} more" if len(names) > most else ""
     return (", ".join(names[:most]) or "none") + more
 
 
-def _clocked(table: Table, column: str | None, wanted: WantedChannel, n: int, source: str) -> tuple[EvenClock, Array]:
-    """Return the even grid of the recording and its time column (s), which is empty where a rate was given."""
+def _read_clock(
+    table: Table, column: str | None, wanted: WantedChannel, n: int, source: str
+) -> tuple[EvenClock, Array]:
+    """Return the uniform time grid and the time column (s), which is empty where a rate was given."""
     if wanted.rate is not None:
         if not 0.0 < wanted.rate < np.inf:
             raise DataError(f"the rate is {wanted.rate:g} Hz: give a positive number")
@@ -202,8 +208,8 @@ def _clocked(table: Table, column: str | None, wanted: WantedChannel, n: int, so
         raise DataError(f"{source} has no column 'time': add one in seconds, or give --rate HZ")
     if len(table.columns[column]) != n:
         found = len(table.columns[column])
-        raise DataError(f"{source}: {column!r} has {found} values and the column {n}: cut them alike")
-    unit, told = time_unit(column, table.units.get(column), None)
+        raise DataError(f"{source}: {column!r} has {found} values and the column {n}: make them equally long")
+    unit, notes = time_unit(column, table.units.get(column), None)
     time = seconds(table.columns[column], unit, source)
     clock = even_clock(time, source)
-    return replace(clock, notes=(*told, *clock.notes)), time
+    return replace(clock, notes=(*notes, *clock.notes)), time

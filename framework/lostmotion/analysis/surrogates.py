@@ -1,7 +1,8 @@
-"""Whether a series differs from what a null hypothesis makes of it, by its rank among surrogates."""
+"""Surrogate data test: whether a series differs from its null hypothesis, by its rank among surrogates."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
@@ -12,6 +13,7 @@ from lostmotion.contracts import Quantifier, Series, Surrogate
 from lostmotion.errors import ContractError, DataError
 from lostmotion.kernels.threads import spread
 from lostmotion.results.analysis import Sided
+from lostmotion.settings import DEFAULT
 
 Array = NDArray[np.float64]
 Statistic = Quantifier[Series] | Callable[[Array], float]
@@ -21,9 +23,9 @@ Statistic = Quantifier[Series] | Callable[[Array], float]
 class SurrogateTest:
     """The rank of a recording's statistic among surrogates: `values` (draws,), NaN where it was refused.
 
-    `p_low` is the chance under the null of a value as low as `original`, `p_high` of one as high; `p` is that of the
-    side asked for, or min(1, 2 min(p_low, p_high)). `refused` counts the surrogates without a number: they stand
-    against rejection, as ties do. `piece` is the part of the series that was compared.
+    `p_low` is the probability under the null hypothesis of a value as low as `original`, `p_high` of one as high; `p`
+    is that of the requested side, or min(1, 2 min(p_low, p_high)). `refused` counts the surrogates without a value:
+    they count against rejection, as ties do. `piece` is the part of the series that was compared.
     """
 
     method: str
@@ -44,8 +46,8 @@ class SurrogateTest:
         two = min(1.0, 2.0 * min(self.p_low, self.p_high)) if self.p_low == self.p_low else self.p_low
         return {"low": self.p_low, "high": self.p_high, "two": two}[self.sided]
 
-    def rejects(self, level: float = 0.05) -> bool:
-        """Return whether the null is rejected at `level`; never where the statistic was refused."""
+    def rejects(self, level: float = DEFAULT.motion.level) -> bool:
+        """Return whether the null hypothesis is rejected at `level`; never where the statistic was refused."""
         return self.p <= level
 
 
@@ -58,43 +60,45 @@ def surrogate_test(
     rng: np.random.Generator,
     sided: Sided = "two",
     jobs: int = 0,
+    level: float = DEFAULT.motion.level,
 ) -> SurrogateTest:
     """Return how the statistic of `series` ranks among those of `draws` surrogates.
 
     `statistic` is a quantifier, or a function of x (m,) that may run in several threads; it sees the same piece of the
-    recording that the surrogates are made of. Each draw has a random stream of its own, so the outcome does not
-    depend on `jobs`. Raises `DataError` for a number of draws with which no level of 5 % can be reached.
+    recording as the surrogates. Each draw has a random stream of its own, so the result does not depend on `jobs`.
+    Raises `DataError` for a number of draws with which `level` cannot be reached.
     """
-    _require_enough(draws, sided)
+    _require_enough(draws, sided, level)
     for_draws, for_original, *streams = rng.spawn(draws + 2)
     drawn = np.asarray(surrogate.draw(series, draws=draws, rng=for_draws), dtype=float)
-    part = _piece(series, surrogate, drawn, draws)
-    original, why = _value(statistic, replace(series, x=series.x[part]), for_original)
+    part = _check_piece(series, surrogate, drawn, draws)
+    original, why = _compute_statistic(statistic, replace(series, x=series.x[part]), for_original)
     values = np.full(draws, np.nan)
 
     def work(begin: int, end: int) -> None:
         for k in range(begin, end):
-            values[k] = _value(statistic, replace(series, x=drawn[k]), streams[k])[0]
+            values[k] = _compute_statistic(statistic, replace(series, x=drawn[k]), streams[k])[0]
 
     if np.isfinite(original):
         spread(work, draws, jobs=jobs, slices=draws)
-    return _ranked(surrogate, _name(statistic), original, values, sided, part, why)
+    return _rank_statistic(surrogate, _name_statistic(statistic), original, values, (sided, level), part, why)
 
 
-def _require_enough(draws: int, sided: Sided) -> None:
-    least = 39 if sided == "two" else 19
+def _require_enough(draws: int, sided: Sided, level: float) -> None:
+    """Raise `DataError` for an unknown side, or for a number of draws with which `level` cannot be reached."""
+    least = math.ceil((2.0 if sided == "two" else 1.0) / level - 1e-9) - 1
     if sided not in ("two", "low", "high"):
-        raise DataError(f"the test is {sided!r} sided: say two, low (the recording lies lower) or high")
+        raise DataError(f"the test is {sided!r} sided: give two, low (the recording lies lower) or high")
     if draws < least:
-        raise DataError(f"{draws} surrogates cannot reject at 5 %: {least} are wanted at least")
+        raise DataError(f"{draws} surrogates cannot reject at {100.0 * level:g} %: at least {least} are needed")
 
 
-def _piece(series: Series, surrogate: Surrogate, drawn: Array, draws: int) -> slice:
-    """Return the piece that was drawn of, as the surrogate says it."""
+def _check_piece(series: Series, surrogate: Surrogate, drawn: Array, draws: int) -> slice:
+    """Return the part of the series that the surrogates replace; raise `ContractError` for wrong surrogates."""
     if drawn.ndim != 2 or len(drawn) != draws or not np.isfinite(drawn).all() or drawn.shape[1] > series.n:
         raise ContractError(
-            f"{surrogate.name} returned an array {drawn.shape}, and {draws} finite rows of at most {series.n} were "
-            "wanted: write to its author"
+            f"{surrogate.name} returned an array {drawn.shape}, and {draws} finite rows of at most {series.n} samples "
+            "were wanted: write to its author"
         )
     part = surrogate.piece(series)
     if part.stop - part.start != drawn.shape[1]:
@@ -102,23 +106,24 @@ def _piece(series: Series, surrogate: Surrogate, drawn: Array, draws: int) -> sl
     return slice(part.start, part.stop)
 
 
-def _value(statistic: Statistic, series: Series, rng: np.random.Generator) -> tuple[float, str]:
-    """Return the number, NaN where it is refused, and why."""
+def _compute_statistic(statistic: Statistic, series: Series, rng: np.random.Generator) -> tuple[float, str]:
+    """Return the statistic, NaN where it is refused, and the reason."""
     if not isinstance(statistic, Quantifier):
         return float(statistic(series.x)), ""
     estimate = statistic.estimate(series, rng=rng)
     return float(estimate.value), estimate.says
 
 
-def _name(statistic: Statistic) -> str:
+def _name_statistic(statistic: Statistic) -> str:
     name = getattr(statistic, "name", None) or getattr(statistic, "__name__", None) or type(statistic).__name__
     return str(name).replace("_", " ")
 
 
-def _ranked(
-    surrogate: Surrogate, name: str, original: float, values: Array, sided: Sided, part: slice, why: str
+def _rank_statistic(
+    surrogate: Surrogate, name: str, original: float, values: Array, how: tuple[Sided, float], part: slice, why: str
 ) -> SurrogateTest:
-    """Return the test, with ties and refusals counted against rejection."""
+    """Return the test at a side and a level (`how`); ties and refusals count against rejection."""
+    sided, level = how
     n, method = len(values), surrogate.name
     refused = int((~np.isfinite(values)).sum())
     if not np.isfinite(original):
@@ -129,11 +134,11 @@ def _ranked(
     higher = int((values >= original).sum()) + refused
     p_low, p_high = (1 + lower) / (1 + n), (1 + higher) / (1 + n)
     bare = SurrogateTest(method, surrogate.null, name, original, values, p_low, p_high, sided, refused, part, "")
-    return replace(bare, says=_sentence(bare))
+    return replace(bare, says=_write_sentence(bare, level))
 
 
-def _sentence(test: SurrogateTest) -> str:
-    """Return what the test found, in words."""
+def _write_sentence(test: SurrogateTest, level: float) -> str:
+    """Return the outcome of the test at a level in words."""
     n, side = len(test.values), test.sided
     if side == "two":
         side = "low" if test.p_low <= test.p_high else "high"
@@ -141,12 +146,12 @@ def _sentence(test: SurrogateTest) -> str:
     count = "None" if worse == 0 else str(worse)
     tails = ", two-sided" if test.sided == "two" else ""
     verb = "has" if worse < 2 else "have"
-    told = " ".join(test.statistic.split("_"))
+    name = " ".join(test.statistic.split("_"))
     says = (
-        f"{count} of {n} surrogates ({test.method}) {verb} a {told} as {side} as the recording's "
+        f"{count} of {n} surrogates ({test.method}) {verb} a {name} as {side} as the recording's "
         f"(p = {test.p:.2g}{tails})"
     )
-    verdict = "it is not" if test.rejects() else "it may be"
+    verdict = "it is not" if test.rejects(level) else "it may be"
     lost = ""
     if test.refused:
         lost = f" For {test.refused} surrogates it was refused: they count against a rejection."

@@ -35,6 +35,17 @@ class Prior:
     half_sd: float | None = None
     each: bool = False
 
+    def __repr__(self) -> str:
+        each = ", each=True" if self.each else ""
+        forms: dict[Kind, str] = {
+            "uniform": f"Uniform({self.low}, {self.high}",
+            "log-uniform": f"LogUniform({self.low}, {self.high}",
+            "normal": f"Normal({self.mean}, {self.sd}",
+            "log-normal": f"LogNormal({self.median}, {self.sd_log}",
+            "half-normal": f"HalfNormal({self.half_sd}",
+        }
+        return f"{forms[self.kind]}{each})"
+
     def __post_init__(self) -> None:
         self._check_pairs()
         for name in ("sd", "median", "sd_log", "half_sd"):

@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from lostmotion.analysis.beat import returned
 from lostmotion.analysis.embed import embed
+from lostmotion.analysis.period import find_return
 from lostmotion.analysis.quantify import quantify
 from lostmotion.contracts import Array, Series
 from lostmotion.defaults import DIMENSION, EMBEDDER
@@ -182,6 +182,6 @@ def _dimension(series: Series, registry: Registry, rng: np.random.Generator, noi
     """Return the dimension of a series with noise (share of its deviation); of one that repeats itself, a refusal."""
     if series.period and series.n * series.dt < FEWEST * series.period:
         return Estimate.refused("too_short", f"Fewer than {FEWEST} drive periods are too few for a dimension.")
-    if series.period and returned(series, series.period, noise)[0]:
+    if series.period and find_return(series, series.period, noise)[0]:
         return Estimate.refused("regular", PERIODIC)
     return quantify(series, registry.make("quantifier", DIMENSION, pairs=PAIRS), rng=rng)

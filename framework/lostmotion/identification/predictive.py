@@ -38,19 +38,31 @@ def make_groups(
     problem = task.posterior
     if not isinstance(problem, Problem):
         return {}
+    told = predict_readings(problem, task.coordinates(result.draws), result.chain.shape[:2], rng)
+    prior = xr.Dataset(_draw_prior(case, result, rng))
+    return {**told, "prior": prior.assign_coords({str(dim): np.arange(n) for dim, n in prior.sizes.items()})}
+
+
+def predict_readings(
+    problem: Problem, thetas: Array, shape: tuple[int, int], rng: np.random.Generator
+) -> dict[str, xr.Dataset]:
+    """Return the groups `log_likelihood`, `observed_data` and `posterior_predictive` for points in coordinates.
+
+    The points `thetas` (chains * draws, coordinates) are draws of `shape` (chains, draws).
+    """
+    import xarray as xr
+
     readings = np.concatenate([observation.readings.ravel() for observation in problem.observations])
     taken = np.flatnonzero(np.isfinite(readings))
     picked = taken[np.unique(np.linspace(0, len(taken) - 1, REPLICATED).astype(int))]
     edges = np.unique(np.linspace(0, len(readings), BLOCKS + 1).astype(int))[:-1]
-    terms, replicates = _predict_blocks(problem, task.coordinates(result.draws), readings, (edges, picked), rng)
-    shape = result.chain.shape[:2]
+    terms, replicates = _predict_blocks(problem, thetas, readings, (edges, picked), rng)
     groups = {
         "log_likelihood": xr.Dataset({"readings": (("chain", "draw", "block"), terms.reshape(*shape, -1))}),
         "observed_data": xr.Dataset({"readings": (("reading",), readings[picked])}),
         "posterior_predictive": xr.Dataset(
             {"readings": (("chain", "draw", "reading"), replicates.reshape(*shape, -1).astype(np.float32))}
         ),
-        "prior": xr.Dataset(_draw_prior(case, result, rng)),
     }
     return {
         name: data.assign_coords(

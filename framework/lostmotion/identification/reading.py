@@ -11,8 +11,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from lostmotion.analysis.beat import LOUDEST, returned
 from lostmotion.analysis.embed import embed
+from lostmotion.analysis.period import find_return
 from lostmotion.analysis.quantify import quantify
 from lostmotion.case import CaseFile
 from lostmotion.case.levels import Level, Measured
@@ -22,7 +22,7 @@ from lostmotion.errors import CaseError
 from lostmotion.recording import Recording, load_recording
 from lostmotion.registry import Registry
 from lostmotion.results import Estimate, percent
-from lostmotion.settings import DEFAULT, LevelSettings, Settings
+from lostmotion.settings import DEFAULT, LevelSettings, MotionSettings, Settings
 from lostmotion.signals import checked, refined_period
 
 PAIRS = 8_000_000
@@ -97,6 +97,7 @@ def read_level(
     A motion that repeats to within its noise is periodic; otherwise the exponent decides.
     """
     amplitude, omega = fit_harmonic(signals, settings.levels)
+    motion = settings.motion
     level = Level(signals.name, amplitude, omega, unit=signals.unit)
     period = 2.0 * math.pi / omega
     series = embed(checked(signals.x), registry.make("embedder", EMBEDDER), dt=signals.dt, period=period)
@@ -104,7 +105,10 @@ def read_level(
     def measured(name: str, **options: int) -> Estimate:
         return quantify(series, registry.make("quantifier", name, **options), rng=rng)
 
-    if returned(series, period, LOUDEST)[0] and returned(series, period, _bound_noise(measured(METER)))[0]:
+    def repeats(noise: float) -> bool:
+        return bool(find_return(series, period, noise, motion)[0])
+
+    if repeats(motion.loudest) and repeats(_bound_noise(measured(METER), motion)):
         return ReadLevel(replace(level, motion="periodic"))
     exponent = measured(EXPONENT)
     if exponent.status not in ("ok", "uncertain") or exponent.low <= 0.0:
@@ -116,9 +120,9 @@ def read_level(
     return ReadLevel(level, exponent, dimension)
 
 
-def _bound_noise(noise: Estimate) -> float:
+def _bound_noise(noise: Estimate, limits: MotionSettings) -> float:
     """Return the upper end of the noise level, limited to the largest level that is accepted as noise."""
-    return min(noise.high, LOUDEST) if math.isfinite(noise.high) else 0.0
+    return min(noise.high, limits.loudest) if math.isfinite(noise.high) else 0.0
 
 
 def correct_estimate(name: str, estimate: Estimate) -> Measured:

@@ -35,18 +35,18 @@ class RecordingPlan:
 
 
 def simulate_signals(
-    model: Model, values: Mapping[str, float], beat: Harmonic, bench: RecordingPlan, rng: np.random.Generator
+    model: Model, values: Mapping[str, float], drive: Harmonic, plan: RecordingPlan, rng: np.random.Generator
 ) -> tuple[Signals, Array]:
     """Return the signals of a machine under a harmonic drive from a random initial state, and the first state."""
-    flow = flow_of(model, values, drive=beat)
+    flow = flow_of(model, values, drive=drive)
     box = START_BOX * measure_extent(flow, 40)
     begin = flow.strobe(rng.uniform(-box, box), periods=SETTLING_PERIODS, tangents=0).states[-1]
-    seen = flow.sample(begin, periods=bench.periods, looks=bench.looks)[:-1, 0]  # type: ignore[attr-defined]
-    dt = flow.period / bench.looks
-    u = beat.amplitude * np.cos(beat.omega * dt * np.arange(len(seen)) + beat.phase)
+    seen = flow.sample(begin, periods=plan.periods, looks=plan.looks)[:-1, 0]  # type: ignore[attr-defined]
+    dt = flow.period / plan.looks
+    u = drive.amplitude * np.cos(drive.omega * dt * np.arange(len(seen)) + drive.phase)
     noisy = [x + share * float(np.std(x)) * rng.standard_normal(len(x)) for x, share in
-             ((seen, bench.noise), (u, bench.drive_noise))]  # fmt: skip
-    return Signals(f"{beat.amplitude:g}", noisy[0], noisy[1], dt, unit_of(model.inputs[0], model.motion)), begin
+             ((seen, plan.noise), (u, plan.drive_noise))]  # fmt: skip
+    return Signals(f"{drive.amplitude:g}", noisy[0], noisy[1], dt, unit_of(model.inputs[0], model.motion)), begin
 
 
 def simulate_levels(
@@ -56,7 +56,7 @@ def simulate_levels(
     drives: Sequence[tuple[float, float]],
     rng: np.random.Generator,
     *,
-    bench: RecordingPlan | None = None,
+    plan: RecordingPlan | None = None,
 ) -> tuple[ReadLevel, ...]:
     """Return levels read from simulated recordings of a case's machine at drives (amplitude, omega).
 
@@ -66,7 +66,7 @@ def simulate_levels(
     values = convert_damping(model, {**case.known, **truth})
     found = []
     for (amplitude, omega), own in zip(drives, rng.spawn(len(drives)), strict=True):
-        signals, _ = simulate_signals(model, values, Harmonic(amplitude, omega), bench or RecordingPlan(), own)
+        signals, _ = simulate_signals(model, values, Harmonic(amplitude, omega), plan or RecordingPlan(), own)
         found.append(read_level(signals, registry, own))
     return tuple(found)
 

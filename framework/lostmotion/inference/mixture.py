@@ -47,7 +47,8 @@ def draws(fit: Fit, rng: np.random.Generator, count: int) -> Array:
     roots = [root_of(node.local) for node in nodes]
     theta = np.array([nodes[k].local.theta + wider * (roots[k] @ z) for k, z in zip(which, noise, strict=True)])
     if len(nodes) > 1:
-        theta[:, fit.problem.keys.index(RANDOM)] += STRIDE * (rng.random(count) - 0.5)
+        at = fit.problem.keys.index(RANDOM)
+        theta[:, at] = [nodes[k].local.theta[at] for k in which] + STRIDE * (rng.random(count) - 0.5)
     return fit.problem.clip(theta)
 
 

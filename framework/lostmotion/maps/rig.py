@@ -145,8 +145,8 @@ class SweptMachine:
         for group in self.assembly.model.groups:
             if group.name in numbers:
                 values[group.target] = group.law(values, numbers[group.name])
-        beat = Harmonic(*(values.pop(f"drive.{key}", 0.0) for key in DRIVE))
-        return flow_of(self.system, values, drive=beat), begin
+        drive = Harmonic(*(values.pop(f"drive.{key}", 0.0) for key in DRIVE))
+        return flow_of(self.system, values, drive=drive), begin
 
 
 def measure_extent(flow: Flow, periods: int, looks: int = 8) -> Array:

@@ -25,6 +25,7 @@ from lostmotion.recording.checks import fill_lost
 from lostmotion.recording.outline import GivenRoles, Outline, OutlinedColumn, outline_table
 from lostmotion.registry import Registry
 from lostmotion.signals import refined_period
+from lostmotion.signals.repetition import period_found
 from lostmotion.written import Written, is_equation, model_of
 
 WIDE = 10.0
@@ -302,15 +303,24 @@ def _found(outline: Outline, machine: Model, factors: Mapping[str, float]) -> It
     for column in outline.columns:
         yield _described(column, outline)
     if outline.drive is not None:
-        pushed = _filled(outline.drive, factors)
-        period = refined_period(pushed, outline.dt) if outline.drive.moves else None
+        period = _period(_filled(outline.drive, factors), outline.dt) if outline.drive.moves else None
         yield f"the drive repeats every {period:.4g} s" if period else "the drive does not repeat"
     else:
         yield "nothing looks like a drive, so this is taken for a free decay: if there is one, give --drive COLUMN"
     yield f"model: {'; '.join(machine.equations) if isinstance(machine, Written) else machine.name}"
 
 
+def _period(pushed: Array, dt: float) -> float | None:
+    """Return the period (s) of a drive (n,), or None; one that is too short for its spectrum is laid over itself."""
+    period = refined_period(pushed, dt)
+    if period is None:
+        lag = period_found(pushed, _noise(pushed))
+        period = None if lag is None else lag * dt
+    return period
+
+
 def _described(column: OutlinedColumn, outline: Outline) -> str:
+    column = outline.response if column.name == outline.response.name else column
     roles = {outline.drive.name if outline.drive else "": "drive", outline.response.name: "response"}
     role = roles.get(column.name, "not used")
     taken = f", taken for {column.stated_unit}" if column.kind and not column.sure else ""

@@ -117,9 +117,11 @@ class Recording:
         decay. `settings` changes the thresholds of warnings, such as `{"recording.far": 30.0}`. `DataError` or
         `CaseError` is raised where the numbers cannot be used.
         """
-        from lostmotion.recording.made import RecordingLayout, make_recording
+        from lostmotion.recording.made import RecordingLayout, check_units, make_recording
 
         columns = {**(inputs or {}), **sensors}
+        if sensors:
+            check_units(units, columns, name)
         times = {} if time is None else {"time": time}
         which = ({name: name for name in inputs or {}}, {name: name for name in sensors})
         given = None if time is None else "time"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -48,6 +48,7 @@ def make_recording(
     settings: Settings | Mapping[str, float] | None = None,
 ) -> Recording:
     """Return a recording of columns (n,) in memory."""
+    _check_names(columns, layout, layout.name)
     used = _used_columns(layout)
     arrays = {key: _to_numbers(key, value) for key, value in columns.items() if key in used}
     content = b"".join(key.encode() + array.tobytes() for key, array in sorted(arrays.items()))
@@ -61,8 +62,30 @@ def read_recording(
 ) -> Recording:
     """Return a recording of a file; units default to those in the file, the name to the stem of the file."""
     table = read_table(path)
+    _check_names(table.columns, layout, path.name)
     spec = _make_spec(replace(layout, units={**table.units, **layout.units}, name=layout.name or path.stem))
     return recording_of(spec, table, path.name, digest(path), read(settings).recording)
+
+
+def _check_names(columns: Collection[str], layout: RecordingLayout, name: str) -> None:
+    """Raise `DataError` for a column that does not exist."""
+    inputs, sensors = layout.which
+    time = [layout.time] if layout.time else []
+    for role, wanted in (("inputs", inputs.values()), ("sensors", sensors.values()), ("time", time)):
+        for column in wanted:
+            if column not in columns:
+                raise DataError(
+                    f"{name} has no column {column!r}, which {role} asks for{nearest(str(column), columns)}:"
+                    f" it has {', '.join(columns)}"
+                )
+
+
+def check_units(units: Mapping[str, str], columns: Collection[str], name: str) -> None:
+    """Raise `DataError` for the unit of an array that is not given: the name may be misspelled."""
+    known = [*columns, "time"]
+    for key in units:
+        if key not in known:
+            raise DataError(f"units names {key!r}, which is no array of {name}{nearest(key, known)}")
 
 
 def _used_columns(layout: RecordingLayout) -> set[str]:

@@ -9,32 +9,32 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from lostmotion.analysis.report.view import AnalysisView, Variant, listed, versions
+from lostmotion.analysis.report.view import AnalysisView, Variant, find_versions, join_sentences
 from lostmotion.report import style
 from lostmotion.report.words import DASH, figures, shortened, spoken
 
-CLEAN, RAW = "embedding_", "embedding_raw_"
-DELAYS = 14.0
-CAO = (("e1", "E1", "o", "-"), ("e2", "E2", "s", (0, (4, 2))))
-UNITS = {"nat": "nat", "bit": "bit"}
+CLEAN_PREFIX, RAW_PREFIX = "embedding_", "embedding_raw_"
+DELAYS_SHOWN = 14.0
+CAO_CURVES = (("e1", "E1", "o", "-"), ("e2", "E2", "s", (0, (4, 2))))
+UNIT_NAMES = {"nat": "nat", "bit": "bit"}
 
 
-def delay(view: AnalysisView) -> Figure | None:
+def draw_delay(view: AnalysisView) -> Figure | None:
     """Return mutual information and autocorrelation over the lag, with the chosen one marked."""
-    names = [name for name in ("ami", "autocorrelation") if _able(view, name, "lag")]
+    names = [name for name in ("ami", "autocorrelation") if _has_curve(view, name, "lag")]
     if not names:
         return None
     figure = style.blank(3.3)
     panels = figure.subplots(1, len(names), squeeze=False)[0]
     for axes, name in zip(panels, names, strict=True):
-        _draw_over(axes, view, name, "lag")
+        _draw_curves(axes, view, name, "lag")
         _mark_delay(axes, view)
         axes.set_xlabel("lag (s)")
-        axes.set_xlim(0.0, _longest(view))
-        _lower_start(axes, view, name)
+        axes.set_xlim(0.0, _find_longest_lag(view))
+        _limit_start(axes, view, name)
         style.few_ticks(axes, 6, 5)
-    unit = shortened(view.units.get(CLEAN + "ami", "") or view.units.get(RAW + "ami", ""), 12)
-    words = {"ami": f"mutual information ({UNITS.get(unit, 'nat')})", "autocorrelation": "autocorrelation"}
+    unit = shortened(view.units.get(CLEAN_PREFIX + "ami", "") or view.units.get(RAW_PREFIX + "ami", ""), 12)
+    words = {"ami": f"mutual information ({UNIT_NAMES.get(unit, 'nat')})", "autocorrelation": "autocorrelation"}
     for axes, name in zip(panels, names, strict=True):
         axes.set_ylabel(words[name])
         _draw_floor(axes, view, name)
@@ -42,26 +42,28 @@ def delay(view: AnalysisView) -> Figure | None:
     return figure
 
 
-def delay_caption(view: AnalysisView) -> str:
+def caption_delay(view: AnalysisView) -> str:
     """Return what the figure of the delay shows."""
     seconds, method = view.result.delay.seconds, view.result.delay.method
     chosen = (
-        f"dashed upright: the chosen delay, {figures(seconds)} s" if math.isfinite(seconds) else "no delay was chosen"
+        f"dashed vertical line: the chosen delay, {figures(seconds)} s"
+        if math.isfinite(seconds)
+        else "no delay was chosen"
     )
     how = f" (by {shortened(spoken(method))})." if method and math.isfinite(seconds) else "."
-    floor = "dotted: what independent values would show." if view.has(CLEAN + "ami_floor") else ""
-    return listed(
+    floor = "dotted: the value for independent samples." if view.has(CLEAN_PREFIX + "ami_floor") else ""
+    return join_sentences(
         [
-            "what the recording tells about itself after a lag: average mutual information, and autocorrelation.",
+            "dependence of the recording on itself after a lag: average mutual information, and autocorrelation.",
             chosen + how,
             floor,
         ]
     )
 
 
-def dimension(view: AnalysisView) -> Figure | None:
+def draw_dimension(view: AnalysisView) -> Figure | None:
     """Return Cao's E1 and E2 and the share of false neighbours over the dimension, raw and cleaned."""
-    able = [name for name, axis in (("e1", "dim"), ("fnn", "dim_fnn")) if _able(view, name, axis)]
+    able = [name for name, axis in (("e1", "dim"), ("fnn", "dim_fnn")) if _has_curve(view, name, axis)]
     if not able:
         return None
     figure = style.blank(3.4)
@@ -77,53 +79,53 @@ def dimension(view: AnalysisView) -> Figure | None:
     return figure
 
 
-def dimension_caption(view: AnalysisView) -> str:
+def caption_dimension(view: AnalysisView) -> str:
     """Return what the figure of the dimension shows."""
     value = figures(view.result.dimension.value)
-    chosen = f"dashed upright: the chosen dimension, {value}." if value != DASH else "no dimension was chosen."
+    chosen = f"dashed vertical line: the chosen dimension, {value}." if value != DASH else "no dimension was chosen."
     cao = (
-        "Cao's E1 levels off where the motion is unfolded; E2 stays at 1 for all dimensions if the values are"
-        " independent random numbers, and leaves it somewhere if they are not."
+        "Cao's E1 levels off at the dimension in which the motion is unfolded; E2 is 1 for all dimensions if the values"
+        " are independent random numbers, and differs from 1 for some dimension if they are not."
     )
-    false = "False neighbours are states that look alike only because there are too few dimensions."
-    both = len(_versions(view, "e1")) > 1 or len(_versions(view, "fnn")) > 1
-    noise = "Noise asks for more dimensions than the motion does." if both else ""
-    return listed(
+    false = "False neighbours are states that are close only because the dimension is too low."
+    both = len(_find_versions(view, "e1")) > 1 or len(_find_versions(view, "fnn")) > 1
+    noise = "Noise needs more dimensions than the motion." if both else ""
+    return join_sentences(
         [
-            cao if _able(view, "e1", "dim") else "",
-            false if _able(view, "fnn", "dim_fnn") else "",
+            cao if _has_curve(view, "e1", "dim") else "",
+            false if _has_curve(view, "fnn", "dim_fnn") else "",
             noise,
             chosen,
         ]
     )
 
 
-def _able(view: AnalysisView, name: str, axis: str) -> bool:
-    return any(view.has(prefix + name, prefix + axis) for prefix in (CLEAN, RAW))
+def _has_curve(view: AnalysisView, name: str, axis: str) -> bool:
+    return any(view.has(prefix + name, prefix + axis) for prefix in (CLEAN_PREFIX, RAW_PREFIX))
 
 
-def _versions(view: AnalysisView, name: str) -> list[Variant]:
-    return versions(view, RAW + name, CLEAN + name)
+def _find_versions(view: AnalysisView, name: str) -> list[Variant]:
+    return find_versions(view, RAW_PREFIX + name, CLEAN_PREFIX + name)
 
 
-def _draw_over(axes: Axes, view: AnalysisView, name: str, axis: str) -> None:
-    for key, words, colour in _versions(view, name):
+def _draw_curves(axes: Axes, view: AnalysisView, name: str, axis: str) -> None:
+    for key, words, colour in _find_versions(view, name):
         prefix = key.removesuffix(name)
         if view.has(prefix + axis):
-            label = words if len(_versions(view, name)) > 1 else None
+            label = words if len(_find_versions(view, name)) > 1 else None
             axes.plot(view.arrays[prefix + axis], view.arrays[key], color=colour, label=label)
 
 
-def _longest(view: AnalysisView) -> float:
-    """Return the lag (s) up to which curves are drawn: some delays, so that the chosen one can be seen."""
-    lags = np.concatenate([view.arrays[p + "lag"] for p in (CLEAN, RAW) if view.has(p + "lag")])
+def _find_longest_lag(view: AnalysisView) -> float:
+    """Return the lag (s) up to which curves are drawn: some delays, so that the chosen one is visible."""
+    lags = np.concatenate([view.arrays[p + "lag"] for p in (CLEAN_PREFIX, RAW_PREFIX) if view.has(p + "lag")])
     seconds, last = view.result.delay.seconds, float(np.nanmax(lags))
-    return min(last, DELAYS * seconds) if seconds > 0 else last or 1.0
+    return min(last, DELAYS_SHOWN * seconds) if seconds > 0 else last or 1.0
 
 
-def _lower_start(axes: Axes, view: AnalysisView, name: str) -> None:
-    """Cut off what a value tells about itself at lag 0, which would dwarf the rest."""
-    keys = [shown.key for shown in _versions(view, name)]
+def _limit_start(axes: Axes, view: AnalysisView, name: str) -> None:
+    """Limit the vertical axis to lags above 0, since the mutual information at lag 0 is much larger."""
+    keys = [shown.key for shown in _find_versions(view, name)]
     later = [np.nanmax(view.arrays[key][1:]) for key in keys if np.isfinite(view.arrays[key][1:]).any()]
     if name == "ami" and later:
         axes.set_ylim(0.0, 1.08 * float(max(later)))
@@ -141,15 +143,15 @@ def _draw_floor(axes: Axes, view: AnalysisView, name: str) -> None:
             axes.axhline(level, color=style.QUIET, linewidth=0.8, linestyle=(0, (1, 2)), zorder=0.8)
         axes.annotate("1/e", (1.0, 1.0 / math.e), xycoords=axes.get_yaxis_transform(), xytext=(-2, 2),
                       textcoords="offset points", ha="right", color=style.QUIET, fontsize=8.5)  # fmt: skip
-    elif view.has(CLEAN + "ami_floor", CLEAN + "lag"):
-        floor = np.broadcast_to(view.arrays[CLEAN + "ami_floor"], view.arrays[CLEAN + "lag"].shape)
-        axes.plot(view.arrays[CLEAN + "lag"], floor, color=style.QUIET, linestyle=(0, (1, 2)),
+    elif view.has(CLEAN_PREFIX + "ami_floor", CLEAN_PREFIX + "lag"):
+        floor = np.broadcast_to(view.arrays[CLEAN_PREFIX + "ami_floor"], view.arrays[CLEAN_PREFIX + "lag"].shape)
+        axes.plot(view.arrays[CLEAN_PREFIX + "lag"], floor, color=style.QUIET, linestyle=(0, (1, 2)),
                   label="independent values")  # fmt: skip
 
 
 def _draw_cao(axes: Axes, view: AnalysisView) -> None:
-    for name, words, marker, line in CAO:
-        found = _versions(view, name)
+    for name, words, marker, line in CAO_CURVES:
+        found = _find_versions(view, name)
         for key, version, colour in found:
             prefix = key.removesuffix(name)
             label = f"{words}, {version}" if len(found) > 1 else words
@@ -163,7 +165,7 @@ def _draw_cao(axes: Axes, view: AnalysisView) -> None:
 
 
 def _draw_false(axes: Axes, view: AnalysisView) -> None:
-    found = _versions(view, "fnn")
+    found = _find_versions(view, "fnn")
     for key, words, colour in found:
         prefix = key.removesuffix("fnn")
         if view.has(prefix + "dim_fnn"):

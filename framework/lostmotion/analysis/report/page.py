@@ -1,4 +1,4 @@
-"""The page of an analysis: what kind of motion it is, how sure that is, and every curve behind it."""
+"""The page of an analysis: the kind of motion, the evidence for it, and every curve."""
 
 from __future__ import annotations
 
@@ -10,28 +10,30 @@ from lostmotion.analysis.report import measures as measures
 from lostmotion.analysis.report import motion as motion
 from lostmotion.analysis.report import surrogates as surrogates
 from lostmotion.analysis.report import tables as tables
-from lostmotion.analysis.report.view import AGAIN, AnalysisView, read_analysis, whole
+from lostmotion.analysis.report.view import RERUN_HINT, AnalysisView, complete_sentence, read_analysis
 from lostmotion.codec import to_plain
 from lostmotion.report import style
 from lostmotion.report.pages import PageSection, drawn, template, written
 
 SECTIONS: tuple[PageSection[AnalysisView], ...] = (
-    PageSection("course", "The motion", motion.course, motion.course_caption),
-    PageSection("spectrum", "Spectrum", motion.spectra, motion.spectra_caption),
-    PageSection("section", "Poincaré section", motion.sections, motion.sections_caption),
-    PageSection("delay", "How the delay was chosen", embedding.delay, embedding.delay_caption),
-    PageSection("dimension", "How many dimensions it takes", embedding.dimension, embedding.dimension_caption),
-    PageSection("denoised", "What noise reduction did", motion.portraits, lambda _: motion.PORTRAITS),
-    PageSection("divergence", "How fast neighbouring states part", measures.divergence, measures.divergence_caption),
-    PageSection("correlation", "Correlation dimension", measures.correlation, measures.correlation_caption),
-    PageSection("surrogates", "Could it be noise?", surrogates.tests, surrogates.tests_caption),
+    PageSection("course", "The motion", motion.draw_course, motion.caption_course),
+    PageSection("spectrum", "Spectrum", motion.draw_spectra, motion.caption_spectra),
+    PageSection("section", "Poincaré section", motion.draw_sections, motion.caption_sections),
+    PageSection("delay", "How the delay was chosen", embedding.draw_delay, embedding.caption_delay),
+    PageSection("dimension", "How the dimension was chosen", embedding.draw_dimension, embedding.caption_dimension),
+    PageSection("denoised", "Effect of noise reduction", motion.draw_portraits, lambda _: motion.PORTRAITS_CAPTION),
+    PageSection(
+        "divergence", "Divergence of neighbouring states", measures.draw_divergence_figure, measures.caption_divergence
+    ),
+    PageSection("correlation", "Correlation dimension", measures.draw_correlation, measures.caption_correlation),
+    PageSection("surrogates", "Could it be noise?", surrogates.draw_tests, surrogates.caption_tests),
 )
 
 
 def write_analysis(folder: Path) -> Path:
     """Return the path of `report.html`, written from `analysis.json` and `analysis.nc` in the folder."""
     view = read_analysis(folder)
-    return written(folder / "report.html", lambda: render(view), AGAIN)
+    return written(folder / "report.html", lambda: render(view), RERUN_HINT)
 
 
 def render(view: AnalysisView) -> str:
@@ -39,24 +41,24 @@ def render(view: AnalysisView) -> str:
     result = view.result
     with style.applied():
         figures = list(drawn(SECTIONS, view))
-    first, *rest = tables.opening(result)
-    kind, word = tables.verdict(result)
+    first, *rest = tables.split_opening(result)
+    kind, word = tables.name_verdict(result)
     return template("page.html.j2", __package__).render(
         title=result.title or "Analysis",
         kind=kind,
         verdict=word,
         answer=first,
         rest=rest,
-        signs=tables.signs(result),
-        tally=tables.tally(result),
-        because=[] if result.signs else _sentences(result.because),
-        numbers=tables.numbers(view),
-        tests=tables.tests(result),
-        notes=_sentences(result.notes),
+        signs=tables.make_sign_rows(result),
+        tally=tables.count_signs(result),
+        because=[] if result.signs else _list_sentences(result.because),
+        numbers=tables.make_number_rows(view),
+        tests=tables.make_test_rows(result),
+        notes=_list_sentences(result.notes),
         figures=figures,
         provenance=json.dumps(to_plain(result.provenance), indent=2, ensure_ascii=False, default=str),
     )
 
 
-def _sentences(parts: tuple[str, ...]) -> list[str]:
-    return [whole(part) for part in parts if part.strip()]
+def _list_sentences(parts: tuple[str, ...]) -> list[str]:
+    return [complete_sentence(part) for part in parts if part.strip()]

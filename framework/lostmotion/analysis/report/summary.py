@@ -1,4 +1,4 @@
-"""The one wide picture of an analysis, for a README or a talk: portrait, section, divergence, dimension."""
+"""The summary figure of an analysis, for a README or a talk: portrait, section, divergence, dimension."""
 
 from __future__ import annotations
 
@@ -10,21 +10,21 @@ from matplotlib.figure import Figure
 
 from lostmotion.analysis.report.measures import draw_dimensions, draw_divergence
 from lostmotion.analysis.report.motion import draw_portrait, draw_section
-from lostmotion.analysis.report.view import AnalysisView, read_analysis, scale
+from lostmotion.analysis.report.view import AnalysisView, choose_scale, read_analysis
 from lostmotion.report import style
 
 Panel = Callable[[Axes, AnalysisView], None]
 
 
-def figure_summary(folder: Path) -> Path:
-    """Return the path of `summary.png` in the folder: portrait, section, divergence and dimension side by side."""
+def save_summary(folder: Path) -> Path:
+    """Write `summary.png` into the folder (portrait, section, divergence, dimension) and return its path."""
     with style.applied():
         return style.save(draw(read_analysis(folder)), folder / "summary.png")
 
 
 def draw(view: AnalysisView) -> Figure:
-    """Return the panels side by side; one whose arrays are absent stays out."""
-    panels = _panels(view)
+    """Return the panels side by side; a panel whose arrays are absent is left out."""
+    panels = _list_panels(view)
     figure = style.blank(3.5, width=3.5 * max(1, len(panels)))
     row = figure.subplots(1, max(1, len(panels)), squeeze=False)[0]
     for axes, (title, panel) in zip(row, panels, strict=False):
@@ -36,28 +36,28 @@ def draw(view: AnalysisView) -> Figure:
     return figure
 
 
-def _panels(view: AnalysisView) -> list[tuple[str, Panel]]:
+def _list_panels(view: AnalysisView) -> list[tuple[str, Panel]]:
     able: tuple[tuple[str, Panel, bool], ...] = (
-        ("Phase portrait", _portrait, view.has("x")),
-        ("Poincaré section", _section, view.has("section")),
-        ("Neighbouring states part", _divergence, view.has("lyapunov_time", "lyapunov_divergence")),
+        ("Phase portrait", _draw_portrait_panel, view.has("x")),
+        ("Poincaré section", _draw_section_panel, view.has("section")),
+        ("Divergence of neighbours", _draw_divergence_panel, view.has("lyapunov_time", "lyapunov_divergence")),
         ("Correlation dimension", draw_dimensions, view.has("d2_dim", "d2_dimension_by_dim")),
     )
     return [(title, panel) for title, panel, can in able if can]
 
 
-def _cleanest(view: AnalysisView, name: str, cleaned: str) -> str:
+def _choose_cleanest(view: AnalysisView, name: str, cleaned: str) -> str:
     return cleaned if view.has(cleaned) else name
 
 
-def _portrait(axes: Axes, view: AnalysisView) -> None:
-    draw_portrait(axes, view, (_cleanest(view, "x", "cleaned"), style.AFTER), scale(view))
+def _draw_portrait_panel(axes: Axes, view: AnalysisView) -> None:
+    draw_portrait(axes, view, (_choose_cleanest(view, "x", "cleaned"), style.AFTER), choose_scale(view))
 
 
-def _section(axes: Axes, view: AnalysisView) -> None:
-    draw_section(axes, view, (_cleanest(view, "section", "section_cleaned"), style.AFTER), scale(view))
+def _draw_section_panel(axes: Axes, view: AnalysisView) -> None:
+    draw_section(axes, view, (_choose_cleanest(view, "section", "section_cleaned"), style.AFTER), choose_scale(view))
 
 
-def _divergence(axes: Axes, view: AnalysisView) -> None:
+def _draw_divergence_panel(axes: Axes, view: AnalysisView) -> None:
     draw_divergence(axes, view)
     axes.legend(loc="lower right", fontsize=8)

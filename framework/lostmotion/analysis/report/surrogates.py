@@ -1,4 +1,4 @@
-"""Figure of the surrogate tests: where the recording stands among series that only look like it."""
+"""Figure of the surrogate tests: the statistic of the recording among those of its surrogates."""
 
 from __future__ import annotations
 
@@ -14,16 +14,16 @@ from lostmotion.report import style
 from lostmotion.report.words import probability, shortened, spoken
 from lostmotion.results import Array
 
-ABREAST = 3
-CELLS = 24
+PANELS_PER_ROW = 3
+MAX_HISTOGRAM_BINS = 24
 
 
-def tests(view: AnalysisView) -> Figure | None:
+def draw_tests(view: AnalysisView) -> Figure | None:
     """Return one panel for each test: the statistic of the surrogates, and that of the recording."""
-    values = _values(view)
+    values = _get_values(view)
     if values is None:
         return None
-    columns = min(ABREAST, len(values))
+    columns = min(PANELS_PER_ROW, len(values))
     rows = math.ceil(len(values) / columns)
     figure = style.blank(2.4 * rows + 0.5)
     panels = figure.subplots(rows, columns, squeeze=False).ravel()
@@ -36,17 +36,17 @@ def tests(view: AnalysisView) -> Figure | None:
     return figure
 
 
-def tests_caption(view: AnalysisView) -> str:
+def caption_tests(view: AnalysisView) -> str:
     """Return what the figure of the tests shows."""
     refused = int(np.sum(~np.isfinite(view.arrays["surrogate_values"])))
-    lost = f" {refused} values could not be had and are not drawn." if refused else ""
+    lost = f" {refused} values could not be computed and are not drawn." if refused else ""
     return (
-        "The statistic of each surrogate (bars) and of the recording (line). A recording within the crowd is no"
-        f" different from what the null hypothesis makes; the p-value is its rank, and cannot be 0.{lost}"
+        "The statistic of each surrogate (bars) and of the recording (line). If the recording lies among the"
+        f" surrogates, it agrees with the null hypothesis; the p-value is its rank, and cannot be 0.{lost}"
     )
 
 
-def _values(view: AnalysisView) -> Array | None:
+def _get_values(view: AnalysisView) -> Array | None:
     values = view.arrays.get("surrogate_values")
     if values is None or not values.size or not np.isfinite(values).any():
         return None
@@ -56,9 +56,9 @@ def _values(view: AnalysisView) -> Array | None:
 def _draw_test(axes: Axes, view: AnalysisView, place: int, values: Array) -> None:
     tests = view.result.surrogates
     test = tests[place] if place < len(tests) else None
-    original, finite = _original(view, place), values[np.isfinite(values)]
+    original, finite = _get_original(view, place), values[np.isfinite(values)]
     if finite.size:
-        cells = min(CELLS, max(6, round(1.6 * math.sqrt(finite.size))))
+        cells = min(MAX_HISTOGRAM_BINS, max(6, round(1.6 * math.sqrt(finite.size))))
         counts, edges = np.histogram(finite, bins=cells)
         axes.stairs(counts, edges, fill=True, color="#b8b8b8", label="surrogates")
         axes.set_ylim(0.0, 1.15 * float(counts.max()))
@@ -68,11 +68,11 @@ def _draw_test(axes: Axes, view: AnalysisView, place: int, values: Array) -> Non
     style.few_ticks(axes, 4, 4)
     axes.yaxis.set_major_locator(MaxNLocator(4, integer=True))
     axes.set_xlabel(shortened(spoken(test.statistic if test else "statistic"), 36))
-    axes.set_ylabel("surrogates" if place % ABREAST == 0 else "")
+    axes.set_ylabel("surrogates" if place % PANELS_PER_ROW == 0 else "")
     name = shortened(spoken(test.method if test else f"test {place + 1}"), 26)
     axes.set_title(f"{name}: p = {probability(test.p if test else None)}".replace("= <", "<").replace("= >", ">"))
 
 
-def _original(view: AnalysisView, place: int) -> float:
+def _get_original(view: AnalysisView, place: int) -> float:
     found = np.atleast_1d(view.arrays.get("surrogate_original", np.array([])))
     return float(found[place]) if place < found.size else math.nan

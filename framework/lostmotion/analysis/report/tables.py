@@ -1,4 +1,4 @@
-"""The words and numbers with which the page of an analysis opens."""
+"""The texts and tables at the top of the page of an analysis."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import re
 from collections.abc import Mapping
 from typing import NamedTuple
 
-from lostmotion.analysis.report.view import AnalysisView, beat, whole
+from lostmotion.analysis.report.view import AnalysisView, complete_sentence, name_period_source
 from lostmotion.report.words import (
     figures,
     measured,
@@ -28,6 +28,7 @@ from lostmotion.results.analysis import (
     State,
     SurrogateOutcome,
 )
+from lostmotion.settings import DEFAULT
 
 VERDICTS: Mapping[MotionKind, tuple[str, str]] = {
     "periodic": ("calm", "Periodic"),
@@ -41,11 +42,10 @@ STATES: Mapping[State, tuple[str, str]] = {
     "against": ("against chaos", "con"),
     "silent": ("silent", "mute"),
 }
-SIGNIFICANT = 0.05
-EXPONENT = "lyapunov_"
-NO_RANK = "No p-value: the statistic could not be had."
+EXPONENT_PREFIX = "lyapunov_"
+NO_P_VALUE = "No p-value: the statistic could not be computed."
 SIDES: Mapping[Sided, str] = {"two": "two-sided", "low": "one-sided, low", "high": "one-sided, high"}
-DRIVES: Mapping[DriveSource, str] = {
+DRIVE_SOURCES: Mapping[DriveSource, str] = {
     "excitation": "from the measured excitation",
     "given": "as given",
     "spectrum": "from the spectrum",
@@ -53,7 +53,7 @@ DRIVES: Mapping[DriveSource, str] = {
 
 
 class Row(NamedTuple):
-    """A quantity, its value, how it was found, and what to mind; `kind` is ok, uncertain or refused."""
+    """A quantity, its value, its method, and a remark; `kind` is ok, uncertain or refused."""
 
     name: str
     value: str
@@ -63,7 +63,7 @@ class Row(NamedTuple):
 
 
 class SignRow(NamedTuple):
-    """A sign of chaos: its name, its state with the style of that, why, and what other explanation it rules out."""
+    """A sign of chaos: its name, its state with its style, the reason, and the explanation that it excludes."""
 
     name: str
     state: str
@@ -72,8 +72,8 @@ class SignRow(NamedTuple):
     excludes: str
 
 
-class Test(NamedTuple):
-    """A surrogate test: what was supposed, how it was tried, the p-value, and what follows."""
+class TestRow(NamedTuple):
+    """A surrogate test: null hypothesis, method, statistic, p-value, and conclusion."""
 
     null: str
     method: str
@@ -82,72 +82,78 @@ class Test(NamedTuple):
     says: str
 
 
-def verdict(result: Analysis) -> tuple[str, str]:
-    """Return kind (a style of the page) and word of the verdict, which says where some signs are silent."""
+def name_verdict(result: Analysis) -> tuple[str, str]:
+    """Return the style and the word of the verdict; it begins with "Probably" where some signs are silent."""
     kind, word = VERDICTS[result.verdict]
     likely = result.strength == "likely" and kind != "unknown"
     return kind, f"Probably {word[0].lower()}{word[1:]}" if likely else word
 
 
-def signs(result: Analysis) -> list[SignRow]:
-    """Return the rows of the table of signs: those for chaos first, then those against it, then the silent ones."""
+def make_sign_rows(result: Analysis) -> list[SignRow]:
+    """Return the rows of the table of signs: first those for chaos, then those against it, then the silent ones."""
     order = list(STATES)
     return [
-        SignRow(sentence(_brief(sign.name)), *STATES[sign.state], whole(sign.says), sign.excludes)
+        SignRow(sentence(_shorten_name(sign.name)), *STATES[sign.state], complete_sentence(sign.says), sign.excludes)
         for sign in sorted(result.signs, key=lambda sign: order.index(sign.state))
     ]
 
 
-def tally(result: Analysis) -> str:
-    """Return how many signs are in which state, in words, or nothing without signs."""
+def count_signs(result: Analysis) -> str:
+    """Return the number of signs in each state in words, or an empty text without signs."""
     states = [sign.state for sign in result.signs]
     if not states:
         return ""
     return f"{states.count('for')} for chaos, {states.count('against')} against it, {states.count('silent')} silent"
 
 
-def opening(result: Analysis) -> list[str]:
-    """Return what the analysis says: its first sentence, and the rest of it."""
-    says = result.says.strip() or "Nothing was said about this recording."
+def split_opening(result: Analysis) -> list[str]:
+    """Return the first sentence of the verdict, and the rest of it."""
+    says = result.says.strip() or "The analysis has no sentence about this recording."
     head, _, tail = re.sub(r"(?<=[.!?])\s+(?=[A-Z])", "\0", says, count=1).partition("\0")
-    return [whole(part) for part in (head, tail) if part]
+    return [complete_sentence(part) for part in (head, tail) if part]
 
 
-def numbers(view: AnalysisView) -> list[Row]:
+def make_number_rows(view: AnalysisView) -> list[Row]:
     """Return the rows of the table of numbers."""
     result = view.result
     named = [
         ("Largest Lyapunov exponent", result.lyapunov),
         ("Correlation dimension D₂", result.d2),
         ("Correlation entropy K₂", result.k2),
-        *((_titled(one), one) for one in result.others),
+        *((_title_measure(one), one) for one in result.others),
     ]
-    return [*_drive(view), _delay(result), _dimension(result), *_noise(result), *(estimate(*one) for one in named)]
+    return [
+        *_make_drive_rows(view),
+        _make_delay_row(result),
+        _make_dimension_row(result),
+        *_make_noise_rows(result),
+        *(make_estimate_row(*one) for one in named),
+    ]
 
 
-def _titled(found: Measure) -> str:
+def _title_measure(found: Measure) -> str:
     name = found.name or found.method
-    return "Lyapunov exponent" if name.startswith(EXPONENT) else sentence(_brief(name))
+    return "Lyapunov exponent" if name.startswith(EXPONENT_PREFIX) else sentence(_shorten_name(name))
 
 
-def _method(name: str) -> str:
-    return sentence(_brief(name.removeprefix(EXPONENT)))
+def _name_method(name: str) -> str:
+    return sentence(_shorten_name(name.removeprefix(EXPONENT_PREFIX)))
 
 
-def _brief(name: str) -> str:
+def _shorten_name(name: str) -> str:
     return shortened(spoken(name), 40)
 
 
-def estimate(name: str, found: Measure) -> Row:
-    """Return the row of one estimate: a number with its interval, or the sentence that stands in its place."""
-    status, how = found.status, _method(found.method)
-    said = whole(found.says or ("" if status == "ok" else STATUSES.get(status, status)))
+def make_estimate_row(name: str, found: Measure) -> Row:
+    """Return the row of one estimate: a value with its interval, or the reason why there is none."""
+    status, how = found.status, _name_method(found.method)
+    remark = complete_sentence(found.says or ("" if status == "ok" else STATUSES.get(status, status)))
     if not math.isfinite(found.value):
-        return Row(name, "no number", how, said or "No reason was stated.", "refused")
-    return Row(name, _value(found), how, said, "ok" if status == "ok" else "uncertain")
+        return Row(name, "no number", how, remark or "No reason was stated.", "refused")
+    return Row(name, _format_value(found), how, remark, "ok" if status == "ok" else "uncertain")
 
 
-def _value(found: Measure) -> str:
+def _format_value(found: Measure) -> str:
     unit, (value, low, high) = shortened(found.unit, 16), (found.value, found.low, found.high)
     if not (math.isfinite(low) and math.isfinite(high)):
         return measured(value, unit) + ", no interval"
@@ -157,50 +163,50 @@ def _value(found: Measure) -> str:
     return f"{text} {pretty(unit)}".rstrip()
 
 
-def _drive(view: AnalysisView) -> list[Row]:
+def _make_drive_rows(view: AnalysisView) -> list[Row]:
     if not math.isfinite(view.period):
         return []
     drive = view.result.drive
     count = drive.samples_per_period
-    said = f" ({figures(count, 5)} samples)" if math.isfinite(count) else ""
-    how = sentence(DRIVES.get(drive.source, ""))
-    return [Row(f"Period of the {beat(view)}", f"{figures(view.period, 6)} s{said}", how, "")]
+    samples = f" ({figures(count, 5)} samples)" if math.isfinite(count) else ""
+    how = sentence(DRIVE_SOURCES.get(drive.source, ""))
+    return [Row(f"Period of the {name_period_source(view)}", f"{figures(view.period, 6)} s{samples}", how, "")]
 
 
-def _delay(result: Analysis) -> Row:
+def _make_delay_row(result: Analysis) -> Row:
     delay = result.delay
-    said = f" ({delay.samples} sample{'s' if delay.samples != 1 else ''})"
-    return Row("Delay", f"{figures(delay.seconds)} s{said}", _method(delay.method), "")
+    samples = f" ({delay.samples} sample{'s' if delay.samples != 1 else ''})"
+    return Row("Delay", f"{figures(delay.seconds)} s{samples}", _name_method(delay.method), "")
 
 
-def _dimension(result: Analysis) -> Row:
+def _make_dimension_row(result: Analysis) -> Row:
     dimension = result.dimension
-    return Row("Embedding dimension", figures(dimension.value), _method(dimension.method), "")
+    return Row("Embedding dimension", figures(dimension.value), _name_method(dimension.method), "")
 
 
-def _noise(result: Analysis) -> list[Row]:
+def _make_noise_rows(result: Analysis) -> list[Row]:
     noise = result.noise
-    return [_level("Noise as recorded", noise.before, "", noise.unit),
-            _level("Noise after reduction", noise.after, _method(noise.method), noise.unit)]  # fmt: skip
+    return [_make_level_row("Noise as recorded", noise.before, "", noise.unit),
+            _make_level_row("Noise after reduction", noise.after, _name_method(noise.method), noise.unit)]  # fmt: skip
 
 
-def _level(name: str, level: float, how: str, unit: str) -> Row:
+def _make_level_row(name: str, level: float, how: str, unit: str) -> Row:
     if not math.isfinite(level):
-        return Row(name, "no number", how, "The noise could not be told from the motion.", "refused")
+        return Row(name, "no number", how, "The noise could not be separated from the motion.", "refused")
     return Row(name, percent(level) if level else "none found", how, unit.replace("share of the", "of the", 1))
 
 
-def tests(result: Analysis) -> list[Test]:
+def make_test_rows(result: Analysis) -> list[TestRow]:
     """Return the rows of the table of surrogate tests."""
-    return [_test(row) for row in result.surrogates]
+    return [_make_test_row(row) for row in result.surrogates]
 
 
-def _test(found: SurrogateOutcome) -> Test:
-    default = "Rejected." if found.p <= SIGNIFICANT else "Not rejected."
-    return Test(
+def _make_test_row(found: SurrogateOutcome) -> TestRow:
+    default = "Rejected." if found.p <= DEFAULT.motion.level else "Not rejected."
+    return TestRow(
         null=sentence(found.null),
-        method=f"{found.draws} {_brief(found.method)}",
-        statistic=f"{_brief(found.statistic)}, {SIDES[found.sided]}",
+        method=f"{found.draws} {_shorten_name(found.method)}",
+        statistic=f"{_shorten_name(found.statistic)}, {SIDES[found.sided]}",
         p=probability(found.p),
-        says=whole(found.says or (default if math.isfinite(found.p) else NO_RANK)),
+        says=complete_sentence(found.says or (default if math.isfinite(found.p) else NO_P_VALUE)),
     )

@@ -1,4 +1,4 @@
-"""What the page of an analysis is drawn from, and the words for it that several figures share."""
+"""The data of the page of an analysis, and texts that several figures share."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from lostmotion.results import Array
 from lostmotion.results.analysis import Analysis
 from lostmotion.storage import load_arrays, load_result, require_files
 
-AGAIN = "run `lostmotion analyse` again"
+RERUN_HINT = "run `lostmotion analyse` again"
 RESULT, ARRAYS = "analysis.json", "analysis.nc"
 RECORDED = "as recorded"
 CLEANED = "noise reduced"
@@ -34,7 +34,7 @@ class Variant(NamedTuple):
 
 @dataclass(frozen=True)
 class AnalysisView:
-    """An analysis as figures and page take it: the result, and numeric arrays with their units and long names."""
+    """The data of figures and page: the result, and numeric arrays with their units and long names."""
 
     result: Analysis
     arrays: Mapping[str, Array]
@@ -42,7 +42,7 @@ class AnalysisView:
     long_names: Mapping[str, str]
 
     def has(self, *names: str) -> bool:
-        """Return whether every array of `names` is there and holds at least one finite number."""
+        """Return whether every array of `names` exists and has at least one finite value."""
         return all(name in self.arrays and bool(np.isfinite(self.arrays[name]).any()) for name in names)
 
     @property
@@ -53,19 +53,19 @@ class AnalysisView:
 
     @property
     def lag(self) -> int:
-        """The delay in samples, 1 at least."""
+        """The delay in samples, at least 1."""
         return max(1, self.result.delay.samples)
 
 
 def read_analysis(folder: Path) -> AnalysisView:
-    """Return what `lostmotion analyse` wrote into a folder; the arrays may be absent."""
+    """Return the data that `lostmotion analyse` wrote into a folder; the arrays may be absent."""
     require_files(folder, [RESULT], "lostmotion analyse RECORDING")
-    result, arrays = load_result(Analysis, folder / RESULT, AGAIN), folder / ARRAYS
-    return view_of(result, load_arrays(arrays, AGAIN) if arrays.is_file() else xr.Dataset())
+    result, arrays = load_result(Analysis, folder / RESULT, RERUN_HINT), folder / ARRAYS
+    return make_view(result, load_arrays(arrays, RERUN_HINT) if arrays.is_file() else xr.Dataset())
 
 
-def view_of(result: Analysis, data: xr.Dataset) -> AnalysisView:
-    """Return a result and the numeric arrays of a dataset as figures and page take them."""
+def make_view(result: Analysis, data: xr.Dataset) -> AnalysisView:
+    """Return the data of figures and page from a result and the numeric arrays of a dataset."""
     numeric = {str(n): v for n, v in data.variables.items() if v.dtype.kind in "fiub"}
     return AnalysisView(
         result,
@@ -75,54 +75,54 @@ def view_of(result: Analysis, data: xr.Dataset) -> AnalysisView:
     )
 
 
-def beat(view: AnalysisView) -> str:
-    """Return what the period is that of: the drive, or a line of the spectrum where no drive was named."""
+def name_period_source(view: AnalysisView) -> str:
+    """Return "drive", or "strongest line" where the period was read from the spectrum."""
     return "strongest line" if view.result.drive.source == "spectrum" else "drive"
 
 
-def quantity(view: AnalysisView) -> str:
-    """Return what was recorded, such as `displacement`."""
+def name_quantity(view: AnalysisView) -> str:
+    """Return the name of the recorded quantity, such as `displacement`."""
     name = view.long_names.get("x", "").partition(",")[0]
     return shortened(spoken(name) if name not in ("", "x") else "recorded signal", 24)
 
 
-def scale(view: AnalysisView, *names: str) -> Scale:
-    """Return the scale in which the recording is easy to read."""
+def choose_scale(view: AnalysisView, *names: str) -> Scale:
+    """Return the unit scale in which the recording is easy to read."""
     values = [view.arrays[name].ravel() for name in names or ("x",) if view.has(name)]
     return style.scale_of(np.concatenate(values) if values else np.zeros(1), shortened(view.units.get("x", ""), 12))
 
 
-def delayed(view: AnalysisView, shown: Scale) -> tuple[str, str]:
-    """Return the names of the axes of a plane of two delay coordinates."""
-    said = quantity(view)
+def name_delay_axes(view: AnalysisView, shown: Scale) -> tuple[str, str]:
+    """Return the axis labels of a plane of two delay coordinates."""
+    name = name_quantity(view)
     seconds = view.result.delay.seconds
-    later = f"{said}, {seconds:.3g} s later" if math.isfinite(seconds) else f"{said}, one delay later"
-    return with_unit(said, shown.unit), folded(with_unit(later, shown.unit), 40)
+    later = f"{name}, {seconds:.3g} s later" if math.isfinite(seconds) else f"{name}, one delay later"
+    return with_unit(name, shown.unit), wrap_label(with_unit(later, shown.unit), 40)
 
 
-def versions(view: AnalysisView, before: str, after: str) -> list[Variant]:
-    """Return the versions of an array that are there: before and after noise reduction."""
+def find_versions(view: AnalysisView, before: str, after: str) -> list[Variant]:
+    """Return the available versions of an array: before and after noise reduction."""
     both = (Variant(before, RECORDED, style.BEFORE), Variant(after, CLEANED, style.AFTER))
     found = [shown for shown in both if view.has(shown.key)]
     return found if len(found) > 1 else [shown._replace(colour=style.RECORDED) for shown in found]
 
 
-def folded(words: str, width: int) -> str:
+def wrap_label(words: str, width: int) -> str:
     """Return a label on two lines where it is longer than `width`."""
     return "\n".join(textwrap.wrap(words, width, max_lines=2, placeholder=" …"))
 
 
-def thinned(values: Array, most: int) -> Array:
-    """Return every k-th row, so that at most so many are left."""
+def thin_rows(values: Array, most: int) -> Array:
+    """Return every k-th row, so that at most `most` rows remain."""
     return values[:: max(1, math.ceil(len(values) / most))]
 
 
-def whole(text: str) -> str:
-    """Return a text as a sentence: with a capital at its start and a stop at its end."""
+def complete_sentence(text: str) -> str:
+    """Return a text as a sentence, with a capital letter and a full stop."""
     text = sentence(text.strip())
     return text if not text or text.endswith((".", "!", "?", "…")) else text + "."
 
 
-def listed(parts: list[str]) -> str:
-    """Return parts as one sentence after another, without the empty ones."""
+def join_sentences(parts: list[str]) -> str:
+    """Return the non-empty parts as consecutive sentences."""
     return " ".join(sentence(part) for part in parts if part)

@@ -1,26 +1,11 @@
-"""The thresholds on which conclusions depend: significance, naming, held-out comparison, convergence of chains.
-
-Each has a reason and, where one exists, a source. They are passed as arguments, are recorded in the provenance of each
-result, and can be changed: `lostmotion diagnose CASE.toml --set select.decisive=4`, or
-`lostmotion.diagnose(case, settings={"select.decisive": 4.0})`. `lostmotion settings` lists them. Numerical details,
-such as the step of a finite difference, are constants of the module that uses them.
-"""
+"""The thresholds of a diagnosis: locating, selecting, comparing, learning and reporting what a model leaves out."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
-from dataclasses import asdict, dataclass, field, fields, replace
-from typing import NamedTuple
+from dataclasses import dataclass
 
-from lostmotion.errors import CaseError, nearest
-from lostmotion.thresholds import ChainSettings, MotionSettings, RecordingSettings, SharedSettings, threshold
-
-__all__ = [
-    "DEFAULT", "ChainSettings", "HeldOutSettings", "LevelSettings", "LocateSettings", "MotionSettings", "NameSettings",
-    "RecordingSettings", "RivalSettings", "SelectSettings", "Setting", "Settings", "SharedSettings", "UnknownSettings",
-    "read",
-]  # fmt: skip
+from lostmotion.settings.threshold import threshold
 
 
 @dataclass(frozen=True)
@@ -51,6 +36,14 @@ class LocateSettings:
         (
             "The sign of the velocity is reported in place of the velocity when it explains at least this share of "
             "what the velocity explains."
+        ),
+        most=1.0,
+    )
+    visible: float = threshold(
+        0.01,
+        (
+            "A figure shows the share that a significant covariate explains from this share on: a force on another "
+            "body changes the likelihood, but hardly the force on the first body."
         ),
         most=1.0,
     )
@@ -275,91 +268,10 @@ class NameSettings:
 
 
 @dataclass(frozen=True)
-class LevelSettings:
-    """Which motions count as chaotic when parameters are identified from exponents and dimensions."""
+class SharedSettings:
+    """Comparing a parameter between several recordings."""
 
-    chaotic: float = threshold(
-        2.0, "A motion is chaotic when its exponent exceeds zero by more than this many standard errors."
+    level: float = threshold(0.01, "The significance level for calling parameters different.", most=1.0)
+    alike: float = threshold(
+        0.01, "Values that differ by less than this share count as equal in engineering terms.", most=1.0
     )
-    weak: float = threshold(
-        0.5,
-        "Chaos is weak when the exponent is below this, in nat per drive period: a recording may show nothing of it.",
-        "`benchmarks/levels.py errors`: 6 of 10 recordings of weak chaos were classified correctly",
-    )
-    harmonic: float = threshold(
-        0.1,
-        "A drive is harmonic when this share of its standard deviation, or less, is not a sine of one frequency: its"
-        " noise and small harmonics.",
-        most=1.0,
-    )
-
-
-class Setting(NamedTuple):
-    """One threshold: its key `stage.name`, value and default, the reason for it, its source and its range."""
-
-    key: str
-    value: float
-    default: float
-    why: str
-    source: str
-    least: float
-    most: float
-
-
-@dataclass(frozen=True)
-class Settings:
-    """All thresholds, by stage; frozen. `Settings().changed({"select.decisive": 4.0})` returns changed ones."""
-
-    recording: RecordingSettings = field(default_factory=RecordingSettings)
-    locate: LocateSettings = field(default_factory=LocateSettings)
-    select: SelectSettings = field(default_factory=SelectSettings)
-    rival: RivalSettings = field(default_factory=RivalSettings)
-    unknown: UnknownSettings = field(default_factory=UnknownSettings)
-    heldout: HeldOutSettings = field(default_factory=HeldOutSettings)
-    name: NameSettings = field(default_factory=NameSettings)
-    shared: SharedSettings = field(default_factory=SharedSettings)
-    chain: ChainSettings = field(default_factory=ChainSettings)
-    levels: LevelSettings = field(default_factory=LevelSettings)
-    motion: MotionSettings = field(default_factory=MotionSettings)
-
-    def changed(self, values: Mapping[str, float | str]) -> Settings:
-        """Return the settings with some values changed, by `stage.name`; unknown keys or values raise `CaseError`."""
-        made, known = self, {setting.key: setting for setting in self}
-        for key, value in values.items():
-            if key not in known:
-                raise CaseError(f"there is no setting {key!r}{nearest(key, known)}: `lostmotion settings` lists them")
-            stage, _, name = key.partition(".")
-            made = replace(made, **{stage: replace(getattr(made, stage), **{name: _check_value(known[key], value)})})
-        return made
-
-    def __iter__(self) -> Iterator[Setting]:
-        """Yield every setting."""
-        for stage in fields(self):
-            own = getattr(self, stage.name)
-            for f in fields(own):
-                yield Setting(f"{stage.name}.{f.name}", getattr(own, f.name), **f.metadata)
-
-    def as_dict(self) -> dict[str, dict[str, float]]:
-        """Return all values as nested mappings, `{stage: {name: value}}`, for the provenance of a result."""
-        return asdict(self)
-
-
-DEFAULT = Settings()
-"""The default settings."""
-
-
-def _check_value(setting: Setting, value: object) -> float:
-    """Return a value for a setting as a number; raise `CaseError` where it is no number in the allowed range."""
-    try:
-        number = float(value)  # type: ignore[arg-type]
-    except (TypeError, ValueError):
-        number = math.nan
-    if not setting.least <= number <= setting.most or not math.isfinite(number):
-        wanted = f"a number from {setting.least:g} to {setting.most:g}"
-        raise CaseError(f"the setting {setting.key} is {value!r}: wanted {wanted}")
-    return number
-
-
-def read(pairs: Mapping[str, float | str] | Settings | None) -> Settings:
-    """Return settings from the argument of a caller: settings, a mapping of changes, or None."""
-    return pairs if isinstance(pairs, Settings) else DEFAULT.changed(pairs or {})
