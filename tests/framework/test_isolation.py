@@ -243,7 +243,7 @@ def test_a_plugin_file_that_does_not_import_is_one_sentence_and_status_2(tmp_pat
     (tmp_path / "sub" / "case.toml").write_text(CASE.format(file="../guest_broken.py"))
     done = run("diagnose", tmp_path / "sub" / "case.toml", "--out", tmp_path / "out", status=2)
     assert "guest_broken.py could not be loaded: ModuleNotFoundError" in done.stderr
-    assert "mend the file" in done.stderr
+    assert "correct the file" in done.stderr
     assert one_sentence(done.stderr)
     assert "guest_broken" not in sys.modules
     assert not os.path.exists(tmp_path / "out")

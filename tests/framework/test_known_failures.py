@@ -116,7 +116,7 @@ def test_an_unfinished_class_of_a_file_is_named(tmp_path):
     text = run("--plugin", str(path), "plugins", status=2)
     sys.modules.pop("half_terms", None)
     assert "term 'half' of" in text
-    assert "is not finished: write the method force of Half" in text
+    assert "is not complete: write the method force of Half" in text
 
 
 def test_what_others_bring_is_told_by_digest_or_version(tmp_path):

@@ -108,7 +108,8 @@ def run_analysis(
 ) -> Analysis:
     """Return the result after writing `analysis.json`, the arrays and the report into the folder `out`."""
     say("reading")
-    source = load_source(path, WantedChannel(request.columns, request.rate, request.every), registry)
+    wanted = WantedChannel(request.columns, request.rate, request.every)
+    source = load_source(path, wanted, registry, request.settings.recording)
     _require_known(registry, request)
     folder = folder_for(out)
     result, arrays = analyse_source(source, registry, request, say)
@@ -126,6 +127,7 @@ def analyse_source(
     found = analyse(source, registry, request, say)
     settings = {k: v for k, v in asdict(request).items() if k not in ("jobs", "seed", "settings")}
     settings["thresholds"] = asdict(request.settings.motion)
+    settings["recording_thresholds"] = asdict(request.settings.recording)
     made = origin_of("analyse", settings, request.seed, {**registry.origins(), **source.inputs})
     variables, coords = collect_arrays(found)
     return make_result(found, made, request.settings.motion), dataset_of(variables, coords, {"title": source.title})

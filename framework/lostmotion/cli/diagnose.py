@@ -57,14 +57,14 @@ def _prepare_case(ctx: click.Context, case: Path, out: Path, model: str) -> Path
     """Return the path of the case; for a recording, a case is written into the folder of the results first."""
     from lostmotion.preparation.beginning import begun
     from lostmotion.recording import ENDINGS
-    from lostmotion.recording.outline import Wishes
+    from lostmotion.recording.outline import GivenRoles
 
     if case.suffix[1:].lower() not in ENDINGS:
         if model:
             raise click.UsageError(f"--model needs a recording: {case.name} is a case and has its own [model]")
         return case
     out.mkdir(parents=True, exist_ok=True)
-    draft = begun(case, out / "case.toml", Wishes(None, None, None, None, {}), registry_of(ctx), model, {})
+    draft = begun(case, out / "case.toml", GivenRoles(None, None, None, None, {}), registry_of(ctx), model, {})
     for line in (*draft.found, *(f"please check: {note}" for note in draft.notes)):
         click.echo(flatten_text(line), err=True)
     return out / "case.toml"

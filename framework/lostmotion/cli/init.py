@@ -48,11 +48,11 @@ def command(
     message then names the option that helps.
     """
     from lostmotion.preparation.beginning import begun
-    from lostmotion.recording.outline import Wishes
+    from lostmotion.recording.outline import GivenRoles
 
     if out.exists() and not force:
         raise click.UsageError(f"{out} exists already: give another --out, or --force")
-    wishes = Wishes(
+    wishes = GivenRoles(
         roles["time"], roles["rate"], roles["drive"], roles["response"], dict(_split_pairs(units, "--unit"))
     )
     gains = {name: _parse_number(name, value) for name, value in _split_pairs(factors, "--factor")}

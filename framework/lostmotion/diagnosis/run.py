@@ -107,7 +107,7 @@ def run_diagnosis(
     Unless it is to `propose` none, it looks for the experiment that would tell rivals apart.
     """
     say("reading the case")
-    prepared = prepare(path, registry)
+    prepared = prepare(path, registry, settings)
     folder = folder_for(out)
     told = diagnose_prepared(prepared, registry, seed=seed, jobs=jobs, propose=propose, say=say, settings=settings)
     say("report")

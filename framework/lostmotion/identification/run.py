@@ -107,7 +107,7 @@ def identify_case(
     rng = np.random.default_rng(order.seed)
     asked = (order, rng, watch)
     if prepared or choose_route(case, order) == "trajectory":
-        way = _prepare_trajectory(prepared or prepared_of(case, registry), out, registry, asked)
+        way = _prepare_trajectory(prepared or prepared_of(case, registry, order.settings), out, registry, asked)
     else:
         way = _prepare_quantifiers(case, out, registry, asked)
     if order.fresh:

@@ -23,7 +23,7 @@ from lostmotion.likelihood.problem import Problem, Scales
 from lostmotion.likelihood.space import LEVELS, NOISE, OFFSET, RANDOM, FreeParameter, keys_of
 from lostmotion.likelihood.system import Slot, System
 from lostmotion.quantities import quantity_of, unit_of
-from lostmotion.recording.checks import filled
+from lostmotion.recording.checks import fill_lost
 from lostmotion.settings import DEFAULT, Settings
 
 BLOCKS, ALIVE = 60, 4.0
@@ -70,7 +70,7 @@ def lasting(observation: Observation, share: float = DEFAULT.heldout.share) -> i
     as much of the recording as would be held out does not, or more: nothing could be predicted there.
     """
     sensor = telling(observation)
-    blocks = np.array_split(filled(observation.readings[:, sensor]), BLOCKS)
+    blocks = np.array_split(fill_lost(observation.readings[:, sensor]), BLOCKS)
     alive = np.array([float(np.std(block)) for block in blocks]) > ALIVE * observation.noises[sensor]
     last = int(np.flatnonzero(alive)[-1]) + 1 if alive.any() else BLOCKS
     if last > (1.0 - share) * BLOCKS:
@@ -124,7 +124,7 @@ def _motion(observation: Observation, sensor: int) -> tuple[float, float]:
     """
     quantity, readings = quantity_of(observation.sensors[sensor].channel), observation.readings[:, sensor]
     order = ORDERS.index(quantity) if quantity in ORDERS else 0
-    z, amplitude = filled(readings), math.sqrt(2.0) * float(np.nanstd(readings))
+    z, amplitude = fill_lost(readings), math.sqrt(2.0) * float(np.nanstd(readings))
     power = np.abs(np.fft.rfft((z - z.mean()) * np.hanning(len(z)))) ** 2
     floor, whole = float(np.median(power[-len(power) // 5 :])), float(np.sum(power))
     power = np.where(power > FAR_ABOVE * floor, power, 0.0) if order else np.maximum(power - 3.0 * floor, 0.0)

@@ -16,7 +16,7 @@ from lostmotion.errors import CaseError, DataError, nearest
 from lostmotion.likelihood.sensors import Sensor
 from lostmotion.quantities import unit_of
 from lostmotion.recording import Recording
-from lostmotion.recording.made import made as recorded
+from lostmotion.recording.made import RecordingLayout, make_recording
 from lostmotion.registry import Registry
 from lostmotion.results.background import FittedMachine
 from lostmotion.simulation.simulate import Moved, set_in_motion
@@ -69,7 +69,8 @@ class FittedModel:
         which = ({name: name for name in driven}, {channel: label for label, channel in names.items()})
         shown = {sensor.label: self._simulate_sensor(moved, sensor) for sensor in self.sensors}
         units |= {label: units[channel] for label, channel in names.items()}
-        return recorded({**driven, **shown}, which, units, None, rate, {}, "smooth", f"simulated {self.assembly.label}")
+        layout = RecordingLayout(which, units, rate=rate, name=f"simulated {self.assembly.label}")
+        return make_recording({**driven, **shown}, layout)
 
     @staticmethod
     def _simulate_sensor(moved: Moved, sensor: Sensor) -> Array:

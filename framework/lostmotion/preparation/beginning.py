@@ -21,8 +21,8 @@ from lostmotion.parts import Param
 from lostmotion.preparation.prepare import prepare
 from lostmotion.preparation.vetting import sound
 from lostmotion.quantities import LENGTH, si_factor
-from lostmotion.recording.checks import filled
-from lostmotion.recording.outline import Outline, OutlinedColumn, Wishes, outlined
+from lostmotion.recording.checks import fill_lost
+from lostmotion.recording.outline import GivenRoles, Outline, OutlinedColumn, outline_table
 from lostmotion.registry import Registry
 from lostmotion.signals import refined_period
 from lostmotion.signals.repetition import period_found
@@ -65,7 +65,7 @@ class RecordedScales:
 def begun(
     path: Path,
     out: Path,
-    wishes: Wishes,
+    roles: GivenRoles,
     registry: Registry,
     model: str = "",
     factors: Mapping[str, float] | None = None,
@@ -75,7 +75,7 @@ def begun(
     `factors` multiply a column before its unit, for instance newtons per volt. Raises `DataError` where roles cannot be
     told, `CaseError` where the model cannot take them.
     """
-    outline, gains = outlined(path, wishes), factors or {}
+    outline, gains = outline_table(path, roles), factors or {}
     scales = scales_of(outline, gains)
     machine = (
         _machine(registry, model)
@@ -122,7 +122,7 @@ def input_of(outline: Outline) -> str:
     """Return the input of a model that the drive is; an empty string where nothing drives the machine."""
     if outline.drive is None:
         return ""
-    return f"base_{outline.drive.kind}" if outline.based else "force"
+    return f"base_{outline.drive.kind}" if outline.base_driven else "force"
 
 
 def scales_of(outline: Outline, factors: Mapping[str, float]) -> RecordedScales:
@@ -151,8 +151,8 @@ def sizes_of(seen: Array, kind: str, pushed: Array | None, dt: float) -> Recorde
 
 def _filled(column: OutlinedColumn, factors: Mapping[str, float]) -> Array:
     """Return a column (n,) in SI units without its mean; lost readings are bridged by straight lines."""
-    values = column.values * si_factor(column.said, column.kind)[0] * factors.get(column.name, 1.0)
-    even = filled(values)
+    values = column.values * si_factor(column.stated_unit, column.kind)[0] * factors.get(column.name, 1.0)
+    even = fill_lost(values)
     return np.asarray(even - even.mean())
 
 
@@ -229,7 +229,7 @@ def _channels(outline: Outline, factors: Mapping[str, float]) -> Iterator[str]:
 def _channel(key: str, name: str, column: OutlinedColumn, factors: Mapping[str, float]) -> str:
     named = f", name = {_quoted(column.name)}" if key == "channel" and _plain(column.name) else ""
     factor = f", factor = {factors[column.name]!r}" if column.name in factors else ""
-    told = _quoted(column.name), _quoted(column.said)
+    told = _quoted(column.name), _quoted(column.stated_unit)
     return f'{{ {key} = "{name}", column = {told[0]}, unit = {told[1]}{factor}{named} }}'
 
 
@@ -242,7 +242,7 @@ def _doubt(column: OutlinedColumn) -> str:
     if column.sure:
         return ""
     why = f"the file says {column.unit}, which may need a factor" if column.unit else "the file gives no unit"
-    return f"  # {why}: {column.said} and {column.kind} are guesses"
+    return f"  # {why}: {column.stated_unit} and {column.kind} are guesses"
 
 
 def _parameters(outline: Outline, machine: Model, scales: RecordedScales) -> Iterator[str]:
@@ -323,7 +323,7 @@ def _described(column: OutlinedColumn, outline: Outline) -> str:
     column = outline.response if column.name == outline.response.name else column
     roles = {outline.drive.name if outline.drive else "": "drive", outline.response.name: "response"}
     role = roles.get(column.name, "not used")
-    taken = f", taken for {column.said}" if column.kind and not column.sure else ""
+    taken = f", taken for {column.stated_unit}" if column.kind and not column.sure else ""
     seen = column.values[np.isfinite(column.values)]
     if not seen.size:
         return f"  {column.name}: no reading at all"

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from lostmotion.case import WRITTEN, CaseFile, check_alike, load_case
+from lostmotion.case import WRITTEN, CaseFile, check_same_sensors, load_case
 from lostmotion.contracts import Model, Term
 from lostmotion.errors import CaseError, ContractError
 from lostmotion.likelihood.observation import Observation, observation_of
@@ -14,8 +14,9 @@ from lostmotion.preparation.candidates import candidates_of
 from lostmotion.preparation.vetting import sound, usable_terms
 from lostmotion.quantities import ROTATES
 from lostmotion.recording import Recording, load_recording
-from lostmotion.recording.decimation import thinned
+from lostmotion.recording.decimation import thin_recording
 from lostmotion.registry import Registry
+from lostmotion.settings import DEFAULT, Settings
 from lostmotion.written import model_of
 
 
@@ -58,23 +59,25 @@ def case_of(path: Path, registry: Registry) -> CaseFile:
     return case
 
 
-def prepare(path: Path, registry: Registry) -> Prepared:
-    """Return the case at `path`, ready for the stages; whatever cannot be meant is refused here."""
-    return prepared_of(case_of(path, registry), registry)
+def prepare(path: Path, registry: Registry, settings: Settings = DEFAULT) -> Prepared:
+    """Return the case at `path`, ready for the stages; raise an error for anything that cannot be valid."""
+    return prepared_of(case_of(path, registry), registry, settings)
 
 
-def prepared_of(case: CaseFile, registry: Registry) -> Prepared:
+def prepared_of(case: CaseFile, registry: Registry, settings: Settings = DEFAULT) -> Prepared:
     """Return a case with its recordings, its model and its terms."""
     if not case.recordings:
         raise CaseError("the case has no [[recordings]]: add one, with file, time or rate, excitation and response")
-    check_alike(tuple(spec.sensors for spec in case.recordings))
-    recordings = tuple(load_recording(spec, case.folder) for spec in case.recordings)
-    return prepared_with(case, recordings, sound(registry, "model", case.model), registry)
+    check_same_sensors(tuple(spec.sensors for spec in case.recordings))
+    recordings = tuple(load_recording(spec, case.folder, settings.recording) for spec in case.recordings)
+    return prepared_with(case, recordings, sound(registry, "model", case.model), registry, settings)
 
 
-def prepared_with(case: CaseFile, loaded: Sequence[Recording], model: Model, registry: Registry) -> Prepared:
+def prepared_with(
+    case: CaseFile, loaded: Sequence[Recording], model: Model, registry: Registry, settings: Settings = DEFAULT
+) -> Prepared:
     """Return a case with recordings that were loaded and a model that was made, and with its terms."""
-    recordings = tuple(thinned(one) for one in loaded)
+    recordings = tuple(thin_recording(one, settings.recording) for one in loaded)
     model = moving(model, case, recordings)
     observations = tuple(observation_of(r, model, held=r.hold == "step") for r in recordings)
     known, aside = usable_terms(registry)

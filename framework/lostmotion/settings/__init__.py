@@ -26,6 +26,7 @@ from lostmotion.settings.diagnosis import (
 )
 from lostmotion.settings.identification import ChainSettings, LevelSettings
 from lostmotion.settings.motion import MotionSettings
+from lostmotion.settings.recording import RecordingSettings
 
 __all__ = [
     "DEFAULT",
@@ -35,6 +36,7 @@ __all__ = [
     "LocateSettings",
     "MotionSettings",
     "NameSettings",
+    "RecordingSettings",
     "RivalSettings",
     "SelectSettings",
     "Setting",
@@ -62,6 +64,7 @@ class Setting(NamedTuple):
 class Settings:
     """All thresholds, by stage; frozen. `Settings().changed({"select.decisive": 4.0})` returns changed ones."""
 
+    recording: RecordingSettings = field(default_factory=RecordingSettings)
     locate: LocateSettings = field(default_factory=LocateSettings)
     select: SelectSettings = field(default_factory=SelectSettings)
     rival: RivalSettings = field(default_factory=RivalSettings)
