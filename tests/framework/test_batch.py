@@ -21,7 +21,7 @@ from lostmotion.errors import CaseError, DataError, PlaceError
 from lostmotion.preparation.prepare import case_of
 from lostmotion.provenance import digest, provenance
 from lostmotion.settings import DEFAULT
-from lostmotion_trials.blind.commitment import Blind, concealed
+from lostmotion_trials.blind.commitment import Blind, conceal_case
 
 CASE = """
 title = "{name}"
@@ -205,7 +205,7 @@ def test_a_row_tells_what_moved_most_and_an_adequate_case_has_little_to_tell():
 @pytest.mark.slow
 def test_twelve_real_cases_two_of_them_broken_killed_and_gone_on_with(tmp_path):
     clean = Blind(3, 400, (), True)
-    paths = [tmp_path / "cases" / concealed(clean, tmp_path, k).case / "case.toml" for k in range(12)]
+    paths = [tmp_path / "cases" / conceal_case(clean, tmp_path, k).case / "case.toml" for k in range(12)]
     (paths[2].parent / "recording.csv").write_text("time,excitation,response\n0,1\n", encoding="utf-8")
     paths[7].write_text(paths[7].read_text(encoding="utf-8").replace("title", "tittle"), encoding="utf-8")
     out = tmp_path / "out"

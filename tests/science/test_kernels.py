@@ -23,7 +23,7 @@ from lostmotion_plugins.models.lin import LinBacklash
 from lostmotion_plugins.terms.friction import CoulombFriction, StribeckFriction
 from lostmotion_plugins.terms.memory import DahlFriction
 from lostmotion_plugins.terms.viscous import QuadraticDamping, ViscousDamping
-from lostmotion_trials.demo.conceal import FRICTION, HIDDEN, JOINT, joint_motion
+from lostmotion_trials.demo.conceal import FRICTION, HIDDEN, JOINT, simulate_joint
 
 CASE_1 = {"m": 1.0, "c": 8.0, "k1": 0.0, "k0": 4e4, "x0": 0.005}
 PERIOD = 2.0 * math.pi / 40.0
@@ -185,7 +185,7 @@ def test_kernel_and_other_integrator_agree_with_friction():
 
 def test_joint_of_the_demo_obeys_the_model_that_will_find_it():
     """Degrees, relative motion and leapfrog against radians, absolute motion and RK4, for one period."""
-    base, seen = joint_motion(0.0, 0.3, FRICTION, 200.0, 130)
+    base, seen = simulate_joint(0.0, 0.3, FRICTION, 200.0, 130)
     amplitude, omega = math.radians(base[0]), 2.0 * math.pi * 1.54
     columns = (lambda t: amplitude * np.cos(omega * t), lambda t: -amplitude * omega * np.sin(omega * t))
     system = System(RobotJoint(), (CoulombFriction("base"),))
