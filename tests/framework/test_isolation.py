@@ -119,7 +119,7 @@ def test_a_map_goes_on_without_a_quantifier_that_breaks(known, tmp_path):
         "--quantifier", "guest_q_nan", "--out", tmp_path / "map.nc", "--quiet",
     )  # fmt: skip
     assert "quantifier 'guest_q_raises' failed in a cell of the map (ZeroDivisionError: all is lost)" in done.stderr
-    assert "guest_q_nan has no number for 2 of 2 motions" in done.stderr
+    assert "guest_q_nan has no value for 2 of 2 motions" in done.stderr
     assert "`lostmotion plugins check guest_q_nan`" in done.stderr
     assert "guest_crest" not in done.stderr
     from lostmotion.maps.store import load
