@@ -1,7 +1,7 @@
-"""What one who knows the truth could get out of a recording: the yardstick of a blind trial.
+"""The likelihood-ratio bound of a blind trial: the result that a fit of the true model reaches on a recording.
 
-Nominal and true model go through the likelihood of the diagnosis itself, begun at the truth. What the true terms gain
-is the log of the likelihood ratio, beyond which no test can go.
+Nominal and true model are fitted with the likelihood of the diagnosis, starting at the truth. The gain of the true
+terms is the logarithm of the likelihood ratio, and no test is more powerful than the likelihood-ratio test.
 """
 
 from __future__ import annotations
@@ -35,12 +35,12 @@ ALIKE: tuple[frozenset[str], ...] = (
     frozenset({"dahl_friction", "lugre_friction", "bouc_wen_hysteresis"}),
     frozenset({"actuator_lag", "sensor_lag"}),
 )
-"""Mechanisms that no recording of this kind tells apart: either name is right."""
+"""Mechanisms that no recording of this kind can distinguish: either name is right."""
 SKIPPED = ("sensor_quantisation", "unknown")
-"""What no likelihood of ours knows."""
+"""Mechanisms without a likelihood."""
 WARM_STARTS = (0.0, 3.0, 2.0 * math.log(300.0))
-"""Fits begin at the usual random force and at larger ones, in log intensity; with the largest, 0.3 of the drive, a
-model that lacks something finds its way from afar."""
+"""Fits start with the usual random force and with larger ones (log intensity). With the largest, 0.3 of the drive, the
+fit of a model that lacks a term converges from a distant start."""
 
 
 def alike(one: str, other: str) -> bool:
@@ -50,7 +50,7 @@ def alike(one: str, other: str) -> bool:
 
 @dataclass(frozen=True)
 class Yardstick:
-    """What the true model reaches: the gain of each effect (NaN where no term stands for it), with a status.
+    """The result of the true model: the gain of each effect (NaN where no term models it), with a status.
 
     `nrmse` is its error on held-out data over the horizon of the diagnosis, and `margin` by how much log-likelihood it
     is better than the model that was found; NaN where either could not be fitted.
