@@ -1,8 +1,8 @@
-"""Curves that are learned where no term of the library explains what is missing: smooth functions that act as terms.
+"""Learned curves: smooth functions that act as terms where no term of the library explains the missing force.
 
-A curve is a sum of sines over an interval wider than what was visited; their coefficients are normal, with the spectrum
-of a Matern process: a Gaussian process of reduced rank (Solin, Särkkä, Statistics and Computing 30 (2020) 419-446).
-So it is smooth, its band widens where data are few, and how rough it is can be chosen by marginal likelihood.
+A curve is a sum of sines over an interval wider than the visited range; their coefficients are normal, with the
+spectrum of a Matern process: a Gaussian process of reduced rank (Solin, Särkkä, Statistics and Computing 30 (2020)
+419-446). So it is smooth, its band widens where data are few, and its roughness is chosen by marginal likelihood.
 """
 
 from __future__ import annotations
@@ -22,20 +22,21 @@ WIDER = 1.25
 FINE, COARSE = 40, 16
 HARMONICS = 8
 CELLS = 128
-"""Cells of the table of a coarse curve, twice as many of a fine one: cubics are off by less than 1e-3 of a function."""
+"""Cells of the table of a coarse curve, twice as many for a fine one: the error of the cubics is less than 1e-3 of a
+function."""
 POSITION, VELOCITY, TIME_PASSED, PHASE = range(4)
 ONE, AGAINST_MOTION, DRAG = range(3)
 
 
 def make_params(count: int, dimension: Dimension, over: Dimension) -> tuple[Param, ...]:
-    """Return the parameters of a curve: its coefficients, then the middle and the half width of what was visited."""
+    """Return the parameters of a curve: its coefficients, then the middle and the half width of the visited range."""
     weights = tuple(Param(f"v{i}", "coefficient of a learned curve", dimension, null=0.0) for i in range(count))
     middle = Param("middle", "middle of the range of a learned curve", over)
     return (*weights, middle, Param("half", "half width of the range", over, low=0.0, scale="log"))
 
 
 def look_up(p: Values, z: float, cells: int) -> float:
-    """Return a curve at `z`, in cells from its begin: a cubic from node to node of the table behind `p[2]`."""
+    """Return a curve at `z`, in cells from its begin: a cubic between the nodes of the table after `p[2]`."""
     z = min(z, cells) if z > 0.0 else 0.0
     cell = min(int(z), cells - 1)
     z -= cell
@@ -45,17 +46,17 @@ def look_up(p: Values, z: float, cells: int) -> float:
 
 
 def compute_spectrum(waves: Array, length: float) -> Array:
-    """Return the standard deviation of each coefficient of functions with these `waves` (rad per half width)."""
+    """Return the prior standard deviation of each coefficient of functions with these `waves` (rad per half width)."""
     power = (5.0 / length**2 + waves**2) ** -3.0
     return np.asarray(np.sqrt(2.0 * power / power.sum()))
 
 
 @dataclass(frozen=True)
 class LearnedCurve(Term):
-    """A force that is learned as a curve: a sum of `count` sines of what it runs over.
+    """A force that is learned as a curve: a sum of `count` sines of one variable.
 
-    `depends` names the covariates on which the force depends, `times` what the curve is multiplied with. The kernel
-    reads the curve from a table of so many `cells`, over the `source`, and multiplies it with the `factor`.
+    `depends` names the covariates of the force, `times` the factor of the curve. The kernel reads the curve from a
+    table of so many `cells`, over the variable `source`, and multiplies it by the `factor`.
     """
 
     at: str = "ground"
@@ -93,7 +94,7 @@ class LearnedCurve(Term):
         return np.asarray(cls.waves() * np.cos(np.outer(z + WIDER, cls.waves())), dtype=float)
 
     def prepared(self, p: Array) -> Array:
-        """Return begin and cells per unit of the table, what the law needs, then value and slope at each node."""
+        """Return begin and cells per unit of the table, the need of the law, then value and slope at each node."""
         middle, half = p[:, self.count], p[:, self.count + 1]
         need = p[:, self.count + 2] if p.shape[1] > self.count + 2 else np.zeros(len(p))
         begin, per = middle - half, 0.5 * self.cells / half
@@ -107,7 +108,7 @@ class LearnedCurve(Term):
         return np.column_stack([begin, per, need, nodes.reshape(len(p), -1)])
 
     def force(self, t: float, x: float, v: float, u: Array, p: Values, s: Values) -> float:  # type: ignore[override]
-        """Return the curve, by a cubic from node to node of its table, times its factor."""
+        """Return the curve, by a cubic between the nodes of its table, times its factor."""
         seen = t
         if self.source == POSITION:
             seen = x
@@ -181,7 +182,7 @@ class DragOverPosition(LearnedCurve):
 
 @dataclass(frozen=True)
 class OverTime(LearnedCurve):
-    """A force that changes slowly in the course of a recording; after its end it stays what it is there."""
+    """A force that changes slowly during a recording; after its end it keeps its last value."""
 
     source: int = TIME_PASSED
     name: ClassVar[str] = "unknown_over_time"
@@ -193,7 +194,7 @@ class OverTime(LearnedCurve):
 
 @dataclass(frozen=True)
 class OverPhase(LearnedCurve):
-    """A force that repeats with each period of the drive; `middle` and `half` have no part in it."""
+    """A force that repeats with each period of the drive; `middle` and `half` are not used."""
 
     source: int = PHASE
     name: ClassVar[str] = "unknown_over_phase"
@@ -221,7 +222,7 @@ class OverPhase(LearnedCurve):
 
 
 def _make_phases(count: int) -> Array:
-    """Return phases (count,) that make every other sine a cosine."""
+    """Return phases (count,) that turn every other sine into a cosine."""
     return np.asarray(np.tile([0.5 * math.pi, 0.0], count // 2), dtype=float)
 
 

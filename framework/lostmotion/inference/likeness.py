@@ -1,7 +1,7 @@
-"""What a learned force looks like: laws of the library, at any shape, that come close to it along the recorded motion.
+"""Similar laws: laws of the library, at any shape, that approximate a learned force along the recorded motion.
 
-It is a proposal in words. The likelihood has refused these laws: at the shapes it tried, or since a smooth force
-explains as much.
+It is a proposal in words. The likelihood has rejected these laws, at the shapes that were tried, or because a smooth
+force explains as much.
 """
 
 from __future__ import annotations
@@ -19,30 +19,30 @@ from lostmotion.likelihood.problem import Problem
 
 MOST_SHAPES = 40
 KEPT = 6
-"""So many laws that come closest alone are tried two by two."""
+"""The number of best single laws that are tried in pairs."""
 
 
 @dataclass(frozen=True)
 class Likeness:
-    """Laws of the library by key that come close to a learned force together, and their share of its variance."""
+    """Laws of the library by key that together approximate a learned force, and their share of its variance."""
 
     keys: tuple[str, ...]
     share: float
 
 
 def find_likeness(problem: Problem, theta: Array, states: Array, force: Array) -> Likeness | None:
-    """Return the law, or the sum of two, that a learned force (samples,) along `states` (samples, n) looks like.
+    """Return the law, or the pair of laws, that approximates a learned force (samples,) along `states` (samples, n).
 
-    None where nothing comes close. The problem is of the one recording along which the force is given.
+    None where there is none. The problem is of the one recording along which the force is given.
     """
     kept = slice(0, MOST_SAMPLES)
     whole = problem.observations[0]
     short = problem.on((whole.part(0, min(whole.samples, MOST_SAMPLES)),))
     moved = np.ascontiguousarray(states[kept, : len(problem.system.model.states)])
-    track, aim = SmoothedMotion(short, theta, moved, np.zeros(0)), force[kept] - np.mean(force[kept])
+    motion, aim = SmoothedMotion(short, theta, moved, np.zeros(0)), force[kept] - np.mean(force[kept])
     if not float(aim @ aim) > 0.0:
         return None
-    alone = {key: _find_closest(track, key, aim) for key in _list_static(short)}
+    alone = {key: _find_closest(motion, key, aim) for key in _list_static(short)}
     ranked = sorted(alone, key=lambda key: -alone[key][0])[:KEPT]
     if not ranked:
         return None
@@ -70,15 +70,15 @@ def _list_static(problem: Problem) -> list[str]:
     return found
 
 
-def _find_closest(track: SmoothedMotion, key: str, aim: Array) -> tuple[float, Array]:
-    """Return the largest share of a force that a law has at any shape, and its columns (samples, amplitudes) there."""
+def _find_closest(motion: SmoothedMotion, key: str, aim: Array) -> tuple[float, Array]:
+    """Return the largest share of a force that a law explains at any shape, and its columns (samples, amplitudes)."""
     best, columns = 0.0, np.zeros((len(aim), 0))
-    problem = track.problem
+    problem = motion.problem
     shapes = sort_slots(problem, key)[1]
     usual = {s.key: float(list_tried_values(s.param, problem.scales)[0]) for s in shapes}
     tried = list_shapes(problem, key) or [usual]
     for shape in tried[:: max(1, len(tried) // MOST_SHAPES)]:
-        law = track.columns(key, shape)
+        law = motion.compute_columns(key, shape)
         share = _compute_share(law, aim) if np.all(np.isfinite(law)) else 0.0
         if share > best:
             best, columns = share, law
@@ -86,7 +86,7 @@ def _find_closest(track: SmoothedMotion, key: str, aim: Array) -> tuple[float, A
 
 
 def _compute_share(columns: Array, aim: Array) -> float:
-    """Return the share of the variance of a force that columns have, means apart."""
+    """Return the share of the variance of a force that columns explain, after subtraction of the means."""
     centred = columns - columns.mean(axis=0)
     size = np.sqrt(np.sum(centred**2, axis=0))
     centred = centred[:, size > 0.0] / size[size > 0.0]

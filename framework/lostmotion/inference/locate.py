@@ -1,4 +1,4 @@
-"""Where the missing force lives: its curves over position, velocity, drive phase and time, and a sentence on it."""
+"""On what the missing force depends: its curves over position, velocity, drive phase and time, and a sentence."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ BINS = 25
 
 @dataclass(frozen=True)
 class Curve:
-    """A force over one covariate: bin centres, mean, and the band that holds 95 % of the samples in each bin."""
+    """A force over one covariate: bin centres, mean, and the band that contains 95 % of the samples in each bin."""
 
     center: Array
     mean: Array
@@ -47,7 +47,7 @@ def list_covariates(model: Model, observation: Observation, missing: LatentForce
 
 
 def choose_edges(values: Array) -> Array:
-    """Return the edges of bins that hold about as many samples each; fewer bins where values repeat."""
+    """Return the edges of bins with about as many samples each; fewer bins where values repeat."""
     return np.unique(np.quantile(values, np.linspace(0.0, 1.0, BINS + 1)))
 
 
@@ -64,7 +64,7 @@ def average_curve(values: Array, force: Array, edges: Array | None = None) -> Cu
 
 
 def classify_parity(found: Curve, least: float = DEFAULT.locate.parity) -> str:
-    """Return "odd", "even" or "neither": how a curve changes when position or velocity is reversed."""
+    """Return "odd", "even" or "neither": the symmetry of a curve when position or velocity is reversed."""
     good = np.isfinite(found.center) & np.isfinite(found.mean)
     if good.sum() < 6:
         return "neither"
@@ -83,10 +83,10 @@ def classify_parity(found: Curve, least: float = DEFAULT.locate.parity) -> str:
 def list_further_covariates(
     model: Model, observation: Observation, missing: LatentForce, plays: Mapping[str, float] | None = None
 ) -> dict[str, Covariate]:
-    """Return what else a force may depend on: sign of velocity, contact, history, at each place of the model.
+    """Return further covariates of a force: sign of velocity, contact, history, at each place of the model.
 
-    `plays` are the half gaps by place. History is where the body was a quarter of a natural period ago, and counts for
-    what it adds to position and velocity.
+    `plays` are the half gaps by place. History is the position a quarter of a natural period earlier; only its
+    contribution beyond position and velocity counts.
     """
     found = {}
     for place in model.interfaces:
@@ -118,9 +118,9 @@ def describe_location(
     odds: Mapping[str, LikelihoodRatio] | None = None,
     limits: LocateSettings = DEFAULT.locate,
 ) -> str:
-    """Return one sentence on where the force lives: of covariates only those that are beyond chance.
+    """Return one sentence on the dependence of the force, with the significant covariates only.
 
-    Log likelihood ratios (`odds`) decide what is, and what comes first; without them the shares do.
+    Log likelihood ratios (`odds`) decide which these are and their order; without them the shares do.
     """
     level, least = limits.level, limits.told
     known = list_likely(odds, level) if odds else [k for k in list_significant(found, level) if found[k].value >= least]
@@ -144,7 +144,7 @@ def describe_location(
 def _describe_share(
     name: str, found: Mapping[str, Share], odds: Mapping[str, LikelihoodRatio] | None, least: float
 ) -> str:
-    """Return how much of a force goes with a covariate, and how likely that is beside nothing."""
+    """Return the share of a force that a covariate explains, and its log likelihood ratio."""
     share = found[name]
     explains = f"which explains {share.value:.0%} +- {share.error:.0%} of its variance"
     if not odds:

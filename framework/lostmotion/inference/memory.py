@@ -1,7 +1,7 @@
-"""Measurement noise with a memory: tried where something seems to be missing, since it can pose as a force.
+"""AR(1) measurement noise: tried where something seems to be missing, since it can look like a force.
 
-A sensor behind a filter, or one that wanders, leaves noise whose samples depend on one another. White noise and a
-random force together imitate that, and so the machine gets the blame.
+A sensor behind a filter, or one that drifts, has correlated noise. White noise and a random force together imitate it,
+so it would be attributed to the machine.
 """
 
 from __future__ import annotations
@@ -28,9 +28,9 @@ STARTS = (1.5, 5.0)
 def select_with_noise_memory(
     nominal: Fit, candidates: Iterable[str], say: Progress, shapes: Shapes | None = None, promise: Promise | None = None
 ) -> Selection:
-    """Return the selection among `candidates`, gone over with a memory of the measurement noise where it has one.
+    """Return the selection among `candidates`, repeated with AR(1) noise of the sensors where that is supported.
 
-    `shapes` are tried beyond the usual; `promise` tells what a learned curve would win.
+    `shapes` are tried in addition to the usual ones; `promise` returns the gain that a learned curve predicts.
     """
     keys = tuple(candidates)
     course = Selector(nominal, keys, say, shapes, promise).run()
@@ -52,7 +52,7 @@ def select_with_noise_memory(
 
 
 def _add_same_memory(nominal: Fit, coloured: Fit) -> Fit | None:
-    """Return the nominal fit with a memory of the noise of those sensors that have one in another fit."""
+    """Return the nominal fit with AR(1) noise of those sensors that have it in another fit."""
     first, found = nominal.problem.observations[0], nominal
     for i in range(len(first.sensors)):
         if first.level(AR1_LEVEL, i) in coloured.problem.keys and first.level(AR1_LEVEL, i) not in nominal.problem.keys:
@@ -64,10 +64,10 @@ def _add_same_memory(nominal: Fit, coloured: Fit) -> Fit | None:
 
 
 def fit_noise_memory(fit: Fit, sensors: Sequence[int] | None = None) -> Fit | None:
-    """Return the fit with measurement noise that has a memory beside the white one, or None where all sensors have it.
+    """Return the fit with AR(1) noise in addition to the white noise, or None where all sensors have it.
 
-    Of several sensors (those numbered so, or all) it is the one whose memory is worth most. Begun at a few lengths of
-    the memory, with the random force at what is usual, since it need not imitate any more.
+    Of several sensors (those numbered, or all) the one with the largest evidence. Started at a few correlation times,
+    with the usual random force, which need not imitate the noise any more.
     """
     problem, first = fit.problem, fit.problem.observations[0]
     numbers = range(len(first.sensors)) if sensors is None else sensors
@@ -85,7 +85,7 @@ def fit_noise_memory(fit: Fit, sensors: Sequence[int] | None = None) -> Fit | No
 
 
 def is_memory_supported(plain: Fit, coloured: Fit | None) -> bool:
-    """Return whether a memory of the noise is worth its two parameters."""
+    """Return whether the evidence supports AR(1) noise with its two parameters."""
     if coloured is None or coloured.status == "diverged":
         return False
     limits = coloured.problem.settings.select

@@ -1,8 +1,8 @@
-"""Draws from a posterior whose one awkward direction, the level of the random force, is integrated on a grid.
+"""Draws from a posterior with the level of the random force integrated on a grid.
 
-At the maximum the random force often lies at its lower bound, where a normal approximation is too narrow for
-everything else: more random force means a shorter memory and wider intervals. Conditional on it the posterior is
-close to normal, so a mixture over a grid of it is good (Rue, Martino, Chopin, J. R. Statist. Soc. B 71 (2009) 319-392).
+At the maximum the random force is often at its lower bound, where a normal approximation is too narrow for all other
+parameters: more random force means a shorter memory and wider intervals. Conditional on it the posterior is close to
+normal, so a mixture over a grid of it is accurate (Rue, Martino, Chopin, J. R. Statist. Soc. B 71 (2009) 319-392).
 """
 
 from __future__ import annotations
@@ -19,10 +19,9 @@ from lostmotion.likelihood.problem import RANDOM
 STRIDE = 0.8
 MOST = 7
 FAINT = 5.0
-"""Nodes are this far apart in log intensity, at most so many to each side, as long as their log weight is within this
-of the best."""
+"""Spacing of the nodes in log intensity, greatest number to each side, and range of log weights below the best."""
 MANY = 24
-"""With more free parameters, as learned curves bring, a grid takes minutes: draws are then from the maximum alone."""
+"""With more free parameters, as with learned curves, a grid takes minutes: draws are then from the maximum alone."""
 
 
 @dataclass(frozen=True)
@@ -36,8 +35,8 @@ class MixtureNode:
 def draw_posterior(fit: Fit, rng: np.random.Generator, count: int) -> Array:
     """Return draws (count, free parameters) of the coordinates from the posterior about a fit.
 
-    Spreads are those of the robust covariance where that is wider, so that leftovers with a memory widen them.
-    Where each recording has a random force of its own, all are drawn from the normal approximation at the maximum.
+    Standard deviations are those of the robust covariance where that is wider, because of correlated residuals. Where
+    each recording has a random force of its own, all are drawn from the normal approximation at the maximum.
     """
     nodes = compute_nodes(fit)
     weights = np.exp([n.weight - max(m.weight for m in nodes) for n in nodes])
@@ -53,7 +52,7 @@ def draw_posterior(fit: Fit, rng: np.random.Generator, count: int) -> Array:
 
 
 def compute_root(local: Expansion) -> Array:
-    """Return a square root of the covariance of an expansion, each coordinate scaled to unit spread first."""
+    """Return a square root of the covariance of an expansion, with each coordinate scaled to unit deviation first."""
     covariance = local.covariance
     sd = np.sqrt(np.maximum(np.diag(covariance), 1e-300))
     values, vectors = np.linalg.eigh(covariance / np.outer(sd, sd))
@@ -84,7 +83,7 @@ def compute_nodes(fit: Fit) -> list[MixtureNode]:
 
 
 def _compute_node(fit: Fit, theta: Array, at: int) -> MixtureNode:
-    """Return the node at the random force of `theta`, all else at its best there."""
+    """Return the node at the random force of `theta`, with all other parameters at their conditional maximum."""
     frees = list(fit.problem.free)
     frees[at] = replace(frees[at], start=theta[at], low=theta[at], high=theta[at])
     local = maximise(replace(fit.problem, free=tuple(frees)), theta, rounds=4, tolerance=0.1).local

@@ -1,4 +1,4 @@
-"""Which maxima of a posterior are one hill, and which are modes of their own."""
+"""Modes of a posterior: which of its maxima belong together, and which are separate."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ NEIGHBOURS = 4
 
 
 def is_same_mode(a: Fit, b: Fit) -> bool:
-    """Return whether two maxima belong to one hill: close by, or no dip on the straight line between them.
+    """Return whether two maxima belong to one mode: close by, or without a dip on the straight line between them.
 
-    A filter through a kink leaves a posterior rough, so that fits stop at several places of one hill; a dip that
-    roughness makes is shallower than one between modes.
+    A filter through a kink leaves a posterior rough, so fits stop at several places of one mode; a dip from roughness
+    is shallower than one between modes.
     """
     width, limits = np.maximum(_list_sd(a), _list_sd(b)), a.problem.settings.mode
     if np.all(np.abs(a.theta - b.theta) < limits.near * width):
@@ -35,7 +35,7 @@ def _list_sd(fit: Fit) -> Array:
 
 
 def select_modes(fits: Iterable[Fit], within: float) -> list[Fit]:
-    """Return one fit of each hill, best first by log posterior, down to `within` below the best."""
+    """Return one fit of each mode, best first by log posterior, down to `within` below the best."""
     ranked = sorted((f for f in fits if math.isfinite(f.local.log_posterior)), key=lambda f: -f.local.log_posterior)
     kept: list[Fit] = []
     for fit in ranked:
@@ -48,7 +48,7 @@ def select_modes(fits: Iterable[Fit], within: float) -> list[Fit]:
 
 @dataclass(frozen=True)
 class StartingPoints:
-    """Starting points: their places `unit` (points, parameters) in the unit cube, coordinates, and scores (points,)."""
+    """Starting points: places `unit` (points, parameters) in the unit cube, coordinates, and scores (points,)."""
 
     unit: Array
     starts: Array
@@ -59,9 +59,9 @@ class StartingPoints:
         return [int(i) for i in np.argsort(self.scores)[::-1][:count]]
 
     def peaks(self, count: int) -> list[int]:
-        """Return up to `count` points, those first that are better than their nearest neighbours.
+        """Return up to `count` points, first those that are better than their nearest neighbours.
 
-        The best points alone would often lie all on the widest hill.
+        The best points alone would often be all in the widest mode.
         """
         apart = np.abs(self.unit[:, None] - self.unit[None]).max(axis=2)
         near = np.argsort(apart, axis=1)[:, 1 : NEIGHBOURS + 1]

@@ -14,11 +14,11 @@ from lostmotion.likelihood.system import Slot
 from lostmotion.quantities import FORCE, LENGTH, SPEED, Dimension, quantity_of
 
 SCANNED = 8
-"""So many values of a parameter with a scan are tried by score tests, evenly over the logarithm of its range."""
+"""The number of values of a parameter with a scan that score tests try, evenly over the logarithm of its range."""
 REACH = 4.0
-"""A shape without a scan may be anything up to this logarithm from its typical value."""
+"""The bounds of a shape without a scan, as a logarithm from its typical value."""
 SHAPES = (0.3, 1.0, 3.0)
-"""Where a shape parameter is tried, in units of its typical value."""
+"""The values of a shape parameter that are tried, in units of its typical value."""
 
 
 def compute_size(param: Param, scales: Scales) -> float:
@@ -28,7 +28,7 @@ def compute_size(param: Param, scales: Scales) -> float:
 
 
 def make_free_parameters(slots: list[Slot], scales: Scales, start: Mapping[str, float]) -> tuple[FreeParameter, ...]:
-    """Return the free parameters of a term: amplitudes normal about zero (half-normal if signed), shapes log-normal."""
+    """Return the free parameters of a term: amplitudes normal about zero (half-normal if bounded), shapes lognormal."""
     open_ = [slot for slot in slots if not slot.param.choices]
     return tuple(_make_free(slot, compute_size(slot.param, scales), start.get(slot.key)) for slot in open_)
 
@@ -54,7 +54,7 @@ SHOWN = {"position": LENGTH, "velocity": SPEED, "acceleration": Dimension(0, 1, 
 
 
 def _convert_dimension(problem: Problem, term: Term, slot: Slot) -> Slot:
-    """Return a parameter of a sensor or a drive: a length stands for what the sensor shows, a force for the input."""
+    """Return a parameter of a sensor or drive term: a length stands for the channel, a force for the input."""
     first = problem.observations[0]
     if term.acts == "sensor":
         stands, name = LENGTH, next((s.channel for s in first.sensors if s.place == term.at), "position")

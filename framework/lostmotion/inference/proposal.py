@@ -1,4 +1,4 @@
-"""A formula for a learned curve: a sparse regression that proposes, and finds nothing."""
+"""A formula for a learned curve: a sparse regression that makes a proposal and does not change any finding."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ WIDTHS = (0.06, 0.08, 0.1, 0.15, 0.25, 0.4)
 
 
 class Axis(NamedTuple):
-    """The symbol of what a curve runs over, its dimension, that of the curve, and "translation" or "rotation"."""
+    """The symbol of the variable of a curve, its dimension, that of the curve, and "translation" or "rotation"."""
 
     symbol: str
     dimension: Dimension
@@ -33,7 +33,7 @@ class Axis(NamedTuple):
 
 @dataclass(frozen=True)
 class FormulaTerm:
-    """One piece of a formula: its columns (points, 1 or 2), the price of a shape among many, and how it is written."""
+    """One piece of a formula: its columns (points, 1 or 2), the price of the choice of its shape, and its text."""
 
     columns: Array
     price: float
@@ -42,7 +42,7 @@ class FormulaTerm:
 
 @dataclass(frozen=True)
 class Formula:
-    """A proposed formula, and the share of the variance of the curve, weighted by its precision, that it has."""
+    """A proposed formula, and its share of the variance of the curve, weighted by the precision."""
 
     text: str
     share: float
@@ -51,9 +51,9 @@ class Formula:
 def propose_formula(
     at: Array, mean: Array, covariance: Array, over: Axis, limits: UnknownSettings = DEFAULT.unknown
 ) -> Formula | None:
-    """Return a formula of three pieces at most for a curve (points,) with its covariance, or None.
+    """Return a formula of a few pieces for a curve (points,) with its covariance, or None.
 
-    Pieces are taken one by one, by Akaike's criterion. None when they tell less than `least` of the curve.
+    Pieces are added one by one, by Akaike's criterion. None when they explain less than `limits.formula` of the curve.
     """
     jitter = RIDGE * float(np.mean(np.diag(covariance))) + 1e-12 * float(np.mean(mean**2)) + 1e-300
     root = np.linalg.cholesky(covariance + jitter * np.eye(len(at)))
@@ -91,7 +91,7 @@ def _sum_prices(pieces: list[FormulaTerm]) -> float:
 
 
 def _compute_residuals(aim: Array, white: list[Array], pieces: Array) -> Array:
-    """Return what a fit with some columns and one piece more leaves of the aim, squared, for each piece (count,).
+    """Return the squared residual of a fit with some columns and one piece more, for each piece (count,).
 
     `pieces` (points, count, 2) have one column twice where they have only one.
     """
@@ -112,7 +112,7 @@ def _fit_columns(aim: Array, columns: list[Array]) -> tuple[float, Array]:
 
 
 def _list_pieces(at: Array, over: Axis) -> Iterator[FormulaTerm]:
-    """Yield what a formula may be made of: powers, the sign, a wave, a bump."""
+    """Yield the possible pieces of a formula: powers, the sign, a wave, a bump."""
     x, middle, half = over.symbol, 0.5 * float(at[0] + at[-1]), 0.5 * float(at[-1] - at[0])
     yield FormulaTerm(np.ones((len(at), 1)), 0.0, lambda w: _format_number(w[0], _find_unit(over, 0)))
     powers = {x: at, f"{x}|{x}|": at * np.abs(at), f"{x}^2": at**2, f"{x}^3": at**3}

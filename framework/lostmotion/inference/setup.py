@@ -1,4 +1,4 @@
-"""From a case to a first fit: what is free, what is held out, how large things are, and where to start."""
+"""From a case to a first fit: free parameters, held-out data, natural sizes, and starting points."""
 
 from __future__ import annotations
 
@@ -35,30 +35,31 @@ from lostmotion.settings import DEFAULT, HeldOutSettings, Settings
 BLOCKS = 60
 """Parts of a recording in which its motion is compared with the noise."""
 SHARED = SensorSpec("shared")
-"""A sensor of which nothing is to be split by recording."""
+"""A sensor whose noise levels are shared by all recordings."""
 BEGINNING, FEWEST = 3000, 400
-"""Starting points are compared on so many samples of one recording; of each of many at least on so few."""
+"""The samples of one recording on which starting points are compared, and the least number of each of several."""
 
 SLACK = 30.0
-"""Before the final fits a hill may be this much lower, in log posterior."""
+"""The range of log posterior below the best within which modes are kept before the final fits."""
 
 ORDERS = ("position", "velocity", "acceleration")
-"""What sensors of motion show, by how often it was differentiated."""
+"""The quantities of motion sensors, by the order of differentiation."""
 SLOWEST = 4
-"""A motion has so many cycles in a recording at least: what is slower in a spectrum leaks there from the window."""
+"""The least number of cycles of a motion in a recording: a lower frequency in a spectrum is leakage of the window."""
 FAR_ABOVE = 20.0
-"""So many times the noise floor a line of a spectrum must be to count for the motion: one of 10^6 lines of noise is."""
+"""A spectral line counts as motion above this multiple of the noise floor, which one of 10^6 lines of noise exceeds."""
 
 COARSE, FINE = 0.06, 0.015
-"""Final estimates take steps a quarter as long as those of the search: a kink makes RK4 first order."""
+"""Step times fastest rate in the search and in the final fit: steps of the final fit are a quarter as long, because RK4
+is of first order at a kink."""
 
 
 def split_heldout(
     observations: Sequence[Observation], limits: HeldOutSettings = DEFAULT.heldout
 ) -> tuple[tuple[Observation, ...], tuple[Observation, ...]]:
-    """Return what is fitted and what is held out: the last `share` of one recording, or of several.
+    """Return the fitted and the held-out data: the last `limits.share` of one recording, or of several.
 
-    Of a motion that dies away, that share of what stands out of the noise begin what is held out.
+    If a motion decays, the share refers to the samples before it has decayed.
     """
     if len(observations) == 1:
         cut = round((1.0 - limits.share) * count_lasting_samples(observations[0], limits))
@@ -68,10 +69,11 @@ def split_heldout(
 
 
 def count_lasting_samples(observation: Observation, limits: HeldOutSettings = DEFAULT.heldout) -> int:
-    """Return how many samples of a recording there are until its motion has died away, or all of them.
+    """Return the number of samples of a recording until its motion has decayed, or all of them.
 
-    A block of readings lives where its deviation is more than `ALIVE` times the noise, and the motion has died where
-    as much of the recording as would be held out does not, or more: nothing could be predicted there.
+    A block of readings contains motion where its deviation is more than `limits.alive` times the noise. The motion has
+    decayed where at least as much of the recording as would be held out contains none: nothing could be predicted
+    there.
     """
     sensor = choose_main_sensor(observation)
     blocks = np.array_split(fill_lost(observation.readings[:, sensor]), BLOCKS)
@@ -101,16 +103,16 @@ def _compute_sizes(system: System, observations: Sequence[Observation], known: A
 
 
 def choose_main_sensor(observation: Observation) -> int:
-    """Return the number of the sensor that tells the size of the motion: a position, else the next best there is."""
+    """Return the number of the sensor that gives the size of the motion: a position, else the next best there is."""
     order = (*ORDERS, "force")
     kinds = [order.index(quantity_of(sensor.channel)) for sensor in observation.sensors]
     return int(np.argmin(kinds))
 
 
 def _measure_push(system: System, observation: Observation, inertia: float) -> tuple[float, float]:
-    """Return the amplitude (sqrt(2) times the standard deviation) of all forces that drive a machine, and their peak.
+    """Return the amplitude (sqrt(2) times the standard deviation) of all driving forces, and their peak.
 
-    A base that is shaken pushes by its acceleration; one that moves through a joint pushes by an unknown force: zero.
+    A base that is shaken acts by its acceleration; one that moves through a joint acts by an unknown force: zero.
     """
     squares, peak = 0.0, 0.0
     for name, u in zip(system.model.inputs, observation.inputs.T, strict=False):
@@ -123,8 +125,8 @@ def _measure_push(system: System, observation: Observation, inertia: float) -> t
 def _measure_motion(observation: Observation, sensor: int) -> tuple[float, float]:
     """Return the rms angular frequency (rad/s) of the motion a sensor shows, and its amplitude as a position.
 
-    Velocity and acceleration are integrated as spectra, where these stand far above their noise: noise at low
-    frequency would be drift, and the spikes of an acceleration are no motion. A force stays a force.
+    Velocity and acceleration are integrated as spectra, where these are far above their noise: noise at low frequency
+    would be drift, and the spikes of an acceleration are no motion. A force stays a force.
     """
     quantity, readings = quantity_of(observation.sensors[sensor].channel), observation.readings[:, sensor]
     order = ORDERS.index(quantity) if quantity in ORDERS else 0
@@ -171,7 +173,7 @@ def _make_free(key: str, unit: str, prior: Prior, bounds: tuple[float, float]) -
 
 
 def make_known(system: System, case: CaseFile) -> Array:
-    """Return the full parameter vector of what a case says is known; the rest stands at the middle of its prior."""
+    """Return the full parameter vector of the known values of a case; the rest is at the middle of its prior."""
     try:
         values = {system.slot(name).key: value for name, value in case.known.items()}
         guesses = {system.slot(name).key: prior.start() for name, prior in case.estimate.items()}
@@ -195,7 +197,7 @@ def make_known(system: System, case: CaseFile) -> Array:
 
 
 def _check_bounds(system: System, name: str, low: float, high: float) -> None:
-    """Refuse values of a parameter that no machine has: outside of its bounds, or an inertia of zero."""
+    """Raise a `CaseError` for values of a parameter outside of its bounds, or for an inertia of zero."""
     slot = system.slot(name)
     param = slot.param
     inertia = slot.term is None and slot.key in {place.inertia for place in system.model.interfaces}
@@ -238,14 +240,14 @@ def find_fastest_rate(problem: Problem, theta: Array) -> float:
 
 
 def choose_steps(problem: Problem, theta: Array, *, accuracy: float = COARSE) -> Problem:
-    """Return the problem with as many steps between samples as the stiffness along the recorded motion asks for."""
+    """Return the problem with the number of steps between samples for the stiffness along the recorded motion."""
     rate = find_fastest_rate(problem, theta)
     steps = count_substeps(rate, max(t.dt for t in problem.observations), accuracy=accuracy)
     return replace(problem, nsub=max(steps, count_steps_for_sticking(problem, theta, creep=CREEP * accuracy / COARSE)))
 
 
 def search_maximum(problem: Problem, rng: np.random.Generator, *, points: int = 48, finalists: int = 4) -> Fit:
-    """Return the best fit of several starts: a Latin hypercube on the beginnings of the recordings, then all of it."""
+    """Return the best fit of several starts: a Latin hypercube on the beginnings of recordings, then all samples."""
     beginning = cut_beginnings(problem)
     tried = _draw_starts(problem, beginning, rng, points)
     single = replace(beginning, jobs=1)
@@ -258,7 +260,7 @@ def search_maximum(problem: Problem, rng: np.random.Generator, *, points: int = 
 
 
 def _extend_to_whole(problem: Problem, short: Fit, hopeless: float = -math.inf) -> Fit:
-    """Return the fit of whole recordings that begins at one of their beginnings."""
+    """Return the fit of whole recordings, started from a fit of their beginnings."""
     begun = zip(problem.observations, short.problem.observations, strict=True)
     whole = choose_steps(problem.on(tuple(replace(t, begun=b.begun) for t, b in begun)), short.theta)
     return refit_without_position(maximise(whole, raise_random_force(whole, short.theta, 3.0), hopeless=hopeless))
@@ -274,7 +276,7 @@ def cut_beginnings(problem: Problem) -> Problem:
 def _draw_starts(problem: Problem, beginning: Problem, rng: np.random.Generator, points: int) -> StartingPoints:
     """Return a Latin hypercube over the priors, scored with the best of three random forces.
 
-    A parameter that each recording has for itself starts at the same value in all of them.
+    A parameter with a value for each recording starts at the same value in all of them.
     """
     names = list(dict.fromkeys(f.parameter for f in problem.free if f.level not in LEVELS))
     starts = np.repeat(problem.start[None], points, axis=0)
@@ -295,7 +297,7 @@ def _draw_starts(problem: Problem, beginning: Problem, rng: np.random.Generator,
 
 
 def _select_finalists(fits: list[Fit]) -> list[Fit]:
-    """Return the best fit, and the next one if it is another mode of about the same height."""
+    """Return the best fit, and the next one if it is another mode of about the same log posterior."""
     best = fits[0]
     for other in fits[1:]:
         far = np.abs(other.theta - best.theta) > 10.0 * np.array(list(best.sd.values()))
@@ -309,10 +311,11 @@ def find_modes(
 ) -> list[Fit]:
     """Return the distinct maxima of the posterior on all recordings, best first by log evidence.
 
-    It looks more widely than `search`, fits each hill that the beginnings leave within `SLACK` of the best on the whole
-    recordings, and keeps those within `WITHIN` in log evidence. All are maxima of one problem, which takes as many
-    steps between samples as the stiffest of them asks for. What the `sensor` has of its own in each recording is split
-    before the hills are compared: a noise that fits none of the recordings says little of how far hills are apart.
+    It searches more widely than `search_maximum`, fits each mode of the beginnings within `SLACK` of the best on the
+    whole recordings, and keeps those within `mode.within` in log evidence. All are maxima of one problem, with the
+    steps between samples of the stiffest of them. Parameters that the `sensor` has for each recording are split before
+    the modes are compared: with a noise level that fits none of the recordings, distances between modes are not
+    meaningful.
     """
     beginning = cut_beginnings(problem)
     tried = _draw_starts(problem, beginning, rng, points)
@@ -330,7 +333,7 @@ def find_modes(
 
 
 def _unify_modes(fits: list[Fit], problem: Problem) -> list[Fit]:
-    """Return the maxima of `problem` that begin at those of the fits, each hill once, best first."""
+    """Return the maxima of `problem` that begin at those of the fits, each mode once, best first."""
     again = [f if f.problem.nsub == problem.nsub else maximise(problem, f.theta) for f in fits]
     hills = [replace(f, problem=problem) for f in select_modes(again, SLACK)] or again
     top = max(f.log_evidence for f in hills)
@@ -340,7 +343,7 @@ def _unify_modes(fits: list[Fit], problem: Problem) -> list[Fit]:
 
 
 def separate_levels(fit: Fit, sensor: SensorSpec) -> Fit:
-    """Return the fit with what a case says of the sensor: noise levels of each recording's own, and its zero.
+    """Return the fit with the sensor of a case: noise levels of each recording's own, and its offset.
 
     It begins at the fit with shared levels. Where nothing is to be split, or all is split already, it is that fit.
     """
@@ -358,7 +361,7 @@ def separate_levels(fit: Fit, sensor: SensorSpec) -> Fit:
 
 
 def _make_offsets(problem: Problem, prior: Prior | None) -> tuple[FreeParameter, ...]:
-    """Return the zero of each sensor in each recording; none where it is known."""
+    """Return the offset of each sensor in each recording; none where it is known."""
     if prior is None:
         return ()
     motion, first = problem.system.model.motion, problem.observations[0]

@@ -1,13 +1,14 @@
-"""How much of a force goes with a covariate: cross-validated smooth fits, held against surrogates of the force.
+"""The share of a force that a covariate explains: cross-validated smooth fits, compared with surrogates of the force.
 
 A latent force that was smoothed out of noise is smooth itself, and some curve always fits it a little. So each share is
-held against noise of the same spectrum, which depends on nothing (Theiler et al., Physica D 58 (1992) 77-94). Lines are
-first smoothed out of that spectrum: what repeats with the drive is structure, and phases alone would not undo it.
+compared with noise of the same spectrum, which depends on nothing (Theiler et al., Physica D 58 (1992) 77-94). Lines
+are first smoothed out of that spectrum: what repeats with the drive is structure, and random phases alone would not
+remove it.
 
-Many covariates are asked at once. The p-value of each is adjusted for all of them by the maximum statistic (Westfall,
-Young, Resampling-based multiple testing (1993)): the share of surrogates of which the largest standardised share, over
-all covariates, is at least as large. So the level can be attained however many covariates there are, and covariates
-that go together cost less than independent ones.
+Many covariates are tested at once. The p-value of each is adjusted for all of them by the maximum statistic (Westfall,
+Young, Resampling-based multiple testing (1993)): the share of surrogates whose largest standardised share, over all
+covariates, is at least as large. So the level can be attained with any number of covariates, and correlated covariates
+cost less than independent ones.
 """
 
 from __future__ import annotations
@@ -29,9 +30,9 @@ FOLDS = 5
 BLOCKS = 20
 SURROGATES = 199
 ENOUGH = 5000
-"""Of longer series every second sample is fitted, or every third, and so on."""
+"""Longer series are thinned: every second sample is fitted, or every third, and so on."""
 PIECES = (6, 12, 24, 48)
-"""A smooth fit has so many pieces; the number that predicts best is taken, for surrogates as well."""
+"""The numbers of pieces of a smooth fit; the one that predicts best is taken, for surrogates as well."""
 RIDGE = 1.0
 WINDOW = 31
 
@@ -43,8 +44,8 @@ Basis = Any
 class Share:
     """The share of the variance that a covariate predicts, and its standard error over the folds.
 
-    `excess` is by how many standard deviations of the surrogates it lies above their mean; `p` is its p-value, adjusted
-    for all covariates that were asked.
+    `excess` is its distance from the mean of the surrogates in their standard deviations; `p` is its p-value, adjusted
+    for all covariates that were tested.
     """
 
     value: float
@@ -55,9 +56,9 @@ class Share:
 
 @dataclass(frozen=True)
 class Covariate:
-    """What a force may depend on: `columns` (k, samples) enter a smooth fit side by side, or as classes.
+    """A covariate of a force: `columns` (k, samples) enter a smooth fit as a sum, or as classes.
 
-    Only what the last column adds to the others counts.
+    Only the contribution of the last column beyond the others counts.
     """
 
     columns: tuple[Array, ...]
@@ -65,7 +66,7 @@ class Covariate:
 
 
 def randomise_phases(force: Array, draws: int, rng: np.random.Generator) -> Array:
-    """Return noise (draws, samples) with the spectrum of a force (samples,), lines smoothed out of it."""
+    """Return noise (draws, samples) with the spectrum of a force (samples,), with lines smoothed out of it."""
     n = len(force)
     power = np.abs(np.fft.rfft(force - np.mean(force))) ** 2
     window = min(WINDOW, max(3, len(power) // 8))
@@ -79,7 +80,7 @@ def randomise_phases(force: Array, draws: int, rng: np.random.Generator) -> Arra
 def compute_shares(
     table: Mapping[str, Covariate], force: Array, rng: np.random.Generator | None, *, draws: int = SURROGATES
 ) -> dict[str, Share]:
-    """Return what each covariate predicts of a force (samples,); p is NaN without an `rng` for the surrogates."""
+    """Return the share of a force (samples,) that each covariate predicts; p is NaN without an `rng`."""
     if not np.any(force - np.mean(force)):
         return {name: Share(0.0, 0.0, 1.0) for name in table}
     surrogates = np.empty((0, len(force))) if rng is None else randomise_phases(force, draws, rng)
@@ -96,10 +97,10 @@ def compute_shares(
 def adjust_p_values(values: Array) -> tuple[Array, Array]:
     """Return the excess (tests,) of a statistic over its surrogates, in their standard deviations, and its p-value.
 
-    `values` (tests, 1 + surrogates) begin with what was observed. Mean and standard deviation are those of all columns,
-    so that under the null hypothesis each column is as likely to be the observed one. The p-values (tests,) are those
-    of the largest excess over all tests (Westfall and Young 1993, single step): with 5 % of them below 0.05 when all
-    null hypotheses are true, however many tests there are and however they go together.
+    `values` (tests, 1 + surrogates) begin with the observed value. Mean and standard deviation are those of all
+    columns, so that under the null hypothesis each column is as likely to be the observed one. The p-values (tests,)
+    are those of the largest excess over all tests (Westfall and Young 1993, single step): 5 % of them are below 0.05
+    when all null hypotheses are true, for any number of tests and any correlation between them.
     """
     spread = np.std(values, axis=1, keepdims=True)
     excess = (values - np.mean(values, axis=1, keepdims=True)) / np.where(spread > 0.0, spread, math.inf)
@@ -109,7 +110,7 @@ def adjust_p_values(values: Array) -> tuple[Array, Array]:
 
 
 def list_significant(found: Mapping[str, Share], level: float = DEFAULT.locate.level) -> list[str]:
-    """Return the covariates whose shares noise would not reach, largest first; p is adjusted for all of them."""
+    """Return the covariates with significant shares, largest first; p is adjusted for all of them."""
     names = [name for name, share in found.items() if share.p <= level and share.value > 0.0]
     return sorted(names, key=lambda name: -found[name].value)
 

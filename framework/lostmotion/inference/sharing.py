@@ -1,12 +1,12 @@
-"""What several recordings share: whether one value of a parameter holds in all of them.
+"""Comparison of several recordings: whether one value of a parameter holds in all of them.
 
-Each parameter in turn gets a value of each recording's own, and the model is fitted once more from the shared optimum.
-The values are compared by a chi-square test of homogeneity (Cochran, Biometrics 10 (1954) 101-129) with their
-covariance by the sandwich of Huber and White, scores added up over blocks, so that leftovers with a memory do not pass
-for a difference. The p-values are corrected for the number of parameters (Holm, Scand. J. Statist. 6 (1979) 65-70).
+Each parameter in turn gets a value for each recording, and the model is fitted once more from the shared optimum. The
+values are compared by a chi-square test of homogeneity (Cochran, Biometrics 10 (1954) 101-129) with their covariance by
+the sandwich of Huber and White, scores summed over blocks, so that correlated residuals are not taken for a difference.
+The p-values are corrected for the number of parameters (Holm, Scand. J. Statist. 6 (1979) 65-70).
 
-One parameter that differs makes others seem to differ that were made to share their values. So the one of which the
-values explain most is released, and the others are tested again beside it.
+One parameter that differs makes others that are shared seem to differ. So the one whose values explain most is
+released, and the others are tested again.
 """
 
 from __future__ import annotations
@@ -34,18 +34,18 @@ from lostmotion.settings import SharedSettings as SharedLimits
 
 ROUNDS = 8
 RAISED = 3.0
-"""By how much the log random force is raised where a fit without a curve begins."""
+"""The increase of the log random force where a fit without a curve begins."""
 BLOCKS, SHORTEST = 40, 10
-"""Scores are added up over so many blocks of each recording, of so many readings each at least."""
+"""The number of blocks of each recording over which scores are summed, and their least length in readings."""
 SAMPLES = 40_000
-"""The beginnings of the recordings are compared, so many samples together."""
+"""The beginnings of the recordings are compared, with this many samples together."""
 FEWER = 10_000
-"""So many samples where learned curves bring dozens of coefficients: all of them are fitted anew each time."""
+"""The number of samples with learned curves, which add dozens of coefficients to each fit."""
 
 
 @dataclass(frozen=True)
 class Levels:
-    """How strongly the machine moved in each recording: rms about the mean of the `drive`, or of the `response`.
+    """The level of the motion in each recording: rms about the mean of the `drive`, or of the `response`.
 
     `channel` is the input or the channel whose unit the `values` have.
     """
@@ -59,9 +59,10 @@ class Levels:
 class ComparedParameter:
     """A parameter in each recording: `values` with 95 % intervals, their best `common` value, and whether that holds.
 
-    `chi2` with `dof` degrees of freedom tests that; `p` is corrected for the number of parameters. `power` tells how
-    the values go with the level, `odd` the number of the only recording that differs, each where it is so. `instead`
-    names parameters that would explain the difference as well. `given` says that the case gives each recording its own.
+    `chi2` with `dof` degrees of freedom tests that; `p` is corrected for the number of parameters. `power` describes
+    the dependence of the values on the level, `odd` is the number of the only recording that differs, where there is
+    one. `instead` names parameters that would explain the difference as well. `given` says that the case has a value
+    for each recording.
     """
 
     key: str
@@ -89,11 +90,11 @@ class ComparedParameter:
 
 @dataclass(frozen=True)
 class SharedValues:
-    """What the `recordings` of a fit share, parameter by parameter.
+    """The comparison of the `recordings` of a fit, parameter by parameter.
 
-    `released` names those that have values of each recording's own, in that order, while others are tested; `failed`
-    those of which no fit came out. `dropped` names learned curves that are not needed once what differs is released,
-    `gain` is the log evidence that this adds.
+    `released` names those with a value for each recording, in that order, while others are tested; `failed` those whose
+    fit failed. `dropped` names learned curves that are not needed once the differing parameters are released, `gain` is
+    the log evidence that this adds.
     """
 
     recordings: tuple[str, ...]
@@ -107,7 +108,7 @@ class SharedValues:
 
 @dataclass(frozen=True)
 class SeparateFit:
-    """A fit in which a parameter has values of each recording's own: coordinates (recordings,), their covariance."""
+    """A fit in which a parameter has a value for each recording: coordinates (recordings,), their covariance."""
 
     key: str
     fit: Fit
@@ -118,10 +119,10 @@ class SeparateFit:
 
 
 def compare_recordings(fit: Fit) -> SharedValues | None:
-    """Return what the recordings of a fit share; None where there is one recording.
+    """Return the comparison of the recordings of a fit; None where there is one recording.
 
-    Each recording has noise levels of its own. Learned curves are one for all, and move along; values are also compared
-    without them, since a curve may stand in for a difference, and the course with the larger evidence is returned.
+    Each recording has noise levels of its own. Learned curves are shared and refitted; values are also compared without
+    them, since a curve may imitate a difference, and the alternative with the larger evidence is returned.
     """
     if len(fit.problem.observations) < 2:
         return None
@@ -139,7 +140,7 @@ def compare_recordings(fit: Fit) -> SharedValues | None:
 
 
 def _release_parameters(shared: Fit) -> tuple[SharedValues, float]:
-    """Return what recordings share, and the log evidence of the fit in which what differs is released."""
+    """Return the comparison of recordings, and the log evidence of the fit with the differing parameters released."""
     base, limits = shared, shared.problem.settings.shared
     observations, tested = base.problem.observations, _list_tested(base.problem)
     levels = measure_levels(observations, limits.spread)
@@ -170,7 +171,7 @@ def list_curves(problem: Problem) -> tuple[str, ...]:
 
 
 def _fit_beginnings(fit: Fit) -> Fit:
-    """Return the fit on the beginnings of its recordings, as a problem that starts where it is highest."""
+    """Return the fit on the beginnings of its recordings, as a problem that starts at its maximum."""
     problem = restart(fit)
     samples = SAMPLES if len(problem.free) <= MANY else FEWER
     most = max(samples // len(problem.observations), 1)
@@ -187,7 +188,7 @@ def _list_tested(problem: Problem) -> tuple[str, ...]:
 
 
 def measure_levels(observations: Sequence[Observation], spread: float = DEFAULT.shared.spread) -> Levels:
-    """Return how strongly the machine moved in each recording; by the drive, where that differs from one to another."""
+    """Return the level of the motion in each recording; of the drive, where that differs between recordings."""
     first = observations[0]
     if not any(observation.free for observation in observations):
         drives = tuple(float(np.nanstd(observation.excitation)) for observation in observations)
@@ -197,16 +198,16 @@ def measure_levels(observations: Sequence[Observation], spread: float = DEFAULT.
 
 
 def _fit_each_separately(base: Fit, keys: Sequence[str]) -> list[SeparateFit]:
-    """Return the fits in which one parameter after the other has values of each recording's own."""
+    """Return the fits in which one parameter after the other has a value for each recording."""
     single, jobs = replace(base, problem=replace(base.problem, jobs=1)), base.problem.jobs
     found = each(lambda key: fit_separately(single, key), keys, jobs)
     return [one for one in found if one is not None]
 
 
 def fit_separately(base: Fit, key: str) -> SeparateFit | None:
-    """Return the fit in which a parameter has values of each recording's own, from a base where all else is shared.
+    """Return the fit in which a parameter has a value for each recording, from a base where all else is shared.
 
-    None where it diverges. Where the case gives each recording its own already, it is the base itself.
+    None where it diverges. Where the case has a value for each recording already, it is the base itself.
     """
     problem = restart(base)
     index = next(i for i, f in enumerate(problem.free) if f.parameter == key)
@@ -232,7 +233,7 @@ def fit_separately(base: Fit, key: str) -> SeparateFit | None:
 def compute_covariance(fit: Fit, columns: Sequence[int]) -> Array:
     """Return the robust covariance (columns, columns) of some coordinates of a fit of several recordings.
 
-    It is the sandwich, with scores added up over blocks of each recording, and in no direction less than the usual one.
+    It is the sandwich, with scores summed over blocks of each recording, and in no direction less than the usual one.
     """
     slopes = compute_sensitivity(fit.problem, fit.theta, fit.local.steps)
     usual = fit.local.covariance
@@ -286,9 +287,9 @@ def adjust_by_holm(p: Sequence[float]) -> list[float]:
 def fit_power(
     values: Array, covariance: Array, levels: Array, limits: SharedLimits = DEFAULT.shared
 ) -> PowerOfLevel | None:
-    """Return how logarithms of values (n,) go with those of the levels (n,): a straight line, where one describes them.
+    """Return the power of the levels (n,) that exp(values), (n,), follow, where a straight line of logarithms fits.
 
-    None for fewer than three values, equal levels, or a line that leaves something over.
+    None for fewer than three values, equal levels, or a poor fit.
     """
     if len(values) < 3 or not np.all(levels > 0.0) or not np.max(levels) > limits.spread * np.min(levels):
         return None
@@ -352,7 +353,7 @@ def _make_tolerance(one: SeparateFit, share: float) -> Array:
 def _fit_power_of_level(
     one: SeparateFit, covariance: Array, levels: Levels, limits: SharedLimits
 ) -> PowerOfLevel | None:
-    """Return how the values of a parameter go with the level; only where each is known to be other than zero."""
+    """Return the dependence of a parameter on the level; only where each value is known to differ from zero."""
     if one.free.log:
         return fit_power(one.at, covariance, np.array(levels.values), limits)
     sd = np.sqrt(np.diag(covariance))

@@ -1,4 +1,4 @@
-"""Long recordings: what is missing is sought on stretches of them, and what is found is tried and fitted on all."""
+"""Long recordings: terms are searched on stretches of them, then tested and fitted on all samples."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import Problem
 
 LONG = 32_000
-"""From so many samples on, of all recordings together, a search goes over stretches of them first."""
+"""From this many samples on, of all recordings together, a search uses stretches of them first."""
 STRETCHES, SOUGHT = 4, 16_000
-"""So many stretches of each recording, evenly spread over it, and so many samples of all stretches together."""
+"""The number of stretches of each recording, evenly spread over it, and the samples of all stretches together."""
 
 
 def search_stretches(
@@ -24,8 +24,8 @@ def search_stretches(
 ) -> Selection:
     """Return the selection among `candidates`, on stretches first where the recordings are long.
 
-    Then every term that was found has to hold on all samples, and every other one is tried there once more: a small
-    effect may show in the whole alone.
+    Then every term that was found has to hold on all samples, and every other one is tested there once more: a small
+    effect may be visible in the whole alone.
     """
     keys, short = tuple(candidates), cut_stretches(nominal.problem)
     if short is nominal.problem:
@@ -42,7 +42,7 @@ def search_stretches(
 
 
 def cut_stretches(problem: Problem) -> Problem:
-    """Return the problem on stretches of its recordings, or as it is where they are not long."""
+    """Return the problem on stretches of its recordings, or unchanged where they are not long."""
     if problem.samples <= LONG:
         return problem
     parts = [part for o in problem.observations for part in list_stretches(o, SOUGHT / problem.samples)]

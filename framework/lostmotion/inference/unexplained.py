@@ -1,6 +1,7 @@
-"""Unknown is an answer: whether a learned curve explains what the library does not, or better than the library does.
+"""Unknown forces: whether a learned curve explains what the library does not, or better than the library does.
 
-Curves compete with the terms by log evidence, each at a price: a curve may bend as it likes, and pays for it.
+Curves compete with the terms by log evidence, with a price for each: a curve is flexible, and the evidence accounts for
+it.
 """
 
 from __future__ import annotations
@@ -20,19 +21,19 @@ from lostmotion.inference.surfaces import RICHER
 from lostmotion.likelihood.problem import RANDOM, Problem
 
 MOST_SAMPLES = 8000
-"""Curves are sought on so many samples, and then fitted to all."""
+"""Samples on which curves are searched; they are then fitted to all samples."""
 FITTED, RIVAL = 2, 0.7
-"""So many curves are fitted on top of each set, those that promise this share of what the best one does: a score test
-ranks covariates that go together only roughly."""
+"""The number of curves that are fitted in addition to each set, with at least this share of the best predicted gain: a
+score test ranks correlated covariates only roughly."""
 
 Progress = Callable[[str], None]
 
 
 @dataclass(frozen=True)
 class UnknownForce:
-    """A fit with learned curves: their keys, and the log odds by which it beats the best that the library has.
+    """A fit with learned curves: their keys, and the log odds over the best set of terms of the library.
 
-    `alone` says that they take the place of what the library had found.
+    `alone` says that they replace what the library had found.
     """
 
     fit: Fit
@@ -42,19 +43,19 @@ class UnknownForce:
 
     @property
     def probability(self) -> float:
-        """The posterior probability that the curves are at work."""
+        """The posterior probability of the curves."""
         return 1.0 / (1.0 + math.exp(-min(self.gain, 500.0)))
 
     @property
     def terms(self) -> tuple[LearnedCurve, ...]:
-        """The learned terms, in the order in which they were taken."""
+        """The learned terms, in the order in which they were selected."""
         terms = [find_term(self.fit.problem, key)[0] for key in self.keys]
         return tuple(term for term in terms if isinstance(term, LearnedCurve))
 
 
 @dataclass
 class Search:
-    """The course of a search: `many` candidates of the library, and the price of each set of terms and curves."""
+    """A search for curves: `many` candidates of the library, and the weight of each set of terms and curves."""
 
     many: int
     say: Progress = lambda _: None
@@ -62,7 +63,7 @@ class Search:
     learned: set[tuple[frozenset[str], bool]] = field(default_factory=set)
 
     def visit(self, fit: Fit) -> float:
-        """Note a fit and return its weight: log evidence less the price of its terms and curves."""
+        """Store a fit and return its weight: log evidence less the price of its terms and curves."""
         weight = fit.log_evidence - sum(self.price(fit.problem, key) for key in fit.problem.active)
         known = self.visits.get(fit.problem.active)
         if known is None or weight > known[1]:
@@ -70,7 +71,7 @@ class Search:
         return weight
 
     def price(self, problem: Problem, key: str) -> float:
-        """Return the log price of a term, as in the selection, or of a curve, for the smoothness that was chosen."""
+        """Return the log prior penalty of a term, as in the selection, or of a curve with its chosen smoothness."""
         term, _ = find_term(problem, key)
         if isinstance(term, LearnedCurve):
             return math.log(max(self.many, 1)) + 1.0 + CHOICES
@@ -102,9 +103,9 @@ class Search:
             self.visit(fit_curve(fit, shape))
 
     def bare(self, fit: Fit) -> Fit:
-        """Return a fit with a richer curve without the named terms that are not decisive beside it.
+        """Return a fit with a richer curve without the named terms that are not decisive in addition to it.
 
-        Laws that had stood in for a force over two things, or with a memory, are not needed any more.
+        Laws that had imitated a force over two variables, or one with a memory, are not needed any more.
         """
         curves = _list_curves(fit.problem)
         if not any(isinstance(find_term(fit.problem, key)[0], RICHER) for key in curves):
@@ -119,9 +120,9 @@ class Search:
 
 @dataclass
 class CurveSearch:
-    """All that is asked of learned curves in one diagnosis, where `many` terms of the library are tried.
+    """The searches for learned curves in one diagnosis, where `many` terms of the library are tried.
 
-    What was learned on top of a nominal fit is kept: a selection asks for it early, and the end of a diagnosis again.
+    Results for a nominal fit are stored: a selection needs them early, and the end of a diagnosis again.
     """
 
     many: int
@@ -129,7 +130,7 @@ class CurveSearch:
     kept: list[tuple[Fit, Fit, Search]] = field(default_factory=list)
 
     def _begun(self, nominal: Fit) -> tuple[Fit, Search]:
-        """Return a nominal fit in a system with every curve, on samples that curves are sought on, and its search."""
+        """Return a nominal fit in a system with every curve, on the samples for the search, and its search."""
         for fit, before, search in self.kept:
             if fit is nominal:
                 return before, search
@@ -150,8 +151,8 @@ class CurveSearch:
     def unknown(self, nominal: Fit, chosen: Fit) -> UnknownForce | None:
         """Return the learned curves that explain decisively more than the terms of the library, or None.
 
-        Curves are tried on top of the chosen terms and of the nominal model alone: where they do without the terms,
-        these are dropped, and else the names are kept.
+        Curves are tried in addition to the chosen terms and to the nominal model alone: where they do not need the
+        terms, these are dropped, and otherwise the names are kept.
         """
         (before, search), limits = self._begun(nominal), nominal.problem.settings.unknown
         after = _shorten_fit(add_all_curves(chosen)) if chosen.problem.active else before
@@ -190,7 +191,7 @@ class CurveSearch:
 
 
 def drop_curve(unknown: UnknownForce, key: str) -> UnknownForce | None:
-    """Return the learned curves without one of them, fitted anew; None where the rest explains nothing decisive."""
+    """Return the learned curves without one of them, refitted; None where the rest is not decisive."""
     keys = tuple(k for k in unknown.keys if k != key)
     if not keys:
         return None
@@ -216,9 +217,9 @@ def _list_curves(problem: Problem) -> tuple[str, ...]:
 
 
 def _select_best(search: Search, beyond: frozenset[str] = frozenset()) -> Fit | None:
-    """Return the best fit with curves, and with all terms that it is to go `beyond`; None without any.
+    """Return the best fit with curves that contains all terms in `beyond`; None without any.
 
-    One with a curve more has to be decisively better than the one without.
+    A fit with one more curve has to be decisively better than the one without.
     """
     fits = [(f, w) for active, (f, w) in search.visits.items() if active >= beyond and _list_curves(f.problem)]
     return max(fits, key=_penalise_curves)[0] if fits else None
@@ -230,7 +231,7 @@ def _penalise_curves(pair: tuple[Fit, float]) -> float:
 
 
 def _changes_named_law(fit: Fit, without: Fit) -> bool:
-    """Return whether curves change the size of a named law by much: then they are its shape, and no more.
+    """Return whether curves change the size of a named law by much: then they belong to its shape.
 
     A curve over velocity can be a part of dry friction; where the law is named, its size is to be that of the law.
     """
@@ -242,7 +243,7 @@ def _changes_named_law(fit: Fit, without: Fit) -> bool:
 
 
 def _reduces_random_force(fit: Fit, without: Fit) -> bool:
-    """Return whether curves take enough off a random force that was beyond the usual."""
+    """Return whether curves reduce a random force that was above the usual by enough."""
     at, then = (f.theta[f.problem.keys.index(RANDOM)] for f in (fit, without))
     limits = fit.problem.settings
     cap = without.problem.free[without.problem.keys.index(RANDOM)].mean + 2.0 * math.log(limits.unknown.usual)

@@ -1,4 +1,4 @@
-"""Fits where no sensor shows the position: where the motion begins, and a random force that explains too much."""
+"""Fits where no sensor shows the position: initial states by smoothing, and a random force that is too large."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import RANDOM, Problem
 
 WIDER = 10.0
-"""A motion begins within so many standard deviations of what the whole recording says: that is used twice then, and
-counts for a hundredth of itself beside what it says in the fit."""
+"""A motion begins within this many standard deviations of its smoothed initial state: the recording is used twice then,
+and the first use counts for a hundredth of its information."""
 AGAIN = 3
 MOVED = 1.0
 COOLER = (0.0, 2.0, 4.0, 6.0)
-"""Random forces, in log intensity above the usual, from which a fit is begun again."""
+"""Random forces, in log intensity above the usual, from which a fit is started again."""
 GAINED = 1.0
 
 
@@ -33,10 +33,10 @@ class BodyPosition:
 
 
 def smooth_body_position(fit: Fit, observation: Observation) -> BodyPosition:
-    """Return where the body was during a recording, by smoothing over the posterior about a fit.
+    """Return the position of the body during a recording, by smoothing over the posterior about a fit.
 
-    The level of the random force, which lets a position drift, is integrated on a grid; how the other parameters move
-    the position is taken for straight within their deviations. Infinite deviations where no smoother gets through.
+    The level of the random force, which lets a position drift, is integrated on a grid; the position is linearised in
+    the other parameters within their deviations. Infinite deviations where every smoother diverges.
     """
     problem = fit.problem.on((observation,))
     nodes = compute_nodes(fit)
@@ -73,14 +73,14 @@ def _compute_parameter_variance(problem: Problem, local: Expansion) -> Array:
 
 
 def lacks_position(problem: Problem) -> bool:
-    """Return whether there is a recording of which no sensor shows a position."""
+    """Return whether there is a recording in which no sensor shows a position."""
     return not all(shows_place(observation) for observation in problem.observations)
 
 
 def refit_without_position(fit: Fit) -> Fit:
-    """Return the fit where no sensor shows the position: begun where the recording says, and with less random force.
+    """Return the fit where no sensor shows the position: with smoothed initial states, and with less random force.
 
-    Other fits are returned as they are.
+    Other fits are returned unchanged.
     """
     if not lacks_position(fit.problem) or fit.status == "diverged":
         return fit
@@ -88,12 +88,12 @@ def refit_without_position(fit: Fit) -> Fit:
 
 
 def refit_start(fit: Fit) -> Fit:
-    """Return the fit from where the recording says that its motion began, found by smoothing, again until it stands.
+    """Return the fit with the initial state from smoothing, repeated until it converges.
 
-    Position and velocity at the first sample are anywhere in the motion. Spread so wide, a filter through a gap or a
-    cubic spring takes a straight line for a force that bends, and is wrong for long after. So the recording is
-    smoothed back to its first sample, and the filter begins there (an iterated smoother: Bell, SIAM J. Optimization 4
-    (1994) 626-636).
+    Position and velocity at the first sample may be anywhere in the motion. With such a wide prior, a filter through a
+    gap or a cubic spring linearises a force that bends, and is wrong for long after. So the recording is smoothed back
+    to its first sample, and the filter begins there (an iterated smoother: Bell, SIAM J. Optimization 4 (1994)
+    626-636).
     """
     if not lacks_position(fit.problem):
         return fit
@@ -114,7 +114,7 @@ def refit_start(fit: Fit) -> Fit:
 
 
 def _smooth_start(fit: Fit, observation: Observation, index: int) -> tuple[Observation, float]:
-    """Return an observation with what is known of its first states, and how many deviations these have moved."""
+    """Return an observation with its smoothed initial states, and their change in standard deviations."""
     if shows_place(observation):
         return observation, 0.0
     problem, n = fit.problem, len(fit.problem.system.model.states)
@@ -138,10 +138,10 @@ def _scale_covariance(covariance: Array, unit: Array) -> Array:
 
 
 def reduce_random_force(fit: Fit) -> Fit:
-    """Return the best of fits that begin at this one with less random force, again as long as that gains.
+    """Return the best of fits that begin at this one with less random force, repeated as long as that gains.
 
-    An accelerometer sees the random force of the moment. So one that is large explains whatever it shows, at any
-    parameters, and a search stops at one of many maxima where it does.
+    An accelerometer sees the random force of the moment. So a large one explains any readings, at any parameters, and a
+    search stops at one of many maxima there.
     """
     if fit.problem.dynamics.random != "held":
         return fit
