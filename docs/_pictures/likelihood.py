@@ -8,8 +8,8 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 import numpy as np
 
-from lostmotion.inference.setup import make_problem, choose_steps
-from lostmotion.likelihood.predict import filter_recording, simulate_run, observe_states
+from lostmotion.inference.setup import choose_steps, make_problem
+from lostmotion.likelihood.predict import filter_recording, observe_states, simulate_run
 from lostmotion.likelihood.problem import NOISE
 from lostmotion.likelihood.system import System
 from lostmotion.preparation.prepare import prepare
