@@ -17,7 +17,7 @@ from lostmotion.inference.natural import term_of
 from lostmotion.inference.prices import related
 from lostmotion.likelihood.system import key_of
 from lostmotion.quantities import unit_of
-from lostmotion.report.words import sentence, spoken
+from lostmotion.report.words import sentence, to_words
 from lostmotion.results.diagnosis import Confusion, DecidingExcitation
 
 MOST = 2
@@ -124,7 +124,7 @@ def _opening(d: Diagnosed, term: Term, p: float) -> str:
 
 
 def _called(term: Term) -> str:
-    return spoken(term.name)
+    return to_words(term.name)
 
 
 def _says(d: Diagnosed, term: Term, p: float, proposal: Proposal) -> str:

@@ -14,7 +14,7 @@ from lostmotion.diagnosis.search import Diagnosed
 from lostmotion.inference.natural import term_of
 from lostmotion.inference.prices import related
 from lostmotion.quantities import TIME
-from lostmotion.report.words import spoken
+from lostmotion.report.words import to_words
 from lostmotion.results.diagnosis import Mechanism, OpenTerm
 from lostmotion.settings import DEFAULT, NameSettings
 
@@ -79,7 +79,7 @@ def _find_as_good(d: Diagnosed, key: str) -> Iterator[str]:
             continue
         near = chosen.log_evidence - visit.fit.log_evidence < d.settings.name.related
         if near and not any(_same(own, t) or related(own, t) for t in (term_of(problem, k)[0] for k in fresh)):
-            names = " and ".join([_called(d, fresh[0]), *(spoken(term_of(problem, k)[0].name) for k in fresh[1:])])
+            names = " and ".join([_called(d, fresh[0]), *(to_words(term_of(problem, k)[0].name) for k in fresh[1:])])
             yield (
                 f"{names} {'explain' if fresh[1:] else 'explains'} the fitted data as well: only the prior odds of the"
                 " terms, or the comparison with a smooth force, decide against that."
@@ -123,7 +123,7 @@ def _others(d: Diagnosed, key: str) -> list[str]:
     found = d.selection.chosen.problem.active
     sets = [terms for terms, p in d.selection.probabilities().items() if key not in terms and p > d.settings.name.rival]
     names = dict.fromkeys(k for terms in sets for k in sorted(terms - found))
-    return [spoken(term_of(d.before.problem, k)[0].name) for k in names]
+    return [to_words(term_of(d.before.problem, k)[0].name) for k in names]
 
 
 def unsteady(d: Diagnosed, key: str) -> Iterator[str]:
@@ -140,13 +140,14 @@ def unsteady(d: Diagnosed, key: str) -> Iterator[str]:
         old, new = without.fit.values[f.key], chosen.values[f.key]
         if abs(new - old) > max(limits.moved * sds[f.key], limits.moved_share * abs(old)):
             yield (
-                f"{_called(d, owner)} has a {name} of {old:.3g} {f.unit} without {spoken(key.partition('@')[0])} and of"
-                f" {new:.3g} {f.unit} with it: a level that moves so far was not known, or the further term is wrong."
+                f"{_called(d, owner)} has a {name} of {old:.3g} {f.unit} without {to_words(key.partition('@')[0])} and"
+                f" of {new:.3g} {f.unit} with it: a level that moves so far was not known, or the further term is"
+                " wrong."
             )
 
 
 def _called(d: Diagnosed, key: str) -> str:
-    name = spoken(term_of(d.before.problem, key)[0].name)
+    name = to_words(term_of(d.before.problem, key)[0].name)
     return name[:1].upper() + name[1:]
 
 

@@ -19,7 +19,7 @@ from lostmotion.inference.natural import term_of
 from lostmotion.inference.prices import price_of
 from lostmotion.likelihood.system import key_of
 from lostmotion.quantities import unit_of
-from lostmotion.report.words import chance, span, spoken
+from lostmotion.report.words import chance, span, to_words
 from lostmotion.results import rounded
 from lostmotion.results.diagnosis import (
     Both,
@@ -215,7 +215,9 @@ def confusions_of(d: Diagnosed) -> list[Confusion]:
         key = key_of(term)
         p = 0.0 if d.learned else d.selection.inclusion(key)
         if key not in d.found and p > d.settings.name.worth:
-            says = f"This recording gives {spoken(term.name)} a probability of {p:.2f}: {other_level(d)} would decide."
+            says = (
+                f"This recording gives {to_words(term.name)} a probability of {p:.2f}: {other_level(d)} would decide."
+            )
             rows.append(Confusion(mechanism=term.name, at=term.at, probability=p, says=says))
     return rows + [row for key in d.named for row in _equal(d, key)]
 
@@ -243,11 +245,11 @@ def _equal(d: Diagnosed, key: str) -> list[Confusion]:
     if len(d.shown.sensors) > 1:  # what delays one sensor delays no other
         return []
     says = (
-        f"No recording of this machine can tell {{}} from {spoken(term.name)}: measure the time lag of the channels by"
-        " itself."
+        f"No recording of this machine can tell {{}} from {to_words(term.name)}: measure the time lag of the"
+        " channels by itself."
     )
     p = d.selection.inclusion(key)
-    return [Confusion(mechanism=n, at="", probability=p, says=says.format(spoken(n))) for n in term.equals]
+    return [Confusion(mechanism=n, at="", probability=p, says=says.format(to_words(n))) for n in term.equals]
 
 
 def unexplained_of(d: Diagnosed, *, after: bool) -> UnexplainedForce:

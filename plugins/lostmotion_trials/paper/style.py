@@ -41,7 +41,7 @@ def files(figure: Figure, folder: Path, name: str) -> list[str]:
 
 def panels(rows: int, columns: int, height: float, **options: Any) -> tuple[Figure, list[Axes]]:
     """Return a figure `height` inches high with its panels, row by row."""
-    figure = style.blank(height)
+    figure = style.make_figure(height)
     made = figure.subplots(rows, columns, squeeze=False, **options)
     return figure, [axes for row in made for axes in row]
 
