@@ -22,9 +22,9 @@ from scipy.interpolate import CubicSpline
 
 from lostmotion.case import CaseFile, Prior
 from lostmotion.diagnosis.experiment import news, propose
-from lostmotion.inference.candidates import fit_with, screen, slopes_of
+from lostmotion.inference.candidates import compute_slopes, fit_term, run_score_test
 from lostmotion.inference.fit import maximise
-from lostmotion.inference.setup import problem_of, search
+from lostmotion.inference.setup import make_problem, search_maximum
 from lostmotion.likelihood.drive import DriveHarmonic
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.system import System, key_of
@@ -138,11 +138,12 @@ def fitted(machine, observation):
     registry = Registry.discover()
     terms = tuple(registry.make("term", name) for name in (machine.truth, machine.other))
     case = CaseFile(machine.name, Path(), (), machine.model, machine.known, machine.estimate, {}, (), "")
-    nominal = search(
-        problem_of(System(registry.make("model", machine.model), terms), case, (observation,)), np.random.default_rng(0)
+    nominal = search_maximum(
+        make_problem(System(registry.make("model", machine.model), terms), case, (observation,)),
+        np.random.default_rng(0),
     )
-    slopes = slopes_of(nominal)
-    fits = [fit_with(nominal, screen(nominal, slopes, key_of(term))) for term in terms]
+    slopes = compute_slopes(nominal)
+    fits = [fit_term(nominal, run_score_test(nominal, slopes, key_of(term))) for term in terms]
     # A fit with one term may show the other where to begin.
     return [maximise(f.problem, f.theta) for f in fits]
 

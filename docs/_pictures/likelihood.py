@@ -8,8 +8,8 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 import numpy as np
 
-from lostmotion.inference.setup import problem_of, stepped
-from lostmotion.likelihood.predict import filtered, free_run, observed
+from lostmotion.inference.setup import choose_steps, make_problem
+from lostmotion.likelihood.predict import filter_recording, observe_states, simulate_run
 from lostmotion.likelihood.problem import NOISE
 from lostmotion.likelihood.system import System
 from lostmotion.preparation.prepare import prepare
@@ -59,8 +59,8 @@ def compute_measures():
         simulate(plan).save(Path(folder) / "recording.csv")
         (Path(folder) / "case.toml").write_text(CASE, encoding="utf-8")
         prepared = prepare(Path(folder) / "case.toml", registry)
-    problem = problem_of(System(prepared.model, ()), prepared.case, prepared.observations)
-    problem = stepped(problem, problem.start)
+    problem = make_problem(System(prepared.model, ()), prepared.case, prepared.observations)
+    problem = choose_steps(problem, problem.start)
     observation = prepared.observations[0]
     theta = problem.start.copy()
     gap, noise = problem.keys.index("x0"), problem.keys.index(NOISE)
@@ -68,10 +68,10 @@ def compute_measures():
     free, likelihood = [], []
     for value in np.log(GAPS):
         theta[gap] = value
-        begin = filtered(problem, theta).states[0]
-        states = free_run(problem, theta, begin, 0, observation.samples)
+        begin = filter_recording(problem, theta).states[0]
+        states = simulate_run(problem, theta, begin, 0, observation.samples)
         free.append(
-            np.sqrt(np.mean((observed(problem, theta, states) - observation.response) ** 2))
+            np.sqrt(np.mean((observe_states(problem, theta, states) - observation.response) ** 2))
             / np.std(observation.response)
         )
         likelihood.append(problem.innovations(theta).log_likelihood)

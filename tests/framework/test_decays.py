@@ -141,8 +141,8 @@ class Known:
     ],
 )
 def test_a_run_that_diverges_or_creeps_is_no_decay(monkeypatch, course, measured):
-    monkeypatch.setattr(decays, "free_run", lambda problem, theta, y0, start, steps: problem.run[start : start + steps])
-    monkeypatch.setattr(decays, "observed", lambda problem, theta, states, where: states[:, 0])
+    monkeypatch.setattr(decays, "simulate_run", lambda p, theta, y0, start, steps: p.run[start : start + steps])
+    monkeypatch.setattr(decays, "observe_states", lambda problem, theta, states, where: states[:, 0])
     one = observation(noisy(swing(6.0), np.random.default_rng(5)))
     (stretch,) = stretches_of(one)
     seen = decay_of(one.response, DT)

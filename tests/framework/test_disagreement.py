@@ -9,13 +9,13 @@ from scipy.stats import binom
 
 from lostmotion.diagnosis.disagreements import by_recording, over_time
 from lostmotion.inference.disagreement import (
-    between,
-    beyond_chance,
-    even_windows,
-    hit_windows,
-    means_of,
-    memory_of,
-    trend,
+    average_windows,
+    compute_recording_p,
+    compute_trend,
+    compute_window_p,
+    find_memory,
+    make_even_windows,
+    make_hit_windows,
 )
 from lostmotion.likelihood.observation import Observation
 
@@ -35,21 +35,21 @@ def observed(samples=3000, excitation=None):
 
 
 def test_windows_hold_whole_periods_and_means_are_those_of_loops():
-    windows = even_windows(1000, period=120.0)
+    windows = make_even_windows(1000, period=120.0)
     assert len(windows) == 8
     assert np.diff(windows.edges).min() >= 120
     values = squares(np.random.default_rng(1), 1000)
     values[3] = np.nan
     slow = [np.mean([v for v in values[a:b] if np.isfinite(v)]) for a, b in pairwise(windows.edges)]
-    np.testing.assert_allclose(means_of(values, windows), slow)
+    np.testing.assert_allclose(average_windows(values, windows), slow)
 
 
 def test_a_memory_is_measured_and_a_louder_stretch_is_none():
-    rng, windows = np.random.default_rng(2), even_windows(6000)
+    rng, windows = np.random.default_rng(2), make_even_windows(6000)
     white = squares(rng, 6000)
     white[1000:1400] *= 5.0
-    assert memory_of(white, windows) <= 3
-    assert 5 <= memory_of(squares(rng, 6000, 0.9), windows) <= 40
+    assert find_memory(white, windows) <= 3
+    assert 5 <= find_memory(squares(rng, 6000, 0.9), windows) <= 40
 
 
 @pytest.mark.slow
@@ -102,7 +102,7 @@ def test_hits_are_compared_at_equal_times_after_each():
     rng, wrong = np.random.default_rng(5), 0
     for _ in range(100):
         observation, values, starts = struck(rng)
-        p = beyond_chance(values, hit_windows(3000, starts), rng)
+        p = compute_window_p(values, make_hit_windows(3000, starts), rng)
         wrong += bool(np.min(p) <= 0.05)
     assert wrong <= binom.ppf(0.999, 100, 0.05)
     observation, values, starts = struck(rng, 4.0)
@@ -134,12 +134,12 @@ def test_recordings_that_agree_alike_are_seldom_told_apart():
     rng, wrong, tends = np.random.default_rng(7), 0, 0
     for _ in range(200):
         parts = [squares(rng, 800, 0.5) for _ in range(4)]
-        wrong += bool(np.min(between(parts, rng)) <= 0.05)
-        tends += trend(parts, np.array([1.0, 2.0, 4.0, 8.0]), rng)[1] <= 0.05
+        wrong += bool(np.min(compute_recording_p(parts, rng)) <= 0.05)
+        tends += compute_trend(parts, np.array([1.0, 2.0, 4.0, 8.0]), rng)[1] <= 0.05
     assert max(wrong, tends) <= binom.ppf(0.999, 200, 0.05)
 
 
 def test_too_little_is_not_tested():
     rng = np.random.default_rng(8)
-    assert beyond_chance(squares(rng, 60), even_windows(60), rng) is None
-    assert trend([squares(rng), squares(rng)], np.array([1.0, 2.0]), rng) is None
+    assert compute_window_p(squares(rng, 60), make_even_windows(60), rng) is None
+    assert compute_trend([squares(rng), squares(rng)], np.array([1.0, 2.0]), rng) is None

@@ -105,7 +105,7 @@ def test_truth_that_was_changed_is_refused(tmp_path):
     assert open_sealed(tmp_path, 0).case == "000"
     path = tmp_path / "sealed" / "000.json"
     path.write_text(path.read_text(encoding="utf-8").replace('"plain"', '"outliers"'), encoding="utf-8")
-    with pytest.raises(DataError, match="truth of case 000 is not what"):
+    with pytest.raises(DataError, match="truth of case 000 does not match its digest"):
         open_sealed(tmp_path, 0)
 
 

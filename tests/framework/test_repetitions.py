@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from lostmotion.diagnosis.repetitions import looks_of, repetition_notes, share_repeated
-from lostmotion.likelihood.observation import Observation, harmonic_of
+from lostmotion.likelihood.observation import Observation, find_harmonic
 
 SAMPLES, TRAIN, DT, PERIOD = 2000, 1400, 0.01, 37.7
 
@@ -15,7 +15,7 @@ def observed(name="run 1", level=1.0, seed=0, noise=0.01, waveform=None):
     x = level * (np.sin(angle) + 0.3 * np.cos(3.0 * angle)) if waveform is None else np.cumsum(u) / 30.0
     noisy = x + noise * np.std(x) * rng.standard_normal(SAMPLES)
     bare = Observation.of(name, noisy, u[:, None], DT, "position")
-    return Observation.of(name, noisy, u[:, None], DT, "position", harmonic=harmonic_of(bare))
+    return Observation.of(name, noisy, u[:, None], DT, "position", harmonic=find_harmonic(bare))
 
 
 def slow_noise(rng):

@@ -92,8 +92,8 @@ def _slots(monkeypatch):
         system = problem.system
         return system.terms[system.keys.index(key)], system.own[key]
 
-    monkeypatch.setattr("lostmotion.diagnosis.states.term_of", term_of)
-    monkeypatch.setattr("lostmotion.diagnosis.confirming.term_of", term_of)
+    monkeypatch.setattr("lostmotion.diagnosis.states.find_term", term_of)
+    monkeypatch.setattr("lostmotion.diagnosis.confirming.find_term", term_of)
 
 
 @pytest.mark.parametrize(("gain", "sure"), [(29.0, False), (31.0, True)])
@@ -325,7 +325,7 @@ def test_held_out_data_decide_between_a_term_and_a_smooth_force(monkeypatch, sco
         won=lambda visit: SimpleNamespace(fit=fits["smooth"], right=None),
         expansion=lambda visit: SimpleNamespace(worse=1.0),
     )
-    monkeypatch.setattr(confirming, "term_of", lambda problem, key: (SimpleNamespace(acts="motion"), ()))
+    monkeypatch.setattr(confirming, "find_term", lambda problem, key: (SimpleNamespace(acts="motion"), ()))
     monkeypatch.setattr(confirming, "_scored", lambda fit, pieces: scores[fit.key])
     monkeypatch.setattr(confirming, "pieces_of", lambda observations, held: ())
     d = SimpleNamespace(selection=selection, learned=None, held=(), settings=DEFAULT)

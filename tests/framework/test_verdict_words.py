@@ -12,7 +12,7 @@ from lostmotion.diagnosis.report.opening import make_badge
 from lostmotion.diagnosis.run import unused
 from lostmotion.diagnosis.search import _check_moving
 from lostmotion.errors import DataError
-from lostmotion.inference.setup import lasting
+from lostmotion.inference.setup import count_lasting_samples
 from lostmotion.likelihood.observation import Observation, Sensor
 from lostmotion.results import Interval
 from lostmotion.results.diagnosis import Mechanism
@@ -101,7 +101,7 @@ def test_what_is_held_out_still_moves(rests):
     """A machine that stops: the part at rest is held out beside a part of the motion, never alone."""
     t = np.linspace(0.0, 1.0, 3000)
     turned = 0.09 * np.round(500.0 * np.minimum(t, 1.0 - rests) / 0.09)
-    cut = round(0.7 * lasting(observed(turned)))
+    cut = round(0.7 * count_lasting_samples(observed(turned)))
     assert t[cut] < 1.0 - rests
 
 

@@ -11,7 +11,7 @@ import pytest
 
 from lostmotion.inference.fit import maximise
 from lostmotion.inference.selection import Selector
-from lostmotion.inference.setup import noise_frees
+from lostmotion.inference.setup import make_noise_levels
 from lostmotion.likelihood.drive import DriveHarmonic
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import Problem, Scales
@@ -54,7 +54,7 @@ def course_of(response, seed):
     scales = Scales(AMPLITUDE, 1.2, 1.0 / OMEGA, usual=math.log((1e-3 * AMPLITUDE) ** 2 * DT), span=SAMPLES * DT)
     free = FreeParameter("c", "N s/m", math.log(C), math.log(0.05), math.log(4.0), log=True)
     known = system.vector({"m": M, "c": C, "k": K})
-    problem = Problem(system, (observation,), scales, known, (free, *noise_frees((observation,), scales)), nsub=2)
+    problem = Problem(system, (observation,), scales, known, (free, *make_noise_levels((observation,), scales)), nsub=2)
     fits = [maximise(problem, np.array([math.log(C), level, problem.start[-1]])) for level in (scales.usual, 0.0)]
     nominal = max(fits, key=lambda f: f.local.log_posterior)
     return Selector(nominal, system.keys, lambda _: None).run()

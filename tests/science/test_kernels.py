@@ -12,7 +12,7 @@ from independent import Machine, lin_oscillator, recording
 from lostmotion.likelihood.drive import Drive
 from lostmotion.likelihood.engine import Dynamics, Points, Smoothed
 from lostmotion.likelihood.lanes import Lanes
-from lostmotion.likelihood.motion import derivatives
+from lostmotion.likelihood.motion import compute_derivatives
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.reference import Reference
 from lostmotion.likelihood.sensors import AR1, Sensor
@@ -54,7 +54,7 @@ def seen_of(system, full, drive, sensors, random):
     dynamics = Dynamics(system, system.everything, 4, random)
     truth = system.simulate(full, system.everything, np.array([0.6 * full[system.index["x0"]], 0.1]), drive, 4)
     packed = system.pack(full[None], drive.dt / 4)
-    _, channels = derivatives(system, system.everything, packed, truth.states, drive.inputs)
+    _, channels = compute_derivatives(system, system.everything, packed, truth.states, drive.inputs)
     columns = [channels[:, system.model.channels.index(s.channel)] for s in sensors]
     z = np.stack([c + 1e-3 * c.std() * np.random.default_rng(0).standard_normal(len(c)) for c in columns], axis=1)
     z[7] = np.nan

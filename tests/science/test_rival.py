@@ -9,11 +9,11 @@ from sensed import case_of, model_of, moved, multisine, noisy
 from lostmotion.diagnosis.compare import horizon_for, pieces_of
 from lostmotion.diagnosis.confirming import unconfirmed
 from lostmotion.diagnosis.search import fitted_keys
-from lostmotion.inference.candidates import fit_with, screen, slopes_of
+from lostmotion.inference.candidates import compute_slopes, fit_term, run_score_test
 from lostmotion.inference.course import Selection, Visit
 from lostmotion.inference.rival import USUAL, evidence_of, expanded, fitted, righted
 from lostmotion.inference.selection import Selector
-from lostmotion.inference.setup import problem_of, search, split
+from lostmotion.inference.setup import make_problem, search_maximum, split_heldout
 from lostmotion.likelihood.system import System
 from lostmotion.preparation.prepare import prepare
 from lostmotion.registry import Registry
@@ -42,8 +42,8 @@ def nominal_of(folder, extra, *, seed=0, stated=1.0, shown=lambda x: x):
     The sensor has `shown` of the position.
     """
     prepared, system = made_of(folder, extra, seed=seed, stated=stated, shown=shown)
-    train, _ = split(prepared.observations)
-    return search(problem_of(system, prepared.case, train, jobs=1), np.random.default_rng(seed)), system
+    train, _ = split_heldout(prepared.observations)
+    return search_maximum(make_problem(system, prepared.case, train, jobs=1), np.random.default_rng(seed)), system
 
 
 def made_of(folder, extra, *, seed=0, stated=1.0, shown=lambda x: x):
@@ -130,7 +130,7 @@ def test_friction_is_named_beside_a_smooth_force(tmp_path):
 def test_leads_are_antisymmetric_and_bounded_by_what_the_larger_set_says(tmp_path):
     nominal, _ = nominal_of(tmp_path, bend(0.25))
     key = "cubic_stiffness"
-    more = fit_with(nominal, screen(nominal, slopes_of(nominal), key))
+    more = fit_term(nominal, run_score_test(nominal, compute_slopes(nominal), key))
     course = Selection(nominal, nominal)
     for fit in (nominal, more):
         course.visits[fit.problem.active] = Visit(fit.problem.active, fit, fit.log_evidence)
@@ -147,7 +147,7 @@ def test_leads_are_antisymmetric_and_bounded_by_what_the_larger_set_says(tmp_pat
 def test_a_promise_is_also_looked_for_from_what_would_stand_in_for_the_terms(tmp_path):
     rub = lambda x, v, t: -1.0 * np.tanh(v / 1e-3)  # noqa: E731
     nominal, _ = nominal_of(tmp_path, rub)
-    more = fit_with(nominal, screen(nominal, slopes_of(nominal), "coulomb_friction"))
+    more = fit_term(nominal, run_score_test(nominal, compute_slopes(nominal), "coulomb_friction"))
     expansion = expanded(more)
     dropped = [i for i, k in enumerate(more.problem.keys) if k.startswith("coulomb_friction")]
     stand_in = expansion.best(dropped, expansion.worse)
@@ -200,9 +200,9 @@ def test_a_channel_is_put_right_as_far_as_flaws_are_usual(tmp_path):
 @pytest.mark.slow
 def test_a_term_is_doubted_where_no_model_is_right_and_predictions_do_without_it(tmp_path, key, extra, doubted):
     prepared, system = made_of(tmp_path, extra)
-    train, held = split(prepared.observations)
-    nominal = search(problem_of(system, prepared.case, train, jobs=1), np.random.default_rng(0))
-    more = fit_with(nominal, screen(nominal, slopes_of(nominal), key))
+    train, held = split_heldout(prepared.observations)
+    nominal = search_maximum(make_problem(system, prepared.case, train, jobs=1), np.random.default_rng(0))
+    more = fit_term(nominal, run_score_test(nominal, compute_slopes(nominal), key))
     course = Selection(nominal, more)
     for fit in (nominal, more):
         course.visits[fit.problem.active] = Visit(fit.problem.active, fit, fit.log_evidence)

@@ -13,7 +13,7 @@ from lostmotion.contracts import Array
 from lostmotion.diagnosis.search import Diagnosed
 from lostmotion.inference.fit import Fit
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.predict import filtered, free_run
+from lostmotion.likelihood.predict import filter_recording, simulate_run
 from lostmotion.signals.distances import distances, energy_distance, same_chance
 
 LOOKS = 4
@@ -46,8 +46,8 @@ def _free(fit: Fit, observation: Observation) -> Array:
     """Return the states (samples, n) of a free run over a whole recording, from its first filtered state."""
     problem = fit.problem.on((observation,))
     first = min(20, observation.samples - 1)
-    states = filtered(problem, fit.theta).states
-    run = free_run(problem, fit.theta, states[first], first, observation.samples - first)
+    states = filter_recording(problem, fit.theta).states
+    run = simulate_run(problem, fit.theta, states[first], first, observation.samples - first)
     return np.vstack([states[:first], run])
 
 

@@ -11,18 +11,18 @@ from scipy.stats import ttest_1samp
 
 from lostmotion.contracts import Array
 from lostmotion.inference.fit import Fit
-from lostmotion.inference.locate import autocorrelation, whiteness
+from lostmotion.inference.locate import compute_autocorrelation, compute_whiteness
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.predict import (
     Filtered,
     FreeRuns,
     Horizon,
-    filtered,
-    free_run,
-    free_runs,
-    growth_rates,
-    horizon_of,
-    observed,
+    choose_horizon,
+    compute_growth_rates,
+    filter_recording,
+    observe_states,
+    predict_freely,
+    simulate_run,
 )
 from lostmotion.likelihood.problem import Problem
 from lostmotion.settings import DEFAULT, HeldOutSettings
@@ -80,7 +80,7 @@ def pieces_of(observations: Sequence[Observation], held: Sequence[Observation]) 
 def rates_of(fit: Fit, observations: Sequence[Observation]) -> Array:
     """Return how fast (1/s) near runs of a fit part under the recorded drive, (pieces,); see `growth_rates`."""
     problem = fit.problem.on((observations[0],))
-    return growth_rates(problem, fit.theta, problem.begun(fit.theta))
+    return compute_growth_rates(problem, fit.theta, problem.begun(fit.theta))
 
 
 def exponent_of(rates: Array) -> float:
@@ -96,7 +96,7 @@ def exponent_blocks(rates: Array, blocks: int = 10) -> Array:
 def predict(fit: Fit, pieces: Sequence[HeldOutStretch], horizon: Horizon, rates: Array) -> Prediction:
     """Return the predictions of one model on the held-out pieces, judged over a horizon; `rates`: see `rates_of`."""
     problems = [fit.problem.on((piece.observation,)) for piece in pieces]
-    tracked = [filtered(problem, fit.theta) for problem in problems]
+    tracked = [filter_recording(problem, fit.theta) for problem in problems]
     runs, scores, lengths = [], [], [p.observation.samples - p.begin for p in pieces]
     for piece, problem, seen in zip(pieces, problems, tracked, strict=True):
         held = slice(piece.begin, None)
@@ -121,8 +121,8 @@ def predict(fit: Fit, pieces: Sequence[HeldOutStretch], horizon: Horizon, rates:
         valid_time=main.valid_time(own_motion(fit, pieces)),
         forecasts=forecasts,
         restarts=restarts,
-        acf=autocorrelation(*_taken(first, tail, 0)),
-        white=_white([whiteness(*_taken(first, tail, sensor)) for sensor in range(len(joint))]),
+        acf=compute_autocorrelation(*_taken(first, tail, 0)),
+        white=_white([compute_whiteness(*_taken(first, tail, sensor)) for sensor in range(len(joint))]),
         scores=np.concatenate([one.scores(slice(p.begin, None)) for one, p in zip(tracked, pieces, strict=True)]),
     )
 
@@ -179,7 +179,7 @@ def run_errors(fit: Fit, pieces: Sequence[HeldOutStretch], horizon: Horizon) -> 
     found = []
     for piece in pieces:
         problem = fit.problem.on((piece.observation,))
-        runs = _runs(problem, fit, filtered(problem, fit.theta).states, piece, horizon)
+        runs = _runs(problem, fit, filter_recording(problem, fit.theta).states, piece, horizon)
         own = [np.nanmean(run.error[:, : horizon.steps + 1] ** 2, axis=1) for run in runs]
         scales = [deviation(pieces, sensor) for sensor in range(len(runs))]
         found.append(np.mean([squares / scale**2 for squares, scale in zip(own, scales, strict=True)], axis=0))
@@ -214,7 +214,7 @@ def _runs(problem: Problem, fit: Fit, states: Array, piece: HeldOutStretch, hori
     steps = int(min(max(REACH * horizon.unit_time / observation.dt, horizon.steps + 1), left // 2))
     last = observation.samples - steps
     starts = np.unique(np.linspace(piece.begin, last, min(STARTS, max(last - piece.begin, 1))).astype(int))
-    return free_runs(problem, fit.theta, states, starts, steps)
+    return predict_freely(problem, fit.theta, states, starts, steps)
 
 
 def _forecast(
@@ -226,13 +226,13 @@ def _forecast(
     forecast, restarts = np.full(observation.readings.shape, np.nan), np.zeros(observation.samples)
     for start in range(piece.begin, observation.samples - 1, length):
         steps = min(length, observation.samples - start)
-        run = free_run(problem, fit.theta, states[start], start, steps)
+        run = simulate_run(problem, fit.theta, states[start], start, steps)
         for sensor in range(len(observation.sensors)):
-            forecast[start : start + steps, sensor] = observed(problem, fit.theta, run, (start, 0), sensor)
+            forecast[start : start + steps, sensor] = observe_states(problem, fit.theta, run, (start, 0), sensor)
         restarts[start] = 1.0
     return forecast, restarts
 
 
 def horizon_for(fit: Fit, pieces: Sequence[HeldOutStretch], exponent: float) -> Horizon:
     """Return the horizon over which predictions are judged, from the exponent of the better model."""
-    return horizon_of(pieces[0].observation, exponent, fit.problem.scales.time)
+    return choose_horizon(pieces[0].observation, exponent, fit.problem.scales.time)

@@ -20,10 +20,10 @@ from lostmotion.inference.course import Selection, Simplest, Visit
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.learned import OverTime
 from lostmotion.inference.leftovers import quiet
-from lostmotion.inference.natural import term_of
+from lostmotion.inference.natural import find_term
 from lostmotion.inference.rival import Righted
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.predict import filtered
+from lostmotion.likelihood.predict import filter_recording
 from lostmotion.likelihood.problem import RANDOM
 from lostmotion.quantities import TIME
 
@@ -186,7 +186,7 @@ def _unbeaten(selection: Selection, here: Visit, decisive: float) -> list[Visit]
 
     Flaws of channels are not among them: the usual ones are a part of what stands against a name.
     """
-    keys = [k for k in sorted(selection.unbeaten - here.terms) if term_of(here.fit.problem, k)[0].acts == "motion"]
+    keys = [k for k in sorted(selection.unbeaten - here.terms) if find_term(here.fit.problem, k)[0].acts == "motion"]
     more = [here.terms | {key} for key in keys]
     sets = [selection.visits[terms] for terms in more if terms in selection.visits]
     return [v for v in sets if v.fit.status != "diverged" and v.weight > here.weight + decisive]
@@ -196,7 +196,7 @@ def _scored(fit: Fit, pieces: Sequence[HeldOutStretch]) -> float:
     """Return the log score of one-step predictions of held-out data; minus infinity where a filter runs away."""
     total = 0.0
     for piece in pieces:
-        seen = filtered(fit.problem.on((piece.observation,)), fit.theta)
+        seen = filter_recording(fit.problem.on((piece.observation,)), fit.theta)
         total += seen.log_score(slice(piece.begin, None)) * (piece.observation.samples - piece.begin)
     return total if math.isfinite(total) else -math.inf
 
@@ -251,7 +251,7 @@ def usual(d: Diagnosed, key: str) -> str:
 
 def _delay_in_samples(fit: Fit, key: str) -> float:
     """Return the delay or the lag of a channel in samples; infinity for other terms."""
-    term, slots = term_of(fit.problem, key)
+    term, slots = find_term(fit.problem, key)
     late = [s for s in slots if s.param.dimension == TIME and s.key in fit.values]
     if term.acts == "motion" or not late:
         return math.inf

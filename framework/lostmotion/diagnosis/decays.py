@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 from lostmotion.contracts import Array
 from lostmotion.diagnosis.search import Diagnosed
 from lostmotion.inference.fit import Fit
-from lostmotion.inference.natural import term_of
+from lostmotion.inference.natural import find_term
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.predict import free_run, observed
+from lostmotion.likelihood.predict import observe_states, simulate_run
 from lostmotion.quantities import quantity_of, unit_of
 from lostmotion.recording.warnings import is_impulsive
 from lostmotion.report.words import choose_scale, to_words
@@ -121,10 +121,10 @@ def _of_model(fit: Fit, observation: Observation, measured: Measured) -> list[tu
     most, found = MOST_CYCLES // len(measured), []
     for stretch, seen in measured:
         start, stop = stretch
-        run = free_run(problem, fit.theta, states[start], start, stop - start)
+        run = simulate_run(problem, fit.theta, states[start], start, stop - start)
         decay = None
         if np.all(np.abs(run) < 1e100):
-            shown = observed(problem, fit.theta, run, (start, 0))
+            shown = observe_states(problem, fit.theta, run, (start, 0))
             decay = _alike(shown, observation.dt, seen, most) if np.all(np.abs(shown) < bound) else None
         found.append((stretch, decay))
     return found
@@ -171,7 +171,7 @@ def _named(d: Diagnosed, version: str) -> str:
         return "the model"
     if version == "before":
         return "the nominal model"
-    terms = [to_words(term_of(d.after.problem, key)[0].name) for key in d.named]
+    terms = [to_words(find_term(d.after.problem, key)[0].name) for key in d.named]
     terms += ["what was learned"] if d.learned else []
     return f"the model with {' and '.join([', '.join(terms[:-1]), terms[-1]] if len(terms) > 1 else terms)}"
 

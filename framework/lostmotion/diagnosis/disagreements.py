@@ -14,14 +14,14 @@ from lostmotion.inference.disagreement import (
     FEWEST,
     SHORTEST,
     Windows,
-    between,
-    beyond_chance,
-    block_of,
-    even_windows,
-    hit_windows,
-    means_of,
-    squares_of,
-    trend,
+    average_windows,
+    choose_block,
+    compute_recording_p,
+    compute_squares,
+    compute_trend,
+    compute_window_p,
+    make_even_windows,
+    make_hit_windows,
 )
 from lostmotion.likelihood.observation import Observation
 from lostmotion.quantities import unit_of
@@ -47,7 +47,7 @@ def disagreement_in(d: Diagnosed, rng: np.random.Generator) -> tuple[Disagreemen
     None where no one-step error is finite.
     """
     fits = {"before": d.before, "after": d.after} if d.found else {"before": d.before}
-    shown = {name: squares_of(fit, d.shown) for name, fit in fits.items()}
+    shown = {name: compute_squares(fit, d.shown) for name, fit in fits.items()}
     if not all(np.isfinite(one).any() for one in shown.values()):
         return None, None
     level = d.settings.locate.level
@@ -55,7 +55,7 @@ def disagreement_in(d: Diagnosed, rng: np.random.Generator) -> tuple[Disagreemen
     if d.shown.samples != d.held[0].samples:
         return over, None
     begun = (*d.after.problem.observations, *d.held)
-    all_of = {name: [squares_of(fit, one) for one in begun] for name, fit in fits.items()}
+    all_of = {name: [compute_squares(fit, one) for one in begun] for name, fit in fits.items()}
     motion = d.after.problem.system.model.motion
     return over, by_recording(begun, all_of, len(d.train), motion, rng, level)
 
@@ -92,21 +92,21 @@ def over_time(
 
 def _windows(observation: Observation, squares: Mapping[str, Array], hits: Sequence[Hit]) -> Windows:
     if len(hits) > 1:
-        return hit_windows(observation.samples, [hit.start for hit in hits])
-    windows = even_windows(observation.samples, observation.period)
-    block = max(block_of(one, windows) for one in squares.values())
+        return make_hit_windows(observation.samples, [hit.start for hit in hits])
+    windows = make_even_windows(observation.samples, observation.period)
+    block = max(choose_block(one, windows) for one in squares.values())
     shortest = FEWEST * block
     if observation.samples < FEWEST * shortest:
         return windows
-    return even_windows(observation.samples, observation.period, shortest=max(shortest, SHORTEST))
+    return make_even_windows(observation.samples, observation.period, shortest=max(shortest, SHORTEST))
 
 
 def _worst_window(
     squares: Array, windows: Windows, edges: Sequence[float], rng: np.random.Generator, level: float
 ) -> tuple[tuple[float, ...], WorstWindow]:
     """Return the disagreement in each window, and the window that stands out most with its p-value."""
-    means = means_of(squares, windows)
-    p = beyond_chance(squares, windows, rng)
+    means = average_windows(squares, windows)
+    p = compute_window_p(squares, windows, rng)
     at = int(np.nanargmax(means)) if p is None else _most(means, p)
     chance_of_it = math.nan if p is None else float(p[at])
     worst = WorstWindow(at, edges[at], edges[at + 1], float(means[at]), chance_of_it, chance_of_it <= level)
@@ -156,7 +156,7 @@ def by_recording(
     first = recordings[0]
     unit = unit_of(first.channel if first.free else _driver(first), motion)
     last = squares.get("after", squares["before"])
-    p_after, p_before = between(last, rng), between(squares["before"], rng)
+    p_after, p_before = compute_recording_p(last, rng), compute_recording_p(squares["before"], rng)
     measured = zip(recordings, levels, _means(squares["before"]), _means(last), strict=True)
     rows = tuple(
         RecordingMismatch(
@@ -185,7 +185,7 @@ def _at(values: Array | None, index: int) -> float | None:
 
 
 def _trend(parts: Sequence[Array], levels: Array, rng: np.random.Generator) -> LevelTrend | None:
-    found = trend(parts, levels, rng)
+    found = compute_trend(parts, levels, rng)
     return LevelTrend(*found) if found else None
 
 

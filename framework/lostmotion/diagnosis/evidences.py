@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from lostmotion.diagnosis.search import Diagnosed
-from lostmotion.inference.evidence import checked
+from lostmotion.inference.evidence import sample_evidence
 from lostmotion.results.diagnosis import EvidenceCheck, SampledEvidence
 
 FEWEST = 15.0
@@ -17,7 +17,7 @@ def evidence_of(diagnosis: Diagnosed, rng: np.random.Generator) -> EvidenceCheck
     """Return the log evidence of the models before and after by both methods; nothing where nothing was found."""
     if diagnosis.after is diagnosis.before:
         return EvidenceCheck()
-    before, after = (checked(fit, rng) for fit in (diagnosis.before, diagnosis.after))
+    before, after = (sample_evidence(fit, rng) for fit in (diagnosis.before, diagnosis.after))
     return EvidenceCheck(before, after, _says(before, after))
 
 

@@ -14,9 +14,9 @@ from lostmotion.diagnosis.search import Diagnosed, base_keys
 from lostmotion.diagnosis.states import LIKELY, NAMED, doubts_of, holds
 from lostmotion.diagnosis.unknowns import learned_entry, unnamed_entry
 from lostmotion.inference.fit import Fit
-from lostmotion.inference.late import since
-from lostmotion.inference.mixture import draws
-from lostmotion.inference.natural import term_of
+from lostmotion.inference.late import estimate_onset
+from lostmotion.inference.mixture import draw_posterior
+from lostmotion.inference.natural import find_term
 from lostmotion.likelihood.predict import Horizon
 from lostmotion.quantities import unit_of
 from lostmotion.results import Interval, percent
@@ -46,7 +46,7 @@ class Outcome:
 def draws_of(fit: Fit, rng: np.random.Generator) -> Array:
     """Return draws (DRAWS, keys) of the physical parameters from the posterior about a fit."""
     free = fit.problem.free
-    theta = draws(fit, rng, DRAWS)
+    theta = draw_posterior(fit, rng, DRAWS)
     physical = set(base_keys(fit))
     kept = [i for i, f in enumerate(free) if f.key in physical]
     return np.array([[free[i].value(row[i]) for i in kept] for row in theta])
@@ -108,7 +108,7 @@ def _shapeless(d: Diagnosed) -> bool:
 
 def _entry(outcome: Outcome, key: str, after: Mapping[str, Interval]) -> Mechanism:
     d = outcome.diagnosis
-    term, slots = term_of(d.after.problem, key)
+    term, slots = find_term(d.after.problem, key)
     system, known = d.after.problem.system, d.after.problem.known
     held = {s.key: float(known[system.index[s.key]]) for s in slots}
     own = {s.param.name: after.get(s.key) or _of(np.full(1, held[s.key]), s.unit) for s in slots}
@@ -119,7 +119,7 @@ def _entry(outcome: Outcome, key: str, after: Mapping[str, Interval]) -> Mechani
     sentence = term.physics.format(**numbers) + _whose(d, term)
     if term.at in elsewhere(system.model):
         sentence += f" at the place {term.at!r}"
-    late = since(d.after, key)
+    late = estimate_onset(d.after, key)
     if late:
         sentence += f", since {late}"
     share = float(np.max(np.abs(d.laws[key]))) / d.after.problem.scales.force
@@ -146,7 +146,7 @@ def elsewhere(model: Model) -> set[str]:
 
 def _quantised_entry(d: Diagnosed, key: str) -> Mechanism:
     """Return the entry of a term that the stored values themselves betray."""
-    term, slots = term_of(d.selection.nominal.problem, key)
+    term, slots = find_term(d.selection.nominal.problem, key)
     rows = zip(slots, *d.quantised[key], strict=True)
     channel = next((s.channel for s in d.shown.sensors if s.place == term.at), d.shown.channel)
     unit = unit_of(channel, d.after.problem.system.model.motion)

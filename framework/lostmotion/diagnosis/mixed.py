@@ -11,7 +11,7 @@ import numpy as np
 from lostmotion.contracts import Array
 from lostmotion.diagnosis.findings import draws_of
 from lostmotion.diagnosis.search import Diagnosed, base_keys
-from lostmotion.inference.setup import polish
+from lostmotion.inference.setup import polish_fit
 
 OPEN = 0.05
 """An explanation with a smaller share of the posterior is left out."""
@@ -32,7 +32,7 @@ def draws_after(diagnosis: Diagnosed, rng: np.random.Generator) -> Array:
     keys = base_keys(chosen)
     order, begin = rng.permutation(len(made)), 0
     for terms, share in rivals:
-        fit = polish(diagnosis.selection.visits[terms].fit)
+        fit = polish_fit(diagnosis.selection.visits[terms].fit)
         other, count = draws_of(fit, rng), round(share * len(made))
         columns = {key: i for i, key in enumerate(base_keys(fit))}
         rows = order[begin : begin + count]

@@ -12,10 +12,10 @@ from lostmotion.diagnosis.findings import Outcome
 from lostmotion.diagnosis.repetitions import repetition_notes
 from lostmotion.diagnosis.search import Diagnosed
 from lostmotion.diagnosis.states import unsteady
-from lostmotion.inference.contacts import short_contacts
+from lostmotion.inference.contacts import list_short_contacts
 from lostmotion.inference.fit import Fit
-from lostmotion.inference.unseen import place_of_body
-from lostmotion.likelihood.initial import placed
+from lostmotion.inference.unseen import smooth_body_position
+from lostmotion.likelihood.initial import shows_place
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.space import LEVELS
 
@@ -31,7 +31,7 @@ LOUD, DEAFENING = 0.3, 0.8
 def notes_of(outcome: Outcome, said: Sequence[str]) -> list[str]:
     """Return the notes of a diagnosis: what the recordings `said` of themselves, and what a reader should doubt."""
     d = outcome.diagnosis
-    doubts = [*short_contacts(d.after), *_declined(d), *_on_the_edge(d), *_far_off(outcome), *_slow(d)]
+    doubts = [*list_short_contacts(d.after), *_declined(d), *_on_the_edge(d), *_far_off(outcome), *_slow(d)]
     doubts += [text for key in d.named for text in unsteady(d, key)]
     if d.selection.stopped:
         doubts.append(
@@ -124,9 +124,9 @@ def _far_off(outcome: Outcome) -> list[str]:
 
 def vague(fit: Fit, observation: Observation) -> list[str]:
     """Return a note where no sensor of a recording shows the position and it is not known well."""
-    if placed(observation):
+    if shows_place(observation):
         return []
-    place = place_of_body(fit, observation)
+    place = smooth_body_position(fit, observation)
     reach, amplitude = 2.0 * float(place.sd.max()), math.sqrt(2.0) * float(place.mean.std())
     if not reach > VAGUE * amplitude:
         return []

@@ -10,8 +10,8 @@ from scipy.signal import lfilter
 
 from lostmotion.contracts import Array
 from lostmotion.diagnosis.excitations import Excitation
-from lostmotion.inference.fit import Fit, sensitivity, solved
-from lostmotion.likelihood.predict import kicked_run, observed
+from lostmotion.inference.fit import Fit, compute_sensitivity, solve_scaled
+from lostmotion.likelihood.predict import observe_states, simulate_kicked
 from lostmotion.likelihood.problem import RANDOM, Problem
 
 PIECE = 4
@@ -38,7 +38,7 @@ class RehearsedModel:
         shared = np.array([f.parameter != RANDOM for f in fit.problem.free])
         precision = np.diag([1.0 / min(f.sd, f.high - f.low) ** 2 for f in fit.problem.free])
         known = fit.local.covariance[np.ix_(shared, shared)]
-        precision[np.ix_(shared, shared)] = solved(known, np.eye(int(shared.sum())))
+        precision[np.ix_(shared, shared)] = solve_scaled(known, np.eye(int(shared.sum())))
         return cls(fit, 0.5 * (precision + precision.T))
 
     def under(self, excitation: Excitation, z: Array | None = None) -> Problem:
@@ -75,13 +75,13 @@ def simulated(model: RehearsedModel, excitation: Excitation, rng: np.random.Gene
     kicks = np.zeros((drive.samples, problem.dynamics.states))
     kicked = [min(start + PIECE, drive.samples - 1) for start in range(0, drive.samples - 1, PIECE)]
     kicks[kicked, place.row] = kick * rng.standard_normal(len(kicked))
-    states = kicked_run(problem, theta, model.fit.problem.begun(model.fit.theta), kicks)
+    states = simulate_kicked(problem, theta, model.fit.problem.begun(model.fit.theta), kicks)
     if not np.all(np.isfinite(states)):
         return None
     shown = []
     for sensor in range(len(problem.observations[0].sensors)):
         white = math.sqrt(problem.noise(theta, 0, sensor)[1]) * rng.standard_normal(drive.samples)
-        seen = observed(problem, theta, states, sensor=sensor)
+        seen = observe_states(problem, theta, states, sensor=sensor)
         shown.append(seen + white + _slow(problem, theta, sensor, rng))
     return np.stack(shown, axis=1)
 
@@ -114,13 +114,13 @@ def evidence(model: RehearsedModel, excitation: Excitation, z: Array, asked: Ask
         return -math.inf
     steps = model.fit.local.steps
     for turn in range(asked.rounds + 1):
-        slopes = sensitivity(problem, point, steps)
+        slopes = compute_sensitivity(problem, point, steps)
         information = asked.share * slopes.information()
         gradient = asked.share * slopes.gradient() - model.precision @ (point - middle)
         whole = information + model.precision
         if not (np.all(np.isfinite(gradient)) and np.all(np.isfinite(whole))):
             return -math.inf
-        step = solved(whole, gradient)
+        step = solve_scaled(whole, gradient)
         promise = 0.5 * float(gradient @ step)
         if turn == asked.rounds or promise < 0.05:
             break
@@ -130,7 +130,7 @@ def evidence(model: RehearsedModel, excitation: Excitation, z: Array, asked: Ask
             break
         point, height = moved
     # What a fit gains from noise is counted once, however much longer than this the recording will be.
-    spare = 0.5 * (asked.share - 1.0) * float(np.trace(solved(whole, information)))
+    spare = 0.5 * (asked.share - 1.0) * float(np.trace(solve_scaled(whole, information)))
     return height + max(promise, 0.0) - spare - 0.5 * _log_ratio(whole, model.precision)
 
 

@@ -13,7 +13,7 @@ from lostmotion.diagnosis.experiment import Limits, Proposal, natural_of, propos
 from lostmotion.diagnosis.search import Diagnosed
 from lostmotion.diagnosis.verdict import other_level
 from lostmotion.inference.course import Visit
-from lostmotion.inference.natural import term_of
+from lostmotion.inference.natural import find_term
 from lostmotion.inference.prices import related
 from lostmotion.likelihood.system import key_of
 from lostmotion.quantities import unit_of
@@ -44,10 +44,10 @@ def rivals_of(d: Diagnosed) -> dict[str, Visit]:
         if key in problem.active or not sets:
             continue
         best = max(sets, key=lambda k: weights[k])
-        stands_in = any(related(term, term_of(problem, mine)[0]) for mine in problem.active - best)
+        stands_in = any(related(term, find_term(problem, mine)[0]) for mine in problem.active - best)
         short = course.chosen.log_evidence - course.visits[best].fit.log_evidence
         remembers = (
-            stands_in and bool(term.states) and any(term_of(problem, k)[0].states for k in problem.active - best)
+            stands_in and bool(term.states) and any(find_term(problem, k)[0].states for k in problem.active - best)
         )
         likely = course.chosen.log_likelihood - course.visits[best].fit.log_likelihood < d.settings.name.related
         close = stands_in and (short < d.settings.name.related or (remembers and likely))
@@ -79,7 +79,7 @@ def confused_with(d: Diagnosed, rows: Sequence[Confusion], proposals: Proposals)
     """Return the `rows` of what a verdict cannot tell apart, with close relatives, and the experiments that decide."""
     told = {}
     for key, proposal in proposals.items():
-        term, _ = term_of(d.selection.chosen.problem, key)
+        term, _ = find_term(d.selection.chosen.problem, key)
         p = d.selection.inclusion(key)
         says = f"{_opening(d, term, p)} {sentence(other_level(d))} would decide."
         told[term.name, term.at] = Confusion(

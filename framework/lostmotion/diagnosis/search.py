@@ -12,21 +12,28 @@ from lostmotion.contracts import Array, Interface, Model, SensorTerm, Values, pl
 from lostmotion.errors import DataError
 from lostmotion.inference.course import Selection, Visit
 from lostmotion.inference.fit import Fit, maximise
-from lostmotion.inference.learned import Learned, OverTime
+from lostmotion.inference.learned import LearnedCurve, OverTime
 from lostmotion.inference.leftovers import significant_random_force
-from lostmotion.inference.locate import Curve, covariates, curve, edges_of, further, summary
-from lostmotion.inference.natural import term_of
+from lostmotion.inference.locate import (
+    Curve,
+    average_curve,
+    choose_edges,
+    describe_location,
+    list_covariates,
+    list_further_covariates,
+)
+from lostmotion.inference.natural import find_term
 from lostmotion.inference.odds import Ratio, likely, log_odds
 from lostmotion.inference.prices import price_of
 from lostmotion.inference.selection import Selector
-from lostmotion.inference.setup import polish, problem_of, search, split, stepped
-from lostmotion.inference.shape_scan import scouted
-from lostmotion.inference.shares import Covariate, Share, shares_of, significant
-from lostmotion.inference.stretches import sought
-from lostmotion.inference.unexplained import CurveSearch, UnknownForce, fewer
+from lostmotion.inference.setup import choose_steps, make_problem, polish_fit, search_maximum, split_heldout
+from lostmotion.inference.shape_scan import scan_shapes
+from lostmotion.inference.shares import Covariate, Share, compute_shares, list_significant
+from lostmotion.inference.stretches import search_stretches
+from lostmotion.inference.unexplained import CurveSearch, UnknownForce, drop_curve
 from lostmotion.kernels.threads import each
-from lostmotion.likelihood.latent import Missing, missing_force
-from lostmotion.likelihood.motion import derivatives
+from lostmotion.likelihood.latent import LatentForce, smooth_latent_force
+from lostmotion.likelihood.motion import compute_derivatives
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import Problem
 from lostmotion.likelihood.space import LEVELS
@@ -54,7 +61,7 @@ class Located:
     are none the shares do.
     """
 
-    missing: Missing
+    missing: LatentForce
     curves: dict[str, Curve]
     explained: dict[str, Share]
     summary: str
@@ -70,7 +77,7 @@ class Located:
     def significant(self) -> list[str]:
         """The covariates that are beyond chance, the likeliest first."""
         level = self.limits.level
-        return likely(self.odds, level) if self.odds else significant(self.explained, level)
+        return likely(self.odds, level) if self.odds else list_significant(self.explained, level)
 
     @property
     def structure(self) -> list[str]:
@@ -155,23 +162,23 @@ def diagnose(
     settings: Settings = DEFAULT,
 ) -> Diagnosed:
     """Return the diagnosis of a case; `system` holds the model and every term that is to be tried."""
-    train, held = split(observations, settings.heldout.share)
+    train, held = split_heldout(observations, settings.heldout)
     _check_moving(held)
     say("fit of the nominal model")
-    nominal = search(problem_of(system, case, train, jobs=jobs, settings=settings), rng)
+    nominal = search_maximum(make_problem(system, case, train, jobs=jobs, settings=settings), rng)
     curves = CurveSearch(len(system.keys), say)
     say("shapes: pitches, stops, times")
-    shapes = scouted(nominal, forces=significant_random_force(nominal) > settings.locate.significant)
-    selection = sought(nominal, fitted_keys(system), say, shapes, curves.promise)
+    shapes = scan_shapes(nominal, forces=significant_random_force(nominal) > settings.locate.significant)
+    selection = search_stretches(nominal, fitted_keys(system), say, shapes, curves.promise)
     more_left = significant_random_force(selection.chosen) > settings.locate.significant
     if selection.chosen.problem.active and more_left:
         say("shapes beside what was found")
-        if more := {key: found for key, found in scouted(selection.chosen).items() if key not in shapes}:
+        if more := {key: found for key, found in scan_shapes(selection.chosen).items() if key not in shapes}:
             selector = Selector(selection.nominal, fitted_keys(system), say, {**shapes, **more}, curves.promise)
             selection = selector.further(selection, more)
     say("final estimates")
-    before = polish(selection.nominal)
-    after = polish(selection.chosen) if selection.chosen.problem.active else before
+    before = polish_fit(selection.nominal)
+    after = polish_fit(selection.chosen) if selection.chosen.problem.active else before
     gain = significant_random_force(after)
     say("missing force")
     shown = held[0]
@@ -188,7 +195,7 @@ def diagnose(
     learned = curves.unknown(selection.nominal, selection.chosen)
     if learned is None:
         return known
-    after = polish(learned.fit)
+    after = polish_fit(learned.fit)
     gain = significant_random_force(after)
     return _located(replace(bare, after=after, random_gain=gain, learned=replace(learned, fit=after)), chance)
 
@@ -205,7 +212,7 @@ def simpler(d: Diagnosed, rng: np.random.Generator) -> Diagnosed | None:
     if learned:
         last = {key: -i for i, key in enumerate(learned.keys)}
         gone = min(learned.keys, key=lambda key: (not key.startswith(OverTime.name), last[key]))
-        learned = fewer(learned, gone)
+        learned = drop_curve(learned, gone)
     else:
         gone = d.found[-1]
         selection = _shrunk(selection, gone)
@@ -224,7 +231,7 @@ def instead(d: Diagnosed, fit: Fit, rng: np.random.Generator) -> Diagnosed:
 def _anew(d: Diagnosed, gone: tuple[str, ...], rng: np.random.Generator) -> Diagnosed:
     """Return a diagnosis of which the selection or the learned curves changed, fitted and located anew."""
     fit = d.learned.fit if d.learned else d.selection.chosen
-    after = polish(fit) if fit.problem.active else d.before
+    after = polish_fit(fit) if fit.problem.active else d.before
     learned = replace(d.learned, fit=after) if d.learned else None
     bare = replace(d, after=after, learned=learned, left=None, law=_NO, laws={}, law_curves={})
     told = replace(bare, random_gain=significant_random_force(after), withdrawn=(*d.withdrawn, *gone))
@@ -240,8 +247,8 @@ def _shrunk(selection: Selection, gone: str) -> Selection:
     chosen, visits = selection.chosen, selection.visits
     limits, terms = chosen.problem.settings, chosen.problem.active - {gone}
     if terms not in visits:
-        less = maximise(chosen.problem.reduced(gone, chosen.values))
-        price = price_of(term_of(chosen.problem, gone)[0], len(fitted_keys(chosen.problem.system)), limits)
+        less = maximise(chosen.problem.remove_term(gone, chosen.values))
+        price = price_of(find_term(chosen.problem, gone)[0], len(fitted_keys(chosen.problem.system)), limits)
         dearer = chosen.log_evidence - visits[chosen.problem.active].weight
         visits = {**visits, terms: Visit(terms, less, less.log_evidence - dearer + price)}
     rest, barred = visits[terms], selection.withdrawn | {gone}
@@ -284,18 +291,18 @@ def quantised_in(fit: Fit) -> dict[str, tuple[Values, Values]]:
 
 
 _NO = np.zeros(0)
-_NOWHERE = Located(Missing(_NO, _NO, np.zeros((0, 2)), 0.0, 0.0, 0.0), {}, {}, "")
+_NOWHERE = Located(LatentForce(_NO, _NO, np.zeros((0, 2)), 0.0, 0.0, 0.0), {}, {}, "")
 
 
 def _located(bare: Diagnosed, rng: np.random.Generator) -> Diagnosed:
     """Return the diagnosis with the missing force located: found terms taken out first, then with them."""
     after, shown = bare.after, bare.shown
-    honest = stepped(after.problem, after.theta).on((shown,))
+    honest = choose_steps(after.problem, after.theta).on((shown,))
     model, plays, limits = after.problem.system.model, plays_of(honest, after.theta), bare.settings.locate
     of_left, of_all = rng, rng.spawn(1)[0]
 
     def placed(problem: Problem, theta: Array, chance: np.random.Generator, fit: Fit) -> Located:
-        missing = missing_force(problem, theta)
+        missing = smooth_latent_force(problem, theta)
         return locate(model, shown, missing, plays=plays, rng=chance, odds=lambda: log_odds(fit), limits=limits)
 
     if not bare.found:
@@ -305,8 +312,8 @@ def _located(bare: Diagnosed, rng: np.random.Generator) -> Diagnosed:
     left, located = each(lambda one: placed(*one), asked, honest.jobs)
     laws = {key: law_of(after, shown, left.missing.states, key) for key in bare.found}
     law = np.sum(list(laws.values()), axis=0)
-    table = covariates(model, shown, left.missing)
-    curves = {k: curve(v, law, edges_of(table[k])) for k, v in table.items()}
+    table = list_covariates(model, shown, left.missing)
+    curves = {k: average_curve(v, law, choose_edges(table[k])) for k, v in table.items()}
     return replace(bare, located=located, left=left, law=law, laws=laws, law_curves=curves)
 
 
@@ -325,7 +332,7 @@ def plays_of(problem: Problem, theta: Array) -> dict[str, float]:
 def locate(
     model: Model,
     observation: Observation,
-    missing: Missing,
+    missing: LatentForce,
     *,
     plays: Mapping[str, float] | None = None,
     rng: np.random.Generator | None = None,
@@ -341,12 +348,16 @@ def locate(
             f"{observation.name}: the model cannot follow this recording at all: check the units and columns of what"
             " went in and came out, the known values and the priors"
         )
-    table = covariates(model, observation, missing)
-    asked = {name: Covariate((values,)) for name, values in table.items()} | further(model, observation, missing, plays)
-    found = shares_of(asked, missing.force, rng)
-    curves = {name: curve(values, missing.force) for name, values in table.items()}
+    table = list_covariates(model, observation, missing)
+    asked = {name: Covariate((values,)) for name, values in table.items()} | list_further_covariates(
+        model, observation, missing, plays
+    )
+    found = compute_shares(asked, missing.force, rng)
+    curves = {name: average_curve(values, missing.force) for name, values in table.items()}
     ratios = {name: value for name, value in odds().items() if name in found}
-    return Located(missing, curves, found, summary(table, missing.force, found, ratios, limits), ratios, limits)
+    return Located(
+        missing, curves, found, describe_location(table, missing.force, found, ratios, limits), ratios, limits
+    )
 
 
 def law_of(fit: Fit, observation: Observation, states: Array, key: str) -> Array:
@@ -359,8 +370,8 @@ def law_of(fit: Fit, observation: Observation, states: Array, key: str) -> Array
     times = drive.begin + np.arange(len(states)) * drive.dt
     seen = states[:, : problem.dynamics.states]
     inside = (system, problem.active, packed, seen)
-    with_term, _ = derivatives(*inside, drive.inputs[: len(states)], times)
-    without, _ = derivatives(*inside, other.inputs[: len(states)], times, muted=None if beside else key)
+    with_term, _ = compute_derivatives(*inside, drive.inputs[: len(states)], times)
+    without, _ = compute_derivatives(*inside, other.inputs[: len(states)], times, muted=None if beside else key)
     return np.asarray((with_term[:, place.row] - without[:, place.row]) * full[system.index[place.inertia]])
 
 
@@ -374,6 +385,6 @@ def _felt(system: System, key: str) -> Interface:
 def base_keys(fit: Fit) -> list[str]:
     """Return the keys of the physical parameters of a fit, noise levels and coefficients of learned curves left out."""
     system = fit.problem.system
-    curves = tuple(f"{k}." for k, t in zip(system.keys, system.terms, strict=True) if isinstance(t, Learned))
+    curves = tuple(f"{k}." for k, t in zip(system.keys, system.terms, strict=True) if isinstance(t, LearnedCurve))
     physical = [f.key for f in fit.problem.free if f.level not in LEVELS]
     return [k for k in physical if not (curves and k.startswith(curves))]

@@ -7,8 +7,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from lostmotion.diagnosis.search import Diagnosed
-from lostmotion.inference.natural import term_of
-from lostmotion.inference.sharing import ComparedParameter, SharedValues, sharing_of
+from lostmotion.inference.natural import find_term
+from lostmotion.inference.sharing import ComparedParameter, SharedValues, compare_recordings
 from lostmotion.likelihood.problem import Problem
 from lostmotion.quantities import unit_of
 from lostmotion.report.words import chance, figures, sentence, to_words
@@ -35,7 +35,7 @@ def shared_in(d: Diagnosed, found: Sequence[Mechanism]) -> tuple[tuple[Mechanism
     """
     if d.shown is not d.held[0]:
         return tuple(found), None
-    sharing = sharing_of(d.after)
+    sharing = compare_recordings(d.after)
     if sharing is None:
         return tuple(found), _nothing(len(d.train) + len(d.held))
     problem = d.after.problem
@@ -95,7 +95,7 @@ def _shared(one: ComparedParameter, said: str, sharing: SharedValues) -> FullCom
 
 def _with_sharing(entry: Mechanism, key: str, problem: Problem, sharing: SharedValues) -> Mechanism:
     """Return the entry of a term with what recordings share of it; as it is where none of its values was compared."""
-    slots = {s.key: s.param.name for s in term_of(problem, key)[1] if s.key in sharing.parameters}
+    slots = {s.key: s.param.name for s in find_term(problem, key)[1] if s.key in sharing.parameters}
     if not slots:
         return entry
     own = {slot: sharing.parameters[slot] for slot in slots}
@@ -132,7 +132,7 @@ def name_of(key: str, problem: Problem) -> str:
     term, _, own = key.rpartition(".")
     if not term:
         return key
-    law = term_of(problem, term)[0]
+    law = find_term(problem, term)[0]
     place = f" at the place {law.at!r}" if "@" in term else ""
     return f"{to_words(own)} of {to_words(law.name)}{place}"
 

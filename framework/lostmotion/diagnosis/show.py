@@ -21,7 +21,7 @@ from lostmotion.diagnosis.show_words import TRANSIENT, behaviour_sentences
 from lostmotion.errors import LostMotionError
 from lostmotion.inference.fit import Fit
 from lostmotion.likelihood.observation import Observation
-from lostmotion.likelihood.predict import Horizon, observed
+from lostmotion.likelihood.predict import Horizon, observe_states
 from lostmotion.registry import Registry
 from lostmotion.results import Estimate
 from lostmotion.results.behaviour import (
@@ -169,7 +169,7 @@ def _of_model(
     fit: Fit, observation: Observation, states: Array, given: tuple[Series, Registry, np.random.Generator]
 ) -> Estimate:
     recorded, registry, rng = given
-    x = observed(fit.problem.on((observation,)), fit.theta, states)
+    x = observe_states(fit.problem.on((observation,)), fit.theta, states)
     if not np.isfinite(x).all():
         return Estimate.refused("diverged", "The free run leaves all bounds.")
     try:

@@ -11,7 +11,7 @@ import numpy as np
 from lostmotion.contracts import Term
 from lostmotion.diagnosis.compare import Prediction
 from lostmotion.diagnosis.search import Diagnosed
-from lostmotion.inference.natural import term_of
+from lostmotion.inference.natural import find_term
 from lostmotion.inference.prices import related
 from lostmotion.quantities import TIME
 from lostmotion.report.words import to_words
@@ -28,7 +28,7 @@ def holds(after: Prediction, floor: float, limits: NameSettings = DEFAULT.name) 
 
 def probability_of(d: Diagnosed, key: str) -> float:
     """Return the probability that a term is at work, or one that no recording of this kind can tell from it."""
-    term, _ = term_of(d.after.problem, key)
+    term, _ = find_term(d.after.problem, key)
     kin = [
         k for k, t in zip(d.before.problem.system.keys, d.before.problem.system.terms, strict=True) if _same(term, t)
     ]
@@ -41,7 +41,7 @@ def _same(term: Term, other: Term) -> bool:
 
 def doubts_of(d: Diagnosed, key: str) -> list[str]:
     """Return why a term that was found is no more than likely, in sentences; none where it is named."""
-    term, _ = term_of(d.after.problem, key)
+    term, _ = find_term(d.after.problem, key)
     imitates = term.unlikely > 0.0 or term.acts != "motion"
     steady = unsteady(d, key) if imitates else ()
     weak = [*_less_sure(d, key), *_find_as_good(d, key), *_decided_late(d, key), *_beside(d, key)]
@@ -72,14 +72,14 @@ def _find_as_good(d: Diagnosed, key: str) -> Iterator[str]:
     terms = chosen.problem.active
     if probability_of(d, key) <= d.settings.name.sure:
         return
-    barred, own = terms | d.selection.declined | d.selection.withdrawn, term_of(problem, key)[0]
+    barred, own = terms | d.selection.declined | d.selection.withdrawn, find_term(problem, key)[0]
     for others, visit in d.selection.visits.items():
         fresh = sorted(others - terms)
         if key in others or len(others) > len(terms) or not fresh or (others - terms) & barred:
             continue
         near = chosen.log_evidence - visit.fit.log_evidence < d.settings.name.related
-        if near and not any(_same(own, t) or related(own, t) for t in (term_of(problem, k)[0] for k in fresh)):
-            names = " and ".join([_called(d, fresh[0]), *(to_words(term_of(problem, k)[0].name) for k in fresh[1:])])
+        if near and not any(_same(own, t) or related(own, t) for t in (find_term(problem, k)[0] for k in fresh)):
+            names = " and ".join([_called(d, fresh[0]), *(to_words(find_term(problem, k)[0].name) for k in fresh[1:])])
             yield (
                 f"{names} {'explain' if fresh[1:] else 'explains'} the fitted data as well: only the prior odds of the"
                 " terms, or the comparison with a smooth force, decide against that."
@@ -123,7 +123,7 @@ def _others(d: Diagnosed, key: str) -> list[str]:
     found = d.selection.chosen.problem.active
     sets = [terms for terms, p in d.selection.probabilities().items() if key not in terms and p > d.settings.name.rival]
     names = dict.fromkeys(k for terms in sets for k in sorted(terms - found))
-    return [to_words(term_of(d.before.problem, k)[0].name) for k in names]
+    return [to_words(find_term(d.before.problem, k)[0].name) for k in names]
 
 
 def unsteady(d: Diagnosed, key: str) -> Iterator[str]:
@@ -147,13 +147,13 @@ def unsteady(d: Diagnosed, key: str) -> Iterator[str]:
 
 
 def _called(d: Diagnosed, key: str) -> str:
-    name = to_words(term_of(d.before.problem, key)[0].name)
+    name = to_words(find_term(d.before.problem, key)[0].name)
     return name[:1].upper() + name[1:]
 
 
 def _unusual(d: Diagnosed, key: str) -> Iterator[str]:
     """Yield a sentence on a delay that is longer than acquisition systems have, or that one frequency cannot show."""
-    term, slots = term_of(d.after.problem, key)
+    term, slots = find_term(d.after.problem, key)
     late = [s for s in slots if s.param.dimension == TIME and s.key in d.after.values]
     if term.acts == "motion" or not late:
         return
@@ -166,7 +166,7 @@ def _unusual(d: Diagnosed, key: str) -> Iterator[str]:
 def _early(d: Diagnosed, key: str) -> Iterator[str]:
     """Yield a sentence on a change that is over when the recording has hardly begun."""
     problem = d.after.problem
-    for slot in term_of(problem, key)[1]:
+    for slot in find_term(problem, key)[1]:
         if not slot.param.lasting or slot.param.dimension != TIME or slot.key not in d.after.values:
             continue
         fitted = problem.observations[0]
@@ -206,7 +206,7 @@ def open_of(d: Diagnosed) -> tuple[OpenTerm, ...]:
         for key in sorted(keys - set(d.found) - set(rows)):
             if key not in d.before.problem.system.keys:
                 continue
-            term, _ = term_of(d.before.problem, key)
+            term, _ = find_term(d.before.problem, key)
             p = d.selection.inclusion(key) if key not in d.withdrawn else 0.0
             says = f"{_called(d, key)} would raise the likelihood, but {why}."
             rows[key] = OpenTerm(term.name, term.at, p, says)

@@ -13,13 +13,13 @@ from lostmotion.codec import Cells
 from lostmotion.contracts import Array, place_of
 from lostmotion.diagnosis.search import Diagnosed, Located
 from lostmotion.diagnosis.states import OPEN
-from lostmotion.inference.curves import Band, band_of, motions_of
-from lostmotion.inference.learned import names_of
-from lostmotion.inference.likeness import likeness
-from lostmotion.inference.locate import listed
-from lostmotion.inference.natural import term_of
+from lostmotion.inference.curves import Band, compute_band, smooth_motions
+from lostmotion.inference.learned import list_covariates
+from lostmotion.inference.likeness import find_likeness
+from lostmotion.inference.locate import join_names
+from lostmotion.inference.natural import find_term
 from lostmotion.inference.odds import p_values
-from lostmotion.inference.proposal import Axis, proposed
+from lostmotion.inference.proposal import Axis, propose_formula
 from lostmotion.inference.shares import SURROGATES
 from lostmotion.inference.surfaces import OverHistory, Surface
 from lostmotion.inference.unexplained import UnknownForce
@@ -49,12 +49,12 @@ def learned_entry(d: Diagnosed) -> Mechanism:
     unknown = d.learned
     if unknown is None:
         raise ValueError("a diagnosis without learned curves has no entry for them")
-    bands = [band_of(unknown.fit, key) for key in unknown.keys]
+    bands = [compute_band(unknown.fit, key) for key in unknown.keys]
     curves = tuple(_curve(d, key, band) for key, band in zip(unknown.keys, bands, strict=True))
     rms, sd = _size(d, unknown.keys, bands)
     unit = _unit_of(d, Dimension(1, 0, 0))
     size = Interval(rms, max(rms - BAND * sd, 0.0), rms + BAND * sd, unit)
-    depends = names_of(unknown.terms)
+    depends = list_covariates(unknown.terms)
     share = rms / d.after.problem.scales.force
     size_of = f"{rms:.3g} {unit} rms, {share:.2%} of {d.yardstick}"
     alike, share_of_likeness, looks = _looks(d)
@@ -73,7 +73,7 @@ def learned_entry(d: Diagnosed) -> Mechanism:
         looks_like=alike,
         share_of_likeness=share_of_likeness,
         share_of_drive=share,
-        says=f"{text}: it depends on {listed(depends)}{looks} and is modelled by a learned curve.",
+        says=f"{text}: it depends on {join_names(depends)}{looks} and is modelled by a learned curve.",
     )
 
 
@@ -83,7 +83,7 @@ def _why_unnamed(d: Diagnosed, unknown: UnknownForce) -> str:
     as_good = [key for key in selection.unbeaten if selection.gain(key) > unknown.gain - d.settings.select.decisive]
     if not as_good:
         return "that no term of the library explains"
-    term, _ = term_of(d.before.problem, max(as_good, key=selection.gain))
+    term, _ = find_term(d.before.problem, max(as_good, key=selection.gain))
     place = f" at {term.at}" if len(d.before.problem.system.model.interfaces) > 1 else ""
     name = to_words(term.name) + place
     return f"that has no certain name, since {name} explains it and a smooth force explains as much"
@@ -98,10 +98,10 @@ def _looks(d: Diagnosed) -> tuple[tuple[LookAlike, ...], float | None, str]:
         return (), None, ""
     force = np.sum([d.laws[key] for key in d.learned.keys], axis=0)
     problem = d.after.problem.on((d.shown,))
-    found = likeness(problem, d.after.theta, d.left.missing.states, force)
+    found = find_likeness(problem, d.after.theta, d.left.missing.states, force)
     if found is None:
         return (), None, ""
-    terms = [term_of(problem, key)[0] for key in found.keys]
+    terms = [find_term(problem, key)[0] for key in found.keys]
     several = len(problem.system.model.interfaces) > 1
     names = [to_words(term.name) + (f" at {term.at}" if several else "") for term in terms]
     alike = tuple(LookAlike(term.name, term.at) for term in terms)
@@ -116,7 +116,7 @@ def unnamed_entry(d: Diagnosed) -> Mechanism:
     unit = _unit_of(d, Dimension(1, 0, 0))
     share = rms / d.after.problem.scales.force
     size = f"{rms:.3g} {unit} rms, {share:.1%} of {d.yardstick}"
-    on = f"depends on {listed(depends)}" if depends else "depends on nothing that was recorded"
+    on = f"depends on {join_names(depends)}" if depends else "depends on nothing that was recorded"
     return Mechanism(
         mechanism="unknown" if depends else "random_force",
         probability=1.0 - math.exp(-d.random_gain),
@@ -181,7 +181,7 @@ def _visited(d: Diagnosed, band: Band, term: Surface) -> Array:
     problem, beside = d.after.problem, np.asarray(band.beside)
     place = place_of(problem.system.model, term)
     seen = np.zeros((len(band.at), len(beside)), dtype=bool)
-    for motion, observation in zip(motions_of(d.after, [place])[place.name], problem.observations, strict=True):
+    for motion, observation in zip(smooth_motions(d.after, [place])[place.name], problem.observations, strict=True):
         second = (
             motion[1] if term.beside == "velocity" else observation.time * observation.harmonic.omega / math.tau % 1.0
         )
@@ -209,7 +209,7 @@ def _formula(d: Diagnosed, band: Band) -> tuple[str, float] | None:
     if band.beside is not None or band.term.over == "history":
         return None
     axis = Axis(*OVER[band.term.over], band.term.params[0].dimension, d.after.problem.system.model.motion)
-    found = proposed(band.at, band.mean, band.covariance, axis, d.settings.unknown.formula)
+    found = propose_formula(band.at, band.mean, band.covariance, axis, d.settings.unknown)
     if found is None:
         return None
     return (f"{band.term.times} ({found.text})" if band.term.times else found.text), found.share
@@ -230,7 +230,8 @@ def where(located: Located, learned: UnknownForce | None = None) -> ForceDepende
     """Return what a force depends on: a sentence, shares of its variance, and which covariates are beyond chance."""
     explained, summary = located.explained, located.summary
     if learned:
-        summary = f"a function of {listed(names_of(learned.terms))}, as the learned curve has it; by itself: {summary}"
+        names = join_names(list_covariates(learned.terms))
+        summary = f"a function of {names}, as the learned curve has it; by itself: {summary}"
     by_share = {name: share.p for name, share in explained.items()}
     against = RATIO if located.odds else f"{SURROGATES} phase-randomised surrogates"
     return ForceDependence(

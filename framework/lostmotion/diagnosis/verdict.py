@@ -15,7 +15,7 @@ from lostmotion.diagnosis.search import Diagnosed, fitted_keys
 from lostmotion.diagnosis.states import LIKELY
 from lostmotion.diagnosis.unknowns import unknown_odds
 from lostmotion.inference.fit import Fit
-from lostmotion.inference.natural import term_of
+from lostmotion.inference.natural import find_term
 from lostmotion.inference.prices import price_of
 from lostmotion.likelihood.system import key_of
 from lostmotion.quantities import unit_of
@@ -129,7 +129,7 @@ def sensors_of(d: Diagnosed) -> tuple[SensorFacts, ...]:
         kind: str = sensor.noise.kind
         if d.after.problem.ar1(d.after.theta, 0, i)[0]:
             kind = "ar1"
-        elif any(term_of(d.before.problem, key)[0].at == sensor.place for key in d.quantised):
+        elif any(find_term(d.before.problem, key)[0].at == sensor.place for key in d.quantised):
             kind = "quantised"
         rows.append(SensorFacts(name, sensor.channel, unit_of(sensor.channel, motion), noise, kind))
     return tuple(rows)
@@ -229,7 +229,7 @@ def bodies_of(d: Diagnosed) -> int:
 
 def _taken_as(d: Diagnosed) -> str:
     """Return how the unexplained force is to be read where what was found acts on another body than the first."""
-    at = {term_of(d.after.problem, key)[0].at for key in d.named}
+    at = {find_term(d.after.problem, key)[0].at for key in d.named}
     others = elsewhere(d.after.problem.system.model)
     return ", taken as one that acts on the first body," if at & others else ""
 
@@ -241,7 +241,7 @@ def other_level(d: Diagnosed) -> str:
 
 def _equal(d: Diagnosed, key: str) -> list[Confusion]:
     """Return the terms that no recording of a machine that does not age can tell from a term that was found."""
-    term, _ = term_of(d.after.problem, key)
+    term, _ = find_term(d.after.problem, key)
     if len(d.shown.sensors) > 1:  # what delays one sensor delays no other
         return []
     says = (

@@ -7,8 +7,8 @@ import numpy as np
 from lostmotion.inference.fit import Fit
 
 
-def short_contacts(fit: Fit) -> list[str]:
-    """Return a note for each contact that is so stiff that a bounce falls between two samples."""
+def list_short_contacts(fit: Fit) -> list[str]:
+    """Return a note for each contact that is so stiff that a bounce is shorter than a sample."""
     problem, notes = fit.problem, []
     for place in problem.system.model.interfaces:
         for i, observation in enumerate(problem.observations):

@@ -7,9 +7,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from lostmotion.inference.candidates import Hint
+from lostmotion.inference.candidates import ScoreTest
 from lostmotion.inference.fit import Fit
-from lostmotion.inference.natural import term_of
+from lostmotion.inference.natural import find_term
 from lostmotion.inference.rival import Expansion, Righted, expanded, fitted, righted, stood_in
 from lostmotion.settings import RivalSettings
 
@@ -137,7 +137,7 @@ class Selection:
     nominal: Fit
     chosen: Fit
     visits: dict[frozenset[str], Visit] = field(default_factory=dict)
-    hints: tuple[Hint, ...] = ()
+    hints: tuple[ScoreTest, ...] = ()
     declined: set[str] = field(default_factory=set)
     rivals: dict[frozenset[str], tuple[Fit, Expansion]] = field(default_factory=dict)
     unbeaten: set[str] = field(default_factory=set)
@@ -260,7 +260,7 @@ class Selection:
         won = self.won(visit) if worse < self.limits.lasting else None
         if won is None:
             return promised
-        last = any(term_of(self.chosen.problem, key)[0].unlikely > 0.0 for key in more)
+        last = any(find_term(self.chosen.problem, key)[0].unlikely > 0.0 for key in more)
         return max(promised if last else min(promised, self.limits.absurd), won.over(worse))
 
     @staticmethod

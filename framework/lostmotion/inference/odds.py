@@ -22,21 +22,28 @@ from typing import NamedTuple
 import numpy as np
 
 from lostmotion.contracts import Array
-from lostmotion.inference.candidates import slopes_of
-from lostmotion.inference.curves import LENGTHS, SIZES, joint_of, projection, size_of, transplanted
+from lostmotion.inference.candidates import compute_slopes
+from lostmotion.inference.curves import (
+    LENGTHS,
+    SIZES,
+    add_all_curves,
+    compute_coefficient_size,
+    join_curve,
+    project_from,
+)
 from lostmotion.inference.fit import BLOCKS, Fit, Sensitivity
 from lostmotion.inference.learned import (
     DragOverPosition,
     FrictionOverPosition,
-    Learned,
+    LearnedCurve,
     OverPhase,
     OverPosition,
     OverTime,
     OverVelocity,
-    spread,
+    compute_spread,
 )
-from lostmotion.inference.setup import stepped
-from lostmotion.inference.stretches import spread_over
+from lostmotion.inference.setup import choose_steps
+from lostmotion.inference.stretches import list_stretches
 from lostmotion.likelihood.problem import Problem
 from lostmotion.settings import DEFAULT
 
@@ -45,7 +52,7 @@ LEAST = 1e-6
 MOST_SAMPLES = 8000
 """Of longer recordings stretches are asked, evenly spread over them: a curve has dozens of coefficients."""
 
-NAMES: Mapping[type[Learned], str] = {
+NAMES: Mapping[type[LearnedCurve], str] = {
     OverPosition: "position",
     OverVelocity: "velocity",
     FrictionOverPosition: "sign of velocity",
@@ -55,7 +62,7 @@ NAMES: Mapping[type[Learned], str] = {
 }
 """The covariate of a curve: friction of any size over the position goes with the sign of the velocity, and drag of any
 size with the velocity."""
-SIMPLEST: Mapping[type[Learned], int] = {
+SIMPLEST: Mapping[type[LearnedCurve], int] = {
     OverPosition: 1,
     OverVelocity: 1,
     OverTime: 1,
@@ -80,18 +87,18 @@ def log_odds(fit: Fit) -> dict[str, Ratio]:
     not asked. Steps are those of a search: a fit with finer ones costs four times as much and says the same.
     """
     wider = _ready(fit)
-    slopes = slopes_of(wider)
+    slopes = compute_slopes(wider)
     found: dict[str, list[Ratio]] = {}
     for key, term in zip(wider.problem.system.keys, wider.problem.system.terms, strict=True):
-        if isinstance(term, Learned) and type(term) in NAMES and key not in wider.problem.active:
+        if isinstance(term, LearnedCurve) and type(term) in NAMES and key not in wider.problem.active:
             found.setdefault(named(term), []).append(_of_curve(wider, slopes, key, term))
     return {name: Ratio(*map(averaged, zip(*values, strict=True))) for name, values in found.items()}
 
 
 def _ready(fit: Fit) -> Fit:
     """Return a fit in a system with every curve, with the steps of a search, on as many samples as are asked."""
-    fit = transplanted(fit)
-    short = stepped(_shortened(fit.problem), fit.theta)
+    fit = add_all_curves(fit)
+    short = choose_steps(_shortened(fit.problem), fit.theta)
     return replace(fit, problem=short)
 
 
@@ -99,19 +106,19 @@ def _shortened(problem: Problem) -> Problem:
     share = MOST_SAMPLES / problem.samples
     if share >= 1.0:
         return problem
-    return problem.on(tuple(part for one in problem.observations for part in spread_over(one, share)))
+    return problem.on(tuple(part for one in problem.observations for part in list_stretches(one, share)))
 
 
-def _of_curve(fit: Fit, slopes: Sensitivity, key: str, term: Learned) -> Ratio:
+def _of_curve(fit: Fit, slopes: Sensitivity, key: str, term: LearnedCurve) -> Ratio:
     """Return the log likelihood ratio of one curve, averaged over all that it may look like."""
-    joint, k = joint_of(fit, slopes, key), len(slopes.theta)
+    joint, k = join_curve(fit, slopes, key), len(slopes.theta)
     try:
-        gradient, information, pulled = projection(fit, joint, k)
+        gradient, information, pulled = project_from(fit, joint, k)
     except np.linalg.LinAlgError:  # the filter ran away
         return Ratio(-math.inf, -math.inf)
     scores = joint.scores()
     sums = _blocked(scores[k:] - pulled.T @ scores[:k])
-    size = size_of(term, fit.problem)
+    size = compute_coefficient_size(term, fit.problem)
     plain, robust = [], []
     for roots in _kinds(term):
         wider = [size * root for root in roots]
@@ -140,15 +147,15 @@ def inflation(sums: Array, information: Array, root: Array) -> float:
     return max(1.0, scatter / stated) if stated > 0.0 else 1.0
 
 
-def named(term: Learned) -> str:
+def named(term: LearnedCurve) -> str:
     """Return the covariate of a curve with its place."""
     name = NAMES[type(term)]
     return name if term.at == "ground" or name in ("time", "phase") else f"{name} at {term.at}"
 
 
-def _kinds(term: Learned) -> Iterator[list[Array]]:
+def _kinds(term: LearnedCurve) -> Iterator[list[Array]]:
     """Yield square roots (count, rank) of prior covariances for a unit drive: smooth curves, then the simplest one."""
-    yield [_diagonal(size * spread(term, length)) for size, length in itertools.product(SIZES, LENGTHS)]
+    yield [_diagonal(size * compute_spread(term, length)) for size, length in itertools.product(SIZES, LENGTHS)]
     if type(term) in SIMPLEST:
         z = np.linspace(-1.0, 1.0, 201)
         weights = np.linalg.lstsq(term.basis(z), z ** SIMPLEST[type(term)], rcond=1e-6)[0]

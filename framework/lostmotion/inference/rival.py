@@ -20,12 +20,12 @@ import numpy as np
 from scipy.linalg.lapack import dpotrf, dtrtrs
 
 from lostmotion.contracts import Array, Interface, place_of
-from lostmotion.inference.candidates import slopes_of
-from lostmotion.inference.curves import Motions, motions_of, size_of, transplanted, with_curve
-from lostmotion.inference.fit import BLOCKS, Fit, Sensitivity, maximise, restarted, solved
+from lostmotion.inference.candidates import compute_slopes
+from lostmotion.inference.curves import Motions, add_all_curves, add_curve, compute_coefficient_size, smooth_motions
+from lostmotion.inference.fit import BLOCKS, Fit, Sensitivity, maximise, restart, solve_scaled
 from lostmotion.inference.gauges import Change, Gauge, gauges_of
-from lostmotion.inference.learned import Learned, OverPhase, OverPosition, OverTime, OverVelocity, spread
-from lostmotion.inference.natural import term_of
+from lostmotion.inference.learned import LearnedCurve, OverPhase, OverPosition, OverTime, OverVelocity, compute_spread
+from lostmotion.inference.natural import find_term
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import FreeParameter, Problem
 from lostmotion.likelihood.system import key_of
@@ -138,7 +138,7 @@ class Expansion:
     def moved_by(self, sizes: Array) -> Array:
         """Return the own coordinates (own,) where channels have flaws of these `sizes` (gauges,), by slopes."""
         cross = self.information[: self.own, len(self.gradient) - len(self.gauges) :]
-        return np.asarray(self.fit.theta - solved(self.information[: self.own, : self.own], cross @ sizes))
+        return np.asarray(self.fit.theta - solve_scaled(self.information[: self.own, : self.own], cross @ sizes))
 
     def _best(self, dropped: Sequence[int], worse: float, begin: list[int]) -> Discrepancy:
         h, g, more = self._about(dropped, worse)
@@ -151,7 +151,7 @@ class Expansion:
         more = np.arange(self.own, len(self.gradient))
         gradient, lost = self._without(dropped)
         cross = self.information[np.ix_(kept, more)]
-        pulled = solved(self.information[np.ix_(kept, kept)], np.column_stack([cross, gradient[kept]]))
+        pulled = solve_scaled(self.information[np.ix_(kept, kept)], np.column_stack([cross, gradient[kept]]))
         information = self.information[np.ix_(more, more)] - cross.T @ pulled[:, :-1]
         force = gradient[more] - cross.T @ pulled[:, -1]
         moved = 0.5 * float(gradient[kept] @ pulled[:, -1]) if len(dropped) else 0.0
@@ -209,19 +209,19 @@ def evidence_of(h: Array, g: Array, widths: Array) -> float:
 
 def expanded(fit: Fit) -> Expansion:
     """Return the expansion of a fit with its discrepancy."""
-    slopes, problem, own = slopes_of(fit), transplanted(fit).problem, len(fit.theta)
+    slopes, problem, own = compute_slopes(fit), add_all_curves(fit).problem, len(fit.theta)
     known = _known(problem)
     curves = [(key_of(t), t) for t in problem.system.terms if isinstance(t, SMOOTH)]
     curves = [(key, term) for key, term in curves if key not in problem.active]
     frees, steps = list(known), [STEP] * len(known)
     groups = []
     for key, term in curves:
-        size, count = size_of(term, problem), min(term.count, MOST_WAVES)
-        options = tuple(s * size * spread(term, length)[:count] for s in SIZES for length in LENGTHS)
+        size, count = compute_coefficient_size(term, problem), min(term.count, MOST_WAVES)
+        options = tuple(s * size * compute_spread(term, length)[:count] for s in SIZES for length in LENGTHS)
         groups.append(CoefficientGroup(key, slice(len(frees), len(frees) + count), options))
-        frees += [FreeParameter(f"{key}.v{i}", "", 0.0, -1e3 * size, 1e3 * size, straight=True) for i in range(count)]
+        frees += [FreeParameter(f"{key}.v{i}", "", 0.0, -1e3 * size, 1e3 * size, linear=True) for i in range(count)]
         steps += [NUDGE * size] * count
-    errors, variances = _rows(problem.extended(frees, {key for key, _ in curves}), slopes, np.array(steps))
+    errors, variances = _rows(problem.extend(frees, {key for key, _ in curves}), slopes, np.array(steps))
     _centre(replace(fit, problem=problem), dict(curves), groups, (errors, variances))
     gauges = gauges_of(fit)
     joint = Sensitivity(
@@ -234,7 +234,7 @@ def expanded(fit: Fit) -> Expansion:
     gradient, information = joint.gradient(), joint.information()
     gradient[own + len(frees) :] += [g.stretch for g in gauges]
     gradient[:own] = 0.0  # it is a maximum; what is left is noise of the differences, and grows where nothing is told
-    information[np.arange(own), np.arange(own)] += [f.told for f in fit.problem.free]
+    information[np.arange(own), np.arange(own)] += [f.evidence_information for f in fit.problem.free]
     exact = [problem.settings.rival.known] * len(known)
     widths = np.array([*exact, *[0.0] * (len(frees) - len(known)), *(g.width for g in gauges)])
     return Expansion(
@@ -242,7 +242,9 @@ def expanded(fit: Fit) -> Expansion:
     )
 
 
-def _centre(fit: Fit, terms: dict[str, Learned], groups: Sequence[CoefficientGroup], rows: tuple[Array, Array]) -> None:
+def _centre(
+    fit: Fit, terms: dict[str, LearnedCurve], groups: Sequence[CoefficientGroup], rows: tuple[Array, Array]
+) -> None:
     """Take the constant force out of the derivatives `rows` (coefficients, readings) of smooth forces, in place.
 
     A constant force has a name: smooth forces are those without a mean along the motion. What a constant does is read
@@ -258,7 +260,7 @@ def _centre(fit: Fit, terms: dict[str, Learned], groups: Sequence[CoefficientGro
     constant = [row[first.columns].T @ flat for row in rows]
     body = places[terms[first.name].at]
     same = [g for g in groups if _rides(places[terms[g.name].at], body)]
-    moved = motions_of(fit, [places[terms[g.name].at] for g in same])
+    moved = smooth_motions(fit, [places[terms[g.name].at] for g in same])
     for group in same:
         mean = _along(fit, group.name, terms[group.name], moved)[: group.columns.stop - group.columns.start]
         for row, of in zip(rows, constant, strict=True):
@@ -270,7 +272,7 @@ def _rides(place: Interface, body: Interface) -> bool:
     return (place.row, place.against) == (body.row, body.against)
 
 
-def _along(fit: Fit, key: str, term: Learned, moved: Motions) -> Array:
+def _along(fit: Fit, key: str, term: LearnedCurve, moved: Motions) -> Array:
     """Return the mean (count,) of each wave of a smooth force along the recorded motion."""
     if isinstance(term, OverPhase):
         return np.zeros(term.count)
@@ -289,7 +291,7 @@ def fitted(expansion: Expansion) -> tuple[Fit, float] | None:
     None where there is neither. Slopes about a fit may promise what does not come true: one-step errors are not
     straight in forces that are large beside the random one, nor in known values that are far off.
     """
-    return _with_forces(expansion, restarted(transplanted(expansion.fit)), expansion.promise())
+    return _with_forces(expansion, restart(add_all_curves(expansion.fit)), expansion.promise())
 
 
 def stood_in(expansion: Expansion, gone: Collection[str]) -> tuple[Fit, float] | None:
@@ -298,9 +300,9 @@ def stood_in(expansion: Expansion, gone: Collection[str]) -> tuple[Fit, float] |
     It begins where slopes about the fit with the terms say that these can be replaced.
     """
     dropped = expansion.coordinates_of(gone)
-    problem = restarted(transplanted(expansion.fit))
+    problem = restart(add_all_curves(expansion.fit))
     for key in gone:
-        problem = problem.reduced(key, {})
+        problem = problem.remove_term(key, {})
     return _with_forces(expansion, problem, expansion.best(dropped, expansion.worse))
 
 
@@ -313,12 +315,12 @@ def _with_forces(expansion: Expansion, problem: Problem, best: Discrepancy) -> t
     trials = []
     for share in SHARES:
         wrong = [replace(f, start=f.mean + share * float(best.mean[i])) for i, f in enumerate(known)]
-        trial = problem.extended(wrong, ())
+        trial = problem.extend(wrong, ())
         for group in chosen:
-            count = term_of(problem, group.name)[0].count  # type: ignore[attr-defined]
+            count = find_term(problem, group.name)[0].count  # type: ignore[attr-defined]
             rows = np.zeros((2, count))
             rows[:, : group.columns.stop - group.columns.start] = best.widths[group.columns], best.mean[group.columns]
-            trial = with_curve(trial, group.name, rows[0], share * rows[1])
+            trial = add_curve(trial, group.name, rows[0], share * rows[1])
         trials.append(trial)
     log_densities = [trial.log_posterior(trial.clip(trial.start)) for trial in trials]
     best_start = int(np.argmax(np.where(np.isnan(log_densities), -np.inf, log_densities)))
@@ -361,7 +363,7 @@ def righted(expansion: Expansion, before: Righted | None = None) -> Righted | No
         observations = tuple(gauge.change(o, size) for o in observations)
         wider += gauge.stretch * size
         changes += ((gauge.change, size),)
-    problem = restarted(fit).on(observations)
+    problem = restart(fit).on(observations)
     begin = problem.clip(expansion.moved_by(sizes - already))
     better = maximise(problem, begin, rounds=RIGHTING, tolerance=0.3)
     inner = np.eye(count) + expansion.gauge_information() * np.outer(widths, widths)
@@ -373,7 +375,7 @@ def _rows(wider: Problem, slopes: Sensitivity, steps: Array) -> tuple[Array, Arr
     """Return the derivatives (count, readings) of errors and variances by coordinates behind those of the fit."""
     own = len(slopes.theta)
     zero = np.concatenate([slopes.theta, [f.start for f in wider.free[own:]]])
-    seen = wider.many(np.vstack([zero[None], zero + np.eye(len(zero))[own:] * steps[:, None]]))
+    seen = wider.filter_many(np.vstack([zero[None], zero + np.eye(len(zero))[own:] * steps[:, None]]))
     above = np.where(seen.finite[1:], np.arange(1, len(seen)), 0)
     errors = (seen.errors[above] - seen.errors[0]) / steps[:, None]
     return errors, (seen.variances[above] - seen.variances[0]) / steps[:, None]

@@ -8,23 +8,23 @@ from dataclasses import replace
 from functools import partial
 
 from lostmotion.inference.candidates import (
-    Hint,
+    ScoreTest,
     Shapes,
-    calmed,
-    fit_in_place,
-    fit_with,
-    large,
-    screen,
-    screened,
-    slopes_of,
-    with_term,
+    add_term,
+    compute_slopes,
+    fit_term,
+    guess_large_force,
+    refit_with_noise,
+    replace_term,
+    run_score_test,
+    run_score_tests,
 )
-from lostmotion.inference.commoner import in_commoner_terms
+from lostmotion.inference.commoner import rewrite_in_commoner_terms
 from lostmotion.inference.course import BEAM, CLOSE, Selection, Visit
-from lostmotion.inference.fit import Fit, alone, maximise, restarted, together, warmed
-from lostmotion.inference.late import believed, price_of_onsets
+from lostmotion.inference.fit import Fit, maximise, raise_random_force, restart, use_cores, use_one_core
+from lostmotion.inference.late import compute_onset_price, drop_weak_onsets
 from lostmotion.inference.leftovers import quiet
-from lostmotion.inference.natural import term_of
+from lostmotion.inference.natural import find_term
 from lostmotion.inference.prices import price_of, related
 from lostmotion.inference.standing import standing
 from lostmotion.kernels.threads import each
@@ -151,13 +151,15 @@ class Selector:
 
     def _visit(self, fit: Fit) -> Visit:
         """Note a fitted set in the commonest terms that say it, weighted by evidence and the prices of its terms."""
-        told = in_commoner_terms(fit := believed(fit), self.candidates)
+        told = rewrite_in_commoner_terms(fit := drop_weak_onsets(fit), self.candidates)
         if told is not fit:
             self._retold.add(fit.problem.active)
             fit = told
         terms = fit.problem.active
-        price = sum(price_of(term_of(fit.problem, key)[0], len(self.candidates), fit.problem.settings) for key in terms)
-        price += price_of_onsets(fit.problem)
+        price = sum(
+            price_of(find_term(fit.problem, key)[0], len(self.candidates), fit.problem.settings) for key in terms
+        )
+        price += compute_onset_price(fit.problem)
         visit = Visit(terms, fit, fit.log_evidence - price)
         known = self.course.visits.get(terms)
         if known is None or visit.weight > known.weight:
@@ -242,8 +244,8 @@ class Selector:
         self._settled.update(v.terms for v in close)
 
         def again(visit: Visit) -> Fit:
-            fit = alone(visit.fit)
-            return maximise(fit.problem, warmed(fit.problem, fit.theta, 6.0))
+            fit = use_one_core(visit.fit)
+            return maximise(fit.problem, raise_random_force(fit.problem, fit.theta, 6.0))
 
         self._visit_all(each(again, close, self.jobs))
 
@@ -273,15 +275,15 @@ class Selector:
         rivals = [v for v in rivals if v.weight - bottom > 0.5 * (here.weight - bottom)]
         return [here, *sorted(rivals, key=lambda v: -v.weight)[: BEAM - 1]]
 
-    def _screened(self, fit: Fit) -> list[Hint]:
+    def _screened(self, fit: Fit) -> list[ScoreTest]:
         """Return what score tests promise of the terms on top of a fit, of rich ones where a relative promises much.
 
         Those on top of the nominal fit are kept, and made once.
         """
         if self.course.hints and not fit.problem.active:
             return [h for h in self.course.hints if not self._tried(fit, h.key)]
-        slopes, single = slopes_of(fit), alone(fit)
-        hints: list[Hint] = []
+        slopes, single = compute_slopes(fit), use_one_core(fit)
+        hints: list[ScoreTest] = []
         untried = [k for k in self.candidates if not self._tried(fit, k)]
         for rich in (False, True):
             keys = [key for key in untried if self._rich(fit, key) == rich]
@@ -290,7 +292,7 @@ class Selector:
                 keys = [key for key in keys if any(self._related(fit, key, other) for other in promising)]
             if keys:
                 self.say(f"score tests of {', '.join(keys)}")
-            found = each(lambda key: screened(single, slopes, key, self.shapes.get(key, ())), keys, self.jobs)
+            found = each(lambda key: run_score_tests(single, slopes, key, self.shapes.get(key, ())), keys, self.jobs)
             hints += [hint for of_key in found for hint in of_key]
         if not fit.problem.active:
             self.course.hints = tuple(hints)
@@ -298,7 +300,7 @@ class Selector:
 
     def _additions(self, fit: Fit) -> None:
         """Fit the terms whose score tests promise most on top of a fit, those first that promise most."""
-        hints, single = self._screened(fit), alone(fit)
+        hints, single = self._screened(fit), use_one_core(fit)
         good = sorted((h for h in hints if h.gain > self.limits.promising and h.distinct > SAME), key=lambda h: -h.gain)
         good = [h for h in good if not h.late][:MOST_FITTED] + [h for h in good if h.late][:MOST_LATE]
         for size in sorted({len(h.start) for h in good}):
@@ -316,7 +318,7 @@ class Selector:
     def _visit_all(self, fits: Iterable[Fit]) -> None:
         """Note fits that were made on one core each."""
         for fit in fits:
-            self._visit(together(fit, self.jobs))
+            self._visit(use_cores(fit, self.jobs))
 
     def _large(self, fit: Fit) -> None:
         """Fit each force as most of what a load cell has measured.
@@ -327,20 +329,20 @@ class Selector:
         if fit.problem.active or any(observation.channel != "force" for observation in fit.problem.observations):
             return
         self.say("calm start")
-        calm = calmed(fit)
+        calm = refit_with_noise(fit)
         for key in self.candidates:
-            hint = large(fit.problem, key)
+            hint = guess_large_force(fit.problem, key)
             if hint and calm.status != "diverged":
                 self.say(f"fit with much of {key}")
-                self._visit(maximise(with_term(restarted(calm), hint, hint.start)))
+                self._visit(maximise(add_term(restart(calm), hint, hint.start)))
 
-    def _fitted(self, fit: Fit, hopeless: float, hint: Hint) -> Fit:
+    def _fitted(self, fit: Fit, hopeless: float, hint: ScoreTest) -> Fit:
         """Return the fit with one more term, begun at the fit with a simpler relative of it where there is one."""
         for key in self.candidates:
             visit = self.course.visits.get(fit.problem.active | {key})
             if visit and self._related(visit.fit, key, hint.key):
-                return fit_in_place(alone(visit.fit), key, hint, hopeless=hopeless)
-        return fit_with(fit, hint, hopeless=hopeless)
+                return replace_term(use_one_core(visit.fit), key, hint, hopeless=hopeless)
+        return fit_term(fit, hint, hopeless=hopeless)
 
     def _hopeless(self) -> float:
         """Return the log posterior below which a fit cannot matter any more."""
@@ -350,16 +352,16 @@ class Selector:
         """Fit each relative of a term in place of it, so that one that only stands in for another gives way."""
         for key in sorted(fit.problem.active):
             known = self.course.visits.get(fit.problem.active - {key})
-            without = known.fit if known else self._visit(maximise(fit.problem.reduced(key, fit.values))).fit
-            slopes = slopes_of(without)
+            without = known.fit if known else self._visit(maximise(fit.problem.remove_term(key, fit.values))).fit
+            slopes = compute_slopes(without)
             for other in self.candidates:
                 terms = without.problem.active | {other}
                 if other in fit.problem.active or terms in self.course.visits or not self._related(fit, key, other):
                     continue
                 self.say(f"{other} in place of {key}")
-                hint = screen(without, slopes, other)
+                hint = run_score_test(without, slopes, other)
                 if hint.gain > self.limits.promising and hint.distinct > SAME:
-                    self._visit(fit_with(without, hint, hopeless=self._hopeless()))
+                    self._visit(fit_term(without, hint, hopeless=self._hopeless()))
 
     def _shrink(self) -> None:
         """Drop terms until none is left without which the set has more weight."""
@@ -373,7 +375,9 @@ class Selector:
         for key in sorted(chosen.problem.active):
             terms = chosen.problem.active - {key}
             self.say(f"without {key}")
-            visit = self.course.visits.get(terms) or self._visit(maximise(chosen.problem.reduced(key, chosen.values)))
+            visit = self.course.visits.get(terms) or self._visit(
+                maximise(chosen.problem.remove_term(key, chosen.values))
+            )
             self.course.check(visit)
             self.course.contest(here, visit, self.limits.decisive)
             told = here.weight > visit.weight + self.limits.decisive
@@ -386,8 +390,8 @@ class Selector:
     @staticmethod
     def _rich(fit: Fit, key: str) -> bool:
         """Return whether a term has so many parameters that it is tried only where a simpler relative promises much."""
-        return len(term_of(fit.problem, key)[1]) >= RICH
+        return len(find_term(fit.problem, key)[1]) >= RICH
 
     @staticmethod
     def _related(fit: Fit, mine: str, other: str) -> bool:
-        return related(term_of(fit.problem, mine)[0], term_of(fit.problem, other)[0])
+        return related(find_term(fit.problem, mine)[0], find_term(fit.problem, other)[0])

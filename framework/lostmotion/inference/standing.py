@@ -8,8 +8,8 @@ import numpy as np
 from scipy.special import chdtri, ndtr
 
 from lostmotion.contracts import Array
-from lostmotion.inference.fit import Fit, robust_covariance
-from lostmotion.inference.natural import sorted_slots
+from lostmotion.inference.fit import Fit, compute_robust_covariance
+from lostmotion.inference.natural import sort_slots
 from lostmotion.likelihood.problem import Problem
 
 CERTAIN = 3.0
@@ -21,7 +21,7 @@ def standing(fit: Fit) -> tuple[float, float]:
 
     The signed amplitudes of a term are one: a wave has a cosine and a sine, and either may be nothing.
     """
-    robust, usual = robust_covariance(fit), fit.local.covariance
+    robust, usual = compute_robust_covariance(fit), fit.local.covariance
     groups = [at for term in sorted(fit.problem.active) for at in _amplitudes(fit.problem, term)]
     sizes = [deviations(fit.theta[at], robust[np.ix_(at, at)]) for at in groups]
     every = [i for at in groups for i in at]
@@ -31,7 +31,7 @@ def standing(fit: Fit) -> tuple[float, float]:
 
 def _amplitudes(problem: Problem, key: str) -> list[list[int]]:
     """Return where the amplitudes of a term stand among the free parameters, those together that count as one."""
-    slots, _ = sorted_slots(problem, key)
+    slots, _ = sort_slots(problem, key)
     alone = [[problem.keys.index(s.key)] for s in slots if s.param.low >= 0.0]
     signed = [problem.keys.index(s.key) for s in slots if s.param.low < 0.0]
     return [*alone, signed] if signed else alone

@@ -197,7 +197,9 @@ class DiagnosisResult:
         if self.outcome is None:
             return {}
         fit, rng = self.outcome.diagnosis.after, np.random.default_rng(0)
-        return predict_readings(fit.problem, mixture.draws(fit, rng, PREDICTED_DRAWS), (1, PREDICTED_DRAWS), rng)
+        return predict_readings(
+            fit.problem, mixture.draw_posterior(fit, rng, PREDICTED_DRAWS), (1, PREDICTED_DRAWS), rng
+        )
 
     def report(self, path: str | Path = "report.html") -> Path:
         """Write the page as self-contained HTML and return its path."""

@@ -17,7 +17,7 @@ import numpy as np
 
 from lostmotion.contracts import Array, Term
 from lostmotion.errors import ContractError, DataError, LostMotionError, PluginWarning
-from lostmotion.inference.candidates import called_with
+from lostmotion.inference.calls import list_calls
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.system import key_of
 from lostmotion.registry import Registry
@@ -91,7 +91,7 @@ def find_raising_terms(terms: Iterable[Term], observations: Sequence[Observation
 def _raises_error(term: Term, observation: Observation) -> bool:
     """Return whether the force of a term, of size one, raises an error at one of many points of a recording."""
     try:
-        for args in called_with(term, observation, POINTS):
+        for args in list_calls(term, observation, POINTS):
             term.force(*args)
     except Exception:
         return True

@@ -24,7 +24,7 @@ from lostmotion.settings.diagnosis import (
     SharedSettings,
     UnknownSettings,
 )
-from lostmotion.settings.identification import ChainSettings, LevelSettings
+from lostmotion.settings.identification import ChainSettings, LevelSettings, ModeSettings
 from lostmotion.settings.motion import MotionSettings
 from lostmotion.settings.recording import RecordingSettings
 
@@ -34,6 +34,7 @@ __all__ = [
     "HeldOutSettings",
     "LevelSettings",
     "LocateSettings",
+    "ModeSettings",
     "MotionSettings",
     "NameSettings",
     "RecordingSettings",
@@ -72,6 +73,7 @@ class Settings:
     heldout: HeldOutSettings = field(default_factory=HeldOutSettings)
     name: NameSettings = field(default_factory=NameSettings)
     shared: SharedSettings = field(default_factory=SharedSettings)
+    mode: ModeSettings = field(default_factory=ModeSettings)
     chain: ChainSettings = field(default_factory=ChainSettings)
     levels: LevelSettings = field(default_factory=LevelSettings)
     motion: MotionSettings = field(default_factory=MotionSettings)

@@ -47,6 +47,15 @@ class LocateSettings:
         ),
         most=1.0,
     )
+    parity: float = threshold(
+        0.8,
+        (
+            "A missing force is called odd or even in a covariate when that part has more than this share of the mean "
+            "square of both."
+        ),
+        least=0.5,
+        most=1.0,
+    )
     quantisation: float = threshold(
         0.05,
         "Quantisation of the stored values counts when its variance exceeds this share of the noise variance.",
@@ -91,6 +100,27 @@ class SelectSettings:
     )
     commoner: float = threshold(
         6.0, "A more common law is reported in place of a found one whose log evidence is higher by no more than this."
+    )
+    far: float = threshold(
+        8.0,
+        "A value of an amplitude beyond the reach of a score test is tried when it gains this much in log-likelihood.",
+    )
+    late: float = threshold(
+        3.0, "A term is tried as one that begins later when this predicts so much more gain, in addition to its price."
+    )
+    onset_first: float = threshold(
+        0.04, "An onset before this share of a recording is not considered: the term acts from the beginning.", most=1.0
+    )
+    onset_last: float = threshold(0.9, "An onset after this share of a recording is not considered.", most=1.0)
+    shape_steady: float = threshold(
+        3.0,
+        "A shape of a law is tested when its correlation with the gradient is this many standard errors from zero.",
+    )
+    shape_gain: float = threshold(
+        8.0, "A shape that a scan finds is tried when its score test predicts this gain in log-likelihood."
+    )
+    noise_memory_tried: float = threshold(
+        4.0, "AR(1) noise of a sensor is tried when a random force gains this much in log-likelihood."
     )
     noise_memory: float = threshold(
         8.0,
@@ -157,6 +187,23 @@ class UnknownSettings:
     formula: float = threshold(
         0.8, "A formula is proposed when it explains at least this share of the variance of a curve.", most=1.0
     )
+    formula_gain: float = threshold(
+        6.0,
+        "A formula gets a further piece when Akaike's criterion improves by at least this much.",
+        "Akaike, IEEE Trans. Automatic Control 19 (1974) 716-723",
+    )
+    formula_full: float = threshold(
+        0.98, "A formula gets no further piece when it explains this share of the variance of a curve.", most=1.0
+    )
+    formula_pieces: float = threshold(3.0, "The greatest number of pieces of a formula.", least=1.0)
+    most_curves: float = threshold(2.0, "The greatest number of learned curves in a diagnosis.", least=1.0)
+    usual: float = threshold(
+        3.0,
+        (
+            "Curves have to reduce the random force where that is more than this many times the usual noise of the "
+            "drive."
+        ),
+    )
 
 
 @dataclass(frozen=True)
@@ -165,6 +212,13 @@ class HeldOutSettings:
 
     share: float = threshold(
         0.3, "The share of a recording, or of the recordings, that is held out.", least=0.05, most=0.7
+    )
+    alive: float = threshold(
+        4.0, "A motion has decayed when its standard deviation is less than this many times the noise of the sensor."
+    )
+    valid: float = threshold(
+        0.4,
+        "A free prediction is valid until its error exceeds this share of the standard deviation of the response.",
     )
     rise: float = threshold(0.01, "An error of free runs that rises by a smaller share than this counts as unchanged.")
     missing: float = threshold(
@@ -274,4 +328,35 @@ class SharedSettings:
     level: float = threshold(0.01, "The significance level for calling parameters different.", most=1.0)
     alike: float = threshold(
         0.01, "Values that differ by less than this share count as equal in engineering terms.", most=1.0
+    )
+    most_own: float = threshold(
+        3.0, "The greatest number of parameters that get a value for each recording: beyond it the model does not hold."
+    )
+    instead: float = threshold(
+        3.0,
+        "Another parameter is named as an alternative explanation when its log-likelihood is lower by less than this.",
+    )
+    fits: float = threshold(
+        0.05,
+        (
+            "A power of the level describes the values, and all recordings but one agree, when the p-value of the "
+            "residuals exceeds this."
+        ),
+        most=1.0,
+    )
+    exponent: float = threshold(
+        3.0, "The exponent of a power of the level is at least this many standard errors from zero."
+    )
+    steepest: float = threshold(
+        4.0, "The largest exponent of a power of the level: a steeper one describes a difference of another kind."
+    )
+    vague: float = threshold(
+        0.05,
+        "The relative error of the rms as a measure of the level: values may deviate from a power by this share.",
+        most=1.0,
+    )
+    spread: float = threshold(
+        1.1,
+        "Levels of the drive within this factor count as one level; the levels of the response are used then.",
+        least=1.0,
     )

@@ -8,6 +8,25 @@ from lostmotion.settings.threshold import threshold
 
 
 @dataclass(frozen=True)
+class ModeSettings:
+    """Which maxima of a posterior are separate modes."""
+
+    near: float = threshold(
+        3.0, "Maxima that differ by less than this many standard deviations in each coordinate are one mode."
+    )
+    dip: float = threshold(
+        3.0,
+        (
+            "Between two modes the log posterior density is lower by more than this: for two normal modes five standard"
+            " deviations apart it is lower by 3.1."
+        ),
+    )
+    within: float = threshold(
+        20.0, "A mode is reported when its log evidence is lower than that of the best by no more than this."
+    )
+
+
+@dataclass(frozen=True)
 class ChainSettings:
     """Convergence of a Markov chain."""
 

@@ -15,8 +15,8 @@ import numpy as np
 from lostmotion.contracts import Array, Assembly, Model, SensorTerm, Term
 from lostmotion.errors import CaseError, DataError, nearest
 from lostmotion.likelihood.drive import SILENT, Drive, DriveHarmonic
-from lostmotion.likelihood.motion import derivatives
-from lostmotion.likelihood.observation import Observation, harmonic_of
+from lostmotion.likelihood.motion import compute_derivatives
+from lostmotion.likelihood.observation import Observation, find_harmonic
 from lostmotion.likelihood.system import Clock, Slot, System, key_of
 from lostmotion.preparation.vetting import make_plugin
 from lostmotion.provenance import provenance
@@ -103,7 +103,7 @@ def run_free_motion(
     motion = system.moved(full, y0, acting, Clock(1.0 / rate, nsub, samples), harmonic)
     acts = np.stack([column(times) for column in acting], axis=1)
     packed = system.pack(full[None], 1.0 / (rate * nsub), harmonic)
-    _, seen = derivatives(system, system.everything, packed, motion.states, acts, times)
+    _, seen = compute_derivatives(system, system.everything, packed, motion.states, acts, times)
     channels = dict(zip(assembly.model.channels, seen.T, strict=True))
     if motion.finite < samples or not all(np.abs(x).max() < HUGE for x in channels.values()):
         raise CaseError(
@@ -226,8 +226,8 @@ def _acting_inputs(
 
     The harmonic is the one that a diagnosis would find in the recorded samples.
     """
-    harmonic = harmonic_of(Observation.of("drive", np.zeros(len(inputs)), inputs, dt, ""))
-    acting = system.acting(columns, full, system.shaping(system.everything), harmonic)
+    harmonic = find_harmonic(Observation.of("drive", np.zeros(len(inputs)), inputs, dt, ""))
+    acting = system.acting(columns, full, system.list_input_terms(system.everything), harmonic)
     return [there or recorded for there, recorded in zip(acting, columns, strict=True)], harmonic
 
 
@@ -252,7 +252,7 @@ def _choose_substeps(system: System, full: Array, y0: Array, recorded: Array, dt
     n, samples = len(system.model.states), len(recorded)
     motion = system.simulate(full, system.everything, y0, Drive.held(recorded, dt), FEWEST)
     picked = np.unique(np.linspace(0, max(motion.finite - 1, 0), PROBES).astype(int))
-    rate = system.stiffness(full, system.everything, motion.states[picked, :n], recorded[picked])
+    rate = system.find_fastest_rate(full, system.everything, motion.states[picked, :n], recorded[picked])
     asked = rate * dt / ACCURACY
     if not asked * samples <= LARGEST:
         after = f"diverged after {motion.finite * dt:.4g} s, or " * (motion.finite < samples)

@@ -200,7 +200,7 @@ def smoother_agrees_with_matrices(engine: Engine) -> str:
     """Return filtered and smoothed states, with their covariances, as the engine `reference` does."""
     for what, given in _list_cases():
         dynamics, observation, points = given
-        one = (dynamics, observation, points.taken(slice(0, 1)))
+        one = (dynamics, observation, points.select(slice(0, 1)))
         found, wanted = engine.smooth(*one), Reference().smooth(*one)
         pairs = ((found.filtered, wanted.filtered, wanted.filtered_covariance),)
         for mine, theirs, covariance in (*pairs, (found.states, wanted.states, wanted.covariance)):
@@ -232,11 +232,13 @@ def points_do_not_know_each_other(engine: Engine) -> str:
     for sensors, random in ((SENSORS["a state"], "white"), (SENSORS["a nonlinear channel"], "held")):
         dynamics, observation, points = make_arguments(sensors, random, MANY)  # type: ignore[arg-type]
         together = engine.filter(dynamics, observation, points)
-        turned = engine.filter(dynamics, observation, points.taken(slice(None, None, -1)))
+        turned = engine.filter(dynamics, observation, points.select(slice(None, None, -1)))
         if not _are_equal(together, turned[::-1]):
             return "the order of the points changes their results"
         for i in (0, MANY - 1):
-            if not _are_equal(together[i : i + 1], engine.filter(dynamics, observation, points.taken(slice(i, i + 1)))):
+            if not _are_equal(
+                together[i : i + 1], engine.filter(dynamics, observation, points.select(slice(i, i + 1)))
+            ):
                 return "the result of a point alone differs from its result among others"
     return ""
 

@@ -79,7 +79,7 @@ def relative_difference(a: Any, b: Any) -> float:
 @lru_cache(maxsize=256)
 def compile_function(function: Callable[..., Any]) -> Callable[..., Any]:
     """Return the function compiled as the host compiles it, with the plain functions that it calls."""
-    from lostmotion.likelihood.adopted import adopted
+    from lostmotion.likelihood.adopted import adopt_function
 
-    fast: Callable[..., Any] = adopted(function, __name__)
+    fast: Callable[..., Any] = adopt_function(function, __name__)
     return fast

@@ -8,7 +8,7 @@ from dataclasses import fields
 from typing import Any
 
 from lostmotion.contracts import Model
-from lostmotion.likelihood.plan import numeric
+from lostmotion.likelihood.plan import is_numeric
 from lostmotion.quantities import Dimension
 from lostmotion.testing.rules import join_words, rule
 
@@ -62,7 +62,7 @@ def functions_are_static(component: Any) -> str:
     found = {name: inspect.getattr_static(type(component), name) for name in _COMPILED[kind]}
     bad = [name for name, function in found.items() if not isinstance(function, staticmethod)]
     values = [getattr(component, f.name) for f in fields(component) if f.name != "at"]
-    if kind == "term" and any(numeric(value) for value in values):
+    if kind == "term" and any(is_numeric(value) for value in values):
         return ""
     return f"{bad[0]} is not a static method" if bad else ""
 

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from lostmotion.contracts import Array, DriveTerm, SensorTerm, Term
-from lostmotion.likelihood.plan import handed, law_of
+from lostmotion.likelihood.plan import make_law, prepare_values
 from lostmotion.testing.probes import STEP, Point, compile_function, points_of_term, relative_difference
 from lostmotion.testing.rules import SNAKE, join_words, rule
 from lostmotion.testing.shared import find_repeated
@@ -35,12 +35,12 @@ def compute_rate(term: Term, point: Point, function: Any = None, *, over: float 
 
 
 def _force_arguments(term: Term, point: Point) -> tuple[Any, ...]:
-    return point.t, point.x, point.v, point.u, handed(term, point.p), tuple(point.y)
+    return point.t, point.x, point.v, point.u, prepare_values(term, point.p), tuple(point.y)
 
 
 def _compile_law(term: Term, name: str) -> Any:
     """Return `force` or `rate` compiled; a method gets the numeric fields of the term."""
-    law = law_of(term, 0)
+    law = make_law(term, 0)
     made = compile_function(getattr(type(term), name))
     static = isinstance(inspect.getattr_static(type(term), name), staticmethod)
     return made if static else partial(made, law.fields)

@@ -1,7 +1,7 @@
-"""What one who knows the truth could get out of a recording: the yardstick of a blind trial.
+"""The likelihood-ratio bound of a blind trial: the result that a fit of the true model reaches on a recording.
 
-Nominal and true model go through the likelihood of the diagnosis itself, begun at the truth. What the true terms gain
-is the log of the likelihood ratio, beyond which no test can go.
+Nominal and true model are fitted with the likelihood of the diagnosis, starting at the truth. The gain of the true
+terms is the logarithm of the likelihood ratio, and no test is more powerful than the likelihood-ratio test.
 """
 
 from __future__ import annotations
@@ -13,11 +13,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from lostmotion.diagnosis.compare import pieces_of, predict, rates_of
-from lostmotion.inference.candidates import joined
-from lostmotion.inference.fit import Fit, maximise, restarted, warmed
+from lostmotion.inference.candidates import join_term
+from lostmotion.inference.fit import Fit, maximise, raise_random_force, restart
 from lostmotion.inference.leftovers import significant_random_force
-from lostmotion.inference.natural import term_of
-from lostmotion.inference.setup import polish, problem_of, split, stepped
+from lostmotion.inference.natural import find_term
+from lostmotion.inference.setup import choose_steps, make_problem, polish_fit, split_heldout
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.predict import Horizon
 from lostmotion.likelihood.problem import NOISE, RANDOM, Problem
@@ -35,12 +35,12 @@ ALIKE: tuple[frozenset[str], ...] = (
     frozenset({"dahl_friction", "lugre_friction", "bouc_wen_hysteresis"}),
     frozenset({"actuator_lag", "sensor_lag"}),
 )
-"""Mechanisms that no recording of this kind tells apart: either name is right."""
+"""Mechanisms that no recording of this kind can distinguish: either name is right."""
 SKIPPED = ("sensor_quantisation", "unknown")
-"""What no likelihood of ours knows."""
+"""Mechanisms without a likelihood."""
 WARM_STARTS = (0.0, 3.0, 2.0 * math.log(300.0))
-"""Fits begin at the usual random force and at larger ones, in log intensity; with the largest, 0.3 of the drive, a
-model that lacks something finds its way from afar."""
+"""Fits start with the usual random force and with larger ones (log intensity). With the largest, 0.3 of the drive, the
+fit of a model that lacks a term converges from a distant start."""
 
 
 def alike(one: str, other: str) -> bool:
@@ -50,7 +50,7 @@ def alike(one: str, other: str) -> bool:
 
 @dataclass(frozen=True)
 class Yardstick:
-    """What the true model reaches: the gain of each effect (NaN where no term stands for it), with a status.
+    """The result of the true model: the gain of each effect (NaN where no term models it), with a status.
 
     `nrmse` is its error on held-out data over the horizon of the diagnosis, and `margin` by how much log-likelihood it
     is better than the model that was found; NaN where either could not be fitted.
@@ -66,9 +66,9 @@ def yardstick(
     prepared: Prepared, machine: SealedMachine, effects: Sequence[Effect], said: Diagnosis | None
 ) -> Yardstick:
     """Return what the true model of a case reaches, over the horizon of a diagnosis if there is one."""
-    train, held = split(prepared.observations)
+    train, held = split_heldout(prepared.observations)
     system = System(prepared.model, prepared.terms)
-    problem = _start_at_truth(problem_of(system, prepared.case, train, jobs=1), machine)
+    problem = _start_at_truth(make_problem(system, prepared.case, train, jobs=1), machine)
     effects = [add_library_names(effect, machine) for effect in effects]
     keys = [find_key(system, effect.mechanism, effect.at) for effect in effects]
     status = [_find_status(effect, key) for effect, key in zip(effects, keys, strict=True)]
@@ -86,7 +86,7 @@ def yardstick(
     if said is None or not known:
         return Yardstick(tuple(gains), tuple(status))
     margin = _measure_margin(full, problem, said.found) if acting else math.nan
-    error = _predict_heldout(polish(full), prepared, held, said.fit)
+    error = _predict_heldout(polish_fit(full), prepared, held, said.fit)
     return Yardstick(tuple(gains), tuple(status), error, margin)
 
 
@@ -160,7 +160,7 @@ def _start_at_truth(problem: Problem, machine: SealedMachine) -> Problem:
         else:
             free.append(replace(f, start=f.coordinate(machine.values[f.parameter])))
     begun = replace(problem, free=tuple(free))
-    return stepped(begun, begun.start)
+    return choose_steps(begun, begun.start)
 
 
 def _clip(value: float, low: float, high: float) -> float:
@@ -171,16 +171,16 @@ def _fit_terms(problem: Problem, acting: Mapping[str, Mapping[str, float]]) -> F
     """Return the best fit with these terms, begun at the truth with several random forces."""
     for key, parameters in acting.items():
         problem = _add_term(problem, key, parameters)
-    fits = [maximise(problem, warmed(problem, problem.start, by)) for by in WARM_STARTS]
+    fits = [maximise(problem, raise_random_force(problem, problem.start, by)) for by in WARM_STARTS]
     best = max(fits, key=lambda f: f.local.log_posterior)
-    again = maximise(restarted(best), warmed(problem, best.theta, 1.0))
+    again = maximise(restart(best), raise_random_force(problem, best.theta, 1.0))
     return max((best, again), key=lambda f: f.local.log_posterior)
 
 
 def _add_term(problem: Problem, key: str, truth: Mapping[str, float]) -> Problem:
     """Return the problem with one more term, begun at its true parameters where it has them."""
-    _, slots = term_of(problem, key)
-    return joined(problem, key, {s.key: truth[s.param.name] for s in slots if s.param.name in truth})
+    _, slots = find_term(problem, key)
+    return join_term(problem, key, {s.key: truth[s.param.name] for s in slots if s.param.name in truth})
 
 
 def _predict_heldout(fit: Fit, prepared: Prepared, held: Sequence[Observation], said: HeldOutScores) -> float:

@@ -1,4 +1,4 @@
-"""The last step of a blind trial: what a diagnosis said of a case, held against the truth once that is unsealed."""
+"""The last step of a blind trial: a diagnosis is compared with the opened truth of its case."""
 
 from __future__ import annotations
 
@@ -27,22 +27,23 @@ Named = Mechanism | Candidate | Confusion
 FAILED = "failed"
 HIT, CONFUSED, NOTICED, MISNAMED, MISSED = "hit", "confused", "noticed", "misnamed", "missed"
 OUTCOMES = (HIT, CONFUSED, NOTICED, MISNAMED, MISSED)
-"""What may become of an effect: named; named as one that the diagnosis says it cannot tell from it; called unknown;
-called something else; not noticed."""
+"""The outcomes of an effect: named; named as one that the diagnosis lists as indistinguishable from it; called unknown
+or a random force; something else named; not noticed."""
 VAGUE = ("unknown", "random_force")
 FRICTION_TERMS = tuple(name for name, mechanism in TABLE.items() if mechanism.kin == "rub")
-"""Laws of dry friction: where the true one has a random shape, each of them names it."""
+"""Laws of dry friction: where the true law has a random shape, each of these names is correct."""
 FLAWS = ("sensor_quantisation",)
-"""What every machine of an imperfect world has and the library knows."""
+"""Imperfections of every machine of an imperfect world for which the library has a term."""
 SURE = 0.95
+"""A name is sure where its stated probability is above this."""
 REPEATED = ("cosine", "sine")
-"""Parameters that say again what an amplitude and a phase say."""
+"""Parameters that are not counted, since amplitude and phase contain them."""
 TURNING = {"phase": ("depth", "amplitude")}
 """Angles, and the amplitudes whose sign turns them by half a turn."""
 
 
 def score_case(out: Path, registry: Registry, number: int) -> JudgedCase:
-    """Return what became of a case: each effect with its outcome, what was named in error, parameters, held-out errors.
+    """Return the score of a case: each effect with its outcome, false names, parameters, held-out errors.
 
     Raises `DataError` when case or truth are not those that were sealed.
     """

@@ -14,7 +14,7 @@ from lostmotion.case import CaseFile, Prior, load_case
 from lostmotion.contracts import Array, Group, Model, Term
 from lostmotion.errors import CaseError
 from lostmotion.identification.sampling import SamplingPlan
-from lostmotion.inference.setup import known_of
+from lostmotion.inference.setup import make_known
 from lostmotion.likelihood.system import Slot, System, key_of
 from lostmotion.provenance import digest
 from lostmotion.registry import Registry
@@ -109,7 +109,7 @@ class Workshop:
 
     def _fill_known(self) -> Array:
         """Return the parameters that are the same in every machine; what is drawn stands at its middle."""
-        full = known_of(self.system, _replace_groups(self.case, self.groups))
+        full = make_known(self.system, _replace_groups(self.case, self.groups))
         for key, value in self.hidden.items():
             full[self.system.index[key]] = value
         return full
@@ -152,7 +152,7 @@ def make_workshop(design: Design) -> Workshop:
     assembly_of(registry, case.model, design.terms)
     system = System(model, _collect_terms(hidden.terms, model, case, registry))
     groups = tuple(g for g in model.groups if g.name in case.estimate and design.route != ROUTES[0])
-    known_of(system, _replace_groups(case, groups))
+    make_known(system, _replace_groups(case, groups))
     _require_values(system, case, values)
     return Workshop(design, registry, case, system, values, groups)
 

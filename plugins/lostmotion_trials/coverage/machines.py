@@ -16,7 +16,7 @@ import numpy as np
 
 from lostmotion.contracts import Array
 from lostmotion.errors import CaseError, DataError
-from lostmotion.likelihood.drive import substeps
+from lostmotion.likelihood.drive import count_substeps
 from lostmotion.likelihood.system import Clock, System
 from lostmotion.simulation.drives import DriveSignal, signal_of
 from lostmotion_trials.integrators.oscillator import rattle
@@ -198,8 +198,8 @@ def _move_by_model(system: System, full: Array, run: _DrivenRun, start: Array) -
     rough = system.moved(full, y0, inputs, Clock(dt, LEAST_SUBSTEPS, run.samples))
     picked = np.unique(np.linspace(0, max(rough.finite - 1, 0), 200).astype(int))
     u = np.stack([f(picked * dt) for f in inputs], axis=1)
-    rate = system.stiffness(full, system.everything, rough.states[picked, : len(model.states)], u)
-    nsub = max(LEAST_SUBSTEPS, substeps(rate, dt, accuracy=MODEL_STEPS_PER_RATE, most=MOST_SUBSTEPS))
+    rate = system.find_fastest_rate(full, system.everything, rough.states[picked, : len(model.states)], u)
+    nsub = max(LEAST_SUBSTEPS, count_substeps(rate, dt, accuracy=MODEL_STEPS_PER_RATE, most=MOST_SUBSTEPS))
     if nsub * run.samples > MOST_STEPS:
         raise CaseError(
             f"{run.samples} samples with {nsub} steps between them are more than {MOST_STEPS}: shorten the duration"
