@@ -185,7 +185,7 @@ def case_of(machine: Machine) -> Any:
 
 def one(seed: int, number: int) -> dict[str, Any]:
     """Return what a diagnosis says of a machine, beside the truth."""
-    from lostmotion.diagnosis.findings import draws_of, intervals
+    from lostmotion.diagnosis.findings import compute_intervals, draw_parameters
     from lostmotion.diagnosis.search import diagnose
     from lostmotion.likelihood.system import System
     from lostmotion.preparation.candidates import candidates_of
@@ -198,7 +198,7 @@ def one(seed: int, number: int) -> dict[str, Any]:
     system = System(model, candidates_of(model, [registry.load("term", n) for n in registry.names("term")]))
     begin = time.perf_counter()
     d = diagnose(case_of(machine), [observation], system, rng=np.random.default_rng(0), jobs=1)
-    known = intervals(d.after, draws_of(d.after, np.random.default_rng(1)))
+    known = compute_intervals(d.after, draw_parameters(d.after, np.random.default_rng(1)))
     seconds = time.perf_counter() - begin
     return {
         "number": machine.number,

@@ -21,7 +21,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from lostmotion.case import CaseFile, Prior
-from lostmotion.diagnosis.experiment import news, propose
+from lostmotion.diagnosis.experiment import compute_bayes_factor, propose
 from lostmotion.inference.candidates import compute_slopes, fit_term, run_score_test
 from lostmotion.inference.fit import maximise
 from lostmotion.inference.setup import make_problem, search_maximum
@@ -160,8 +160,8 @@ def studied(machine, draws=3, seed=0):
         return {"name": machine.name, "at_hand": truth.log_evidence - other.log_evidence, "seconds": taken}
     e = proposal.excitation
     asked = CubicSpline(np.arange(len(e.inputs)), e.inputs[:, 0])(np.arange(min(len(inputs), len(e.inputs))))
-    new = [news(truth, other, recorded(machine, asked, rng)) for _ in range(draws)]
-    again = [news(truth, other, recorded(machine, inputs, rng)) for _ in range(draws)]
+    new = [compute_bayes_factor(truth, other, recorded(machine, asked, rng)) for _ in range(draws)]
+    again = [compute_bayes_factor(truth, other, recorded(machine, inputs, rng)) for _ in range(draws)]
     band = " to ".join(f"{f:.3g}" for f in sorted(set(e.band)))
     return {
         "name": machine.name,

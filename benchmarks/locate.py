@@ -35,10 +35,10 @@ from typing import Any
 import numpy as np
 from scipy.stats import beta
 
-from lostmotion.diagnosis.search import locate, plays_of
+from lostmotion.diagnosis.search import list_half_gaps, locate
 from lostmotion.errors import DataError
 from lostmotion.inference.candidates import compute_slopes, run_score_test
-from lostmotion.inference.odds import Ratio, likely, log_odds
+from lostmotion.inference.odds import LikelihoodRatio, compute_log_ratios, list_likely
 from lostmotion.inference.setup import choose_steps, make_problem, search_maximum
 from lostmotion.likelihood.latent import smooth_latent_force
 from lostmotion.likelihood.system import System, key_of
@@ -151,10 +151,10 @@ def one(kind: str, seed: int, number: int) -> Row:
     fit = search_maximum(make_problem(system, made.case, made.observations, jobs=1), np.random.default_rng(0))
     fitted = time.perf_counter()
     honest = choose_steps(fit.problem, fit.theta)
-    missing, plays = smooth_latent_force(honest, fit.theta), plays_of(honest, fit.theta)
+    missing, plays = smooth_latent_force(honest, fit.theta), list_half_gaps(honest, fit.theta)
     located = locate(made.model, made.observations[0], missing, plays=plays, rng=np.random.default_rng([seed, number]))
     shared = time.perf_counter()
-    odds = log_odds(fit)
+    odds = compute_log_ratios(fit)
     done = time.perf_counter()
     return {
         "kind": kind,
@@ -178,8 +178,8 @@ def ranked(row: Row, test: str) -> list[str]:
         told = {k: s for k, s in row["shares"].items() if s[2] <= DEFAULT.locate.level and s[0] > 0.0}
         return sorted(told, key=lambda k: -told[k][0])
     if test == "odds":
-        return likely({k: Ratio(*told) for k, told in row["odds"].items()})
-    return likely({k: Ratio(told[0], told[0]) for k, told in row["odds"].items()})
+        return list_likely({k: LikelihoodRatio(*told) for k, told in row["odds"].items()})
+    return list_likely({k: LikelihoodRatio(told[0], told[0]) for k, told in row["odds"].items()})
 
 
 def judged(row: Row, test: str) -> dict[str, bool]:

@@ -10,7 +10,7 @@ import pytest
 import report_fixture as fixture
 
 from lostmotion.diagnosis.report.page import render
-from lostmotion.diagnosis.verdict import angle_of
+from lostmotion.diagnosis.verdict import find_angle_unit
 from lostmotion.recording.spec import Channel, RecordingSpec
 from lostmotion.report.words import angles_in, choose_scale
 from lostmotion.results import Interval
@@ -52,4 +52,4 @@ def test_a_page_of_a_case_in_degrees_shows_no_angle_in_rad():
 @pytest.mark.parametrize(("unit", "told"), [("deg", "deg"), ("degrees", "deg"), ("rad", "rad"), ("m", "rad")])
 def test_a_case_with_a_column_in_degrees_is_one_in_degrees(unit, told):
     seen = RecordingSpec("run.csv", "t", None, (), (Channel("angle", "position", unit),))
-    assert angle_of(SimpleNamespace(recordings=(seen,))) == told
+    assert find_angle_unit(SimpleNamespace(recordings=(seen,))) == told

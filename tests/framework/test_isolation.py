@@ -200,7 +200,7 @@ def test_a_diagnosis_begins_anew_without_the_term_that_broke_down(known, monkeyp
         return "diagnosis"
 
     monkeypatch.setattr(diagnose, "diagnose", fails_at_first)
-    found, kept, _ = diagnose._diagnosed(prepared, known, 3, diagnose.diagnose)
+    found, kept, _ = diagnose._run_search(prepared, known, 3, diagnose.diagnose)
     assert found == "diagnosis"
     assert set(tried[0][0]) - set(tried[1][0]) == left
     assert tried[0][1] == tried[1][1]
@@ -212,7 +212,7 @@ def test_a_diagnosis_begins_anew_without_the_term_that_broke_down(known, monkeyp
 
     monkeypatch.setattr(diagnose, "diagnose", fails)
     with pytest.raises(ContractError, match="one of ours"):
-        diagnose._diagnosed(prepared, known, 3, diagnose.diagnose)
+        diagnose._run_search(prepared, known, 3, diagnose.diagnose)
 
 
 CASE = """

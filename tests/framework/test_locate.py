@@ -6,7 +6,14 @@ from scipy.signal import lfilter
 
 from lostmotion.diagnosis.search import locate
 from lostmotion.inference.locate import describe_location, list_covariates, list_further_covariates
-from lostmotion.inference.odds import Ratio, averaged, gained, inflation, likely, p_values
+from lostmotion.inference.odds import (
+    LikelihoodRatio,
+    compute_gain,
+    compute_inflation,
+    compute_log_mean,
+    compute_p_values,
+    list_likely,
+)
 from lostmotion.inference.shares import Covariate, adjust_p_values, compute_shares, list_significant, randomise_phases
 from lostmotion.likelihood.latent import LatentForce
 from lostmotion.likelihood.observation import Observation
@@ -73,7 +80,7 @@ def test_the_sentence_names_the_sign_and_leaves_out_what_noise_would_show():
     _, said = located(lambda x, v: -3.0 * np.sign(v), np.random.default_rng(4))
     assert said.startswith("a function of sign of velocity, which explains ")
     _, said = located(lambda x, v: 0.0 * x, np.random.default_rng(5))
-    assert said.startswith("no structure over position, velocity, phase or time")
+    assert said.startswith("no significant structure over position, velocity, phase or time")
 
 
 def test_history_counts_only_beyond_position_and_velocity():
@@ -174,7 +181,7 @@ def test_likelihood_ratio_in_closed_form_is_that_of_two_normal_densities():
     root = np.diag(np.linspace(0.1, 0.5, 6))[:, :4]
     wide = np.eye(60) + design @ root @ root.T @ design.T
     slow = 0.5 * (data @ data - data @ np.linalg.inv(wide) @ data - np.linalg.slogdet(wide)[1])
-    assert gained(design.T @ data, design.T @ design, root) == pytest.approx(slow, abs=1e-9)
+    assert compute_gain(design.T @ data, design.T @ design, root) == pytest.approx(slow, abs=1e-9)
 
 
 def test_likelihood_ratio_of_noise_seldom_exceeds_its_inverse_level():
@@ -183,15 +190,17 @@ def test_likelihood_ratio_of_noise_seldom_exceeds_its_inverse_level():
 
     def asked(data, *designs):
         pairs = [(design.T @ data, design.T @ design) for design in designs]
-        told = [averaged([gained(*pair, root) for root in roots]) for pair in pairs]
-        return {str(i): Ratio(one, one) for i, one in enumerate(told)}
+        told = [compute_log_mean([compute_gain(*pair, root) for root in roots]) for pair in pairs]
+        return {str(i): LikelihoodRatio(one, one) for i, one in enumerate(told)}
 
     noise = [linear(rng, 0.0) for _ in range(1000)]
-    assert sum(bool(likely(asked(data, one, rng.normal(size=(60, 6))))) for data, one in noise) <= 50
+    assert sum(bool(list_likely(asked(data, one, rng.normal(size=(60, 6))))) for data, one in noise) <= 50
     data, one = linear(rng, 1.0)
     odds = asked(data, one, rng.normal(size=(60, 6)))
-    assert likely(odds)[0] == "0"
-    told = p_values({"a": Ratio(9.0, 5.0), "b": Ratio(60.0, 50.0), "c": Ratio(-3.0, -3.0)})
+    assert list_likely(odds)[0] == "0"
+    told = compute_p_values(
+        {"a": LikelihoodRatio(9.0, 5.0), "b": LikelihoodRatio(60.0, 50.0), "c": LikelihoodRatio(-3.0, -3.0)}
+    )
     assert told == {"a": pytest.approx(3.0 * np.exp(-5.0)), "b": 1e-6, "c": 1.0}
 
 
@@ -205,8 +214,8 @@ def test_scores_with_a_memory_count_for_less():
         sums = scores.reshape(3, 40, 100).sum(axis=2)
         return sums - sums.mean(axis=1, keepdims=True)
 
-    assert inflation(blocks(white), 4000.0 * np.eye(3), np.eye(3)) == pytest.approx(1.0, abs=0.3)
-    assert inflation(blocks(slow), 4000.0 * np.eye(3), np.eye(3)) == pytest.approx(9.0, rel=0.3)
+    assert compute_inflation(blocks(white), 4000.0 * np.eye(3), np.eye(3)) == pytest.approx(1.0, abs=0.3)
+    assert compute_inflation(blocks(slow), 4000.0 * np.eye(3), np.eye(3)) == pytest.approx(9.0, rel=0.3)
 
 
 @pytest.mark.slow

@@ -164,8 +164,8 @@ def test_what_free_parameters_cover_promises_nothing():
 def test_an_unknown_says_where_a_law_explains_it_as_well(gain, says):
     """No report says that no term explains a force, and ranks one above the curve."""
     system = System(default().make("model", "linear_oscillator"), (CoulombFriction(),))
-    selection = SimpleNamespace(unbeaten={"coulomb_friction"}, gain=lambda key: gain)
+    selection = SimpleNamespace(tied={"coulomb_friction"}, gain=lambda key: gain)
     d = SimpleNamespace(
         selection=selection, before=SimpleNamespace(problem=SimpleNamespace(system=system)), settings=DEFAULT
     )
-    assert unknowns._why_unnamed(d, SimpleNamespace(gain=58.0)).lower() == says.lower()
+    assert unknowns._explain_missing_name(d, SimpleNamespace(gain=58.0)).lower() == says.lower()

@@ -7,9 +7,9 @@ import pytest
 import report_fixture as made
 
 from lostmotion.diagnosis import verdict
-from lostmotion.diagnosis.notes import drowned
+from lostmotion.diagnosis.notes import note_large_noise
 from lostmotion.diagnosis.report.opening import make_badge
-from lostmotion.diagnosis.run import unused
+from lostmotion.diagnosis.run import note_unused
 from lostmotion.diagnosis.search import _check_moving
 from lostmotion.errors import DataError
 from lostmotion.inference.setup import count_lasting_samples
@@ -55,23 +55,25 @@ def diagnosed(slow, *names, white=0.0):
 def test_what_grows_is_not_said_to_fall(monkeypatch, force, error, told):
     outcome = diagnosed([0.0])
     outcome.before, outcome.after.nrmse = SimpleNamespace(nrmse=error[0]), error[1]
-    monkeypatch.setattr(verdict, "noise_floor", lambda _: 0.01)
-    monkeypatch.setattr(verdict, "unexplained_of", lambda _, after: UnexplainedForce(True, force[after], "N", 0.1))
+    monkeypatch.setattr(verdict, "compute_noise_floor", lambda _: 0.01)
+    monkeypatch.setattr(verdict, "measure_unexplained", lambda _, after: UnexplainedForce(True, force[after], "N", 0.1))
     friction = Mechanism(mechanism="friction", probability=1.0, state="named", parameters={}, says="Friction acts.")
-    said = verdict.says(outcome, [friction])[1]
+    said = verdict.summarise(outcome, [friction])[1]
     start, end = told.split(" * ")
     assert start in said
     assert f"over one drive period {end} of the response" in said
 
 
 def test_noise_that_may_be_motion_is_doubted():
-    assert drowned(diagnosed([0.2])) == []
-    assert drowned(diagnosed([0.0], white=0.7)) == []
-    assert drowned(diagnosed([0.0], white=0.9))[0].startswith("What passes for noise is 90% of the held-out readings")
-    assert drowned(diagnosed([0.5]))[0].startswith(
+    assert note_large_noise(diagnosed([0.2])) == []
+    assert note_large_noise(diagnosed([0.0], white=0.7)) == []
+    assert note_large_noise(diagnosed([0.0], white=0.9))[0].startswith(
+        "What passes for noise is 90% of the held-out readings"
+    )
+    assert note_large_noise(diagnosed([0.5]))[0].startswith(
         "What passes for noise has a memory and is 50% of the held-out readings"
     )
-    (only,) = drowned(diagnosed([0.1, 0.9], "front", "rear"))
+    (only,) = note_large_noise(diagnosed([0.1, 0.9], "front", "rear"))
     assert only.startswith("What passes for noise of rear has a memory and is 90%")
 
 
@@ -106,7 +108,7 @@ def test_what_is_held_out_still_moves(rests):
 
 
 def test_known_values_of_terms_are_not_passed_over_in_silence():
-    (note,) = unused(["m", "sensor_delay@load encoder.delay"])
+    (note,) = note_unused(["m", "sensor_delay@load encoder.delay"])
     assert "sensor_delay@load encoder.delay" in note
     assert "not used" in note
-    assert unused(["m", "k"]) == []
+    assert note_unused(["m", "k"]) == []

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from scipy.stats import binom
 
-from lostmotion.diagnosis.notes import vague
+from lostmotion.diagnosis.notes import note_unknown_position
 from lostmotion.inference.fit import maximise
 from lostmotion.inference.setup import choose_steps, compute_scales, make_problem, search_maximum, split_heldout
 from lostmotion.inference.unseen import smooth_body_position
@@ -158,17 +158,17 @@ def test_a_position_that_no_sensor_shows_is_told_with_its_band():
     error = place.mean - states[:, 0]
     assert np.mean(np.abs(error) < 2.0 * place.sd) > 0.9
     assert np.std(error) > 0.3 * np.sqrt(np.mean(place.sd**2))
-    assert vague(fit, observation) == []
+    assert note_unknown_position(fit, observation) == []
     loud = replace(fit, local=replace(fit.local, theta=fit.theta + 10.0 * (np.array(fit.problem.keys) == RANDOM)))
     pairs = zip(fit.problem.free, loud.theta, strict=True)
     levels = [replace(f, low=x, high=x) if f.key == RANDOM else f for f, x in pairs]
-    (said,) = vague(replace(loud, problem=replace(fit.problem, free=tuple(levels))), observation)
+    (said,) = note_unknown_position(replace(loud, problem=replace(fit.problem, free=tuple(levels))), observation)
     told = re.search(r"known to \+-(\S+) mm only .* (\S+) % of its amplitude", said)
     amplitude = 1e3 * math.sqrt(2.0) * states[:, 0].std()
     assert float(told[1]) / amplitude == pytest.approx(0.01 * float(told[2]), rel=0.15)
     assert float(told[2]) > 1.0
     shown = Observation.of("seen", states[:, 0], observation.inputs, machine.dt, "position")
-    assert vague(fit, shown) == []
+    assert note_unknown_position(fit, shown) == []
 
 
 @pytest.mark.slow

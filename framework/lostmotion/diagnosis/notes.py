@@ -7,11 +7,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from lostmotion.diagnosis.decays import note_anew
+from lostmotion.diagnosis.decays import note_restarts
 from lostmotion.diagnosis.findings import Outcome
-from lostmotion.diagnosis.repetitions import repetition_notes
-from lostmotion.diagnosis.search import Diagnosed
-from lostmotion.diagnosis.states import unsteady
+from lostmotion.diagnosis.repetitions import note_repetitions
+from lostmotion.diagnosis.search import SearchResult
+from lostmotion.diagnosis.states import warn_of_moved_amplitudes
 from lostmotion.inference.contacts import list_short_contacts
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.unseen import smooth_body_position
@@ -28,31 +28,38 @@ LOUD, DEAFENING = 0.3, 0.8
 """Noise with a memory, and any noise, that makes up this share of what a sensor shows may as well be motion."""
 
 
-def notes_of(outcome: Outcome, said: Sequence[str]) -> list[str]:
+def write_notes(outcome: Outcome, said: Sequence[str]) -> list[str]:
     """Return the notes of a diagnosis: what the recordings `said` of themselves, and what a reader should doubt."""
     d = outcome.diagnosis
-    doubts = [*list_short_contacts(d.after), *_declined(d), *_on_the_edge(d), *_far_off(outcome), *_slow(d)]
-    doubts += [text for key in d.named for text in unsteady(d, key)]
+    doubts = [
+        *list_short_contacts(d.after),
+        *_note_declined(d),
+        *_note_bounds(d),
+        *_note_large_errors(outcome),
+        *_note_ar1_noise(d),
+    ]
+    doubts += [text for key in d.named for text in warn_of_moved_amplitudes(d, key)]
     if d.selection.stopped:
         doubts.append(
-            f"The search ended after {len(d.selection.visits)} sets of terms, which is its bound: what is left is told"
+            f"The search ended after {len(d.selection.fitted_sets)} sets of terms, which is its bound: what is left"
+            " is told"
             " as left."
         )
-    again = repetition_notes(_recordings(d), d.train, d.held)
-    return [*said, *_unrecorded(d), *doubts, *again, *vague(d.after, d.shown)]
+    again = note_repetitions(_list_recordings(d), d.train, d.held)
+    return [*said, *_note_unrecorded_inputs(d), *doubts, *again, *note_unknown_position(d.after, d.shown)]
 
 
-def _recordings(d: Diagnosed) -> tuple[Observation, ...]:
+def _list_recordings(d: SearchResult) -> tuple[Observation, ...]:
     """Return the recordings as a whole."""
     return (*d.train, *d.held) if d.shown is d.held[0] else (d.shown,)
 
 
-def _unrecorded(d: Diagnosed) -> list[str]:
+def _note_unrecorded_inputs(d: SearchResult) -> list[str]:
     """Return a note for each recording without an input that something drove all the same."""
-    return [note for observation in _recordings(d) for note in note_anew(observation)]
+    return [note for observation in _list_recordings(d) for note in note_restarts(observation)]
 
 
-def _slow(d: Diagnosed) -> list[str]:
+def _note_ar1_noise(d: SearchResult) -> list[str]:
     """Return a note for each sensor whose noise has a memory, which white noise and a random force would imitate."""
     problem, theta, notes = d.after.problem, d.after.theta, []
     for i, sensor in enumerate(d.shown.sensors):
@@ -68,7 +75,7 @@ def _slow(d: Diagnosed) -> list[str]:
     return notes
 
 
-def drowned(outcome: Outcome) -> list[str]:
+def note_large_noise(outcome: Outcome) -> list[str]:
     """Return a sentence for each sensor of which so much passes for noise, where held out, that it may be motion."""
     d, told = outcome.diagnosis, []
     problem, theta = d.after.problem, d.after.theta
@@ -85,7 +92,7 @@ def drowned(outcome: Outcome) -> list[str]:
     return told
 
 
-def _declined(d: Diagnosed) -> list[str]:
+def _note_declined(d: SearchResult) -> list[str]:
     declined = sorted(d.selection.declined - set(d.found))
     if not declined:
         return []
@@ -95,7 +102,7 @@ def _declined(d: Diagnosed) -> list[str]:
     ]
 
 
-def _on_the_edge(d: Diagnosed) -> list[str]:
+def _note_bounds(d: SearchResult) -> list[str]:
     """Return a note for each parameter that presses against a bound of its prior."""
     notes = []
     for f, at in zip(d.after.problem.free, d.after.theta, strict=True):
@@ -109,7 +116,7 @@ def _on_the_edge(d: Diagnosed) -> list[str]:
     return notes
 
 
-def _far_off(outcome: Outcome) -> list[str]:
+def _note_large_errors(outcome: Outcome) -> list[str]:
     d = outcome.diagnosis
     noises = [d.after.problem.measurement(d.after.theta, 0, i) ** 0.5 for i in range(len(d.shown.sensors))]
     errors = zip(outcome.after.by_sensor, outcome.after.scales, noises, strict=True)
@@ -122,7 +129,7 @@ def _far_off(outcome: Outcome) -> list[str]:
     ]
 
 
-def vague(fit: Fit, observation: Observation) -> list[str]:
+def note_unknown_position(fit: Fit, observation: Observation) -> list[str]:
     """Return a note where no sensor of a recording shows the position and it is not known well."""
     if shows_place(observation):
         return []

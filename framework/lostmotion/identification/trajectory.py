@@ -14,7 +14,7 @@ from lostmotion.errors import CaseError, nearest
 from lostmotion.identification.sampling import SampledPosterior, SamplingPlan, Task, identify, make_task
 from lostmotion.inference.candidates import compute_slopes, fit_term, run_score_test
 from lostmotion.inference.fit import Fit, maximise, restart
-from lostmotion.inference.leftovers import significant_random_force
+from lostmotion.inference.random_force import compute_random_force_gain
 from lostmotion.inference.setup import (
     SHARED,
     find_modes,
@@ -111,7 +111,7 @@ def _apply_case_priors(fit: Fit, case: CaseFile) -> Fit:
 
 def write_warnings(fit: Fit) -> list[str]:
     """Return a warning where the intervals are too narrow although the chain has converged."""
-    if significant_random_force(fit) <= fit.problem.settings.locate.significant:
+    if compute_random_force_gain(fit) <= fit.problem.settings.locate.significant:
         return []
     return [
         "A force remains that this model does not explain. The intervals assume that the model is right: here they are"

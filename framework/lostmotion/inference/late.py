@@ -10,7 +10,7 @@ import numpy as np
 from lostmotion.contracts import Array
 from lostmotion.inference.fit import Fit, Sensitivity, maximise, restart
 from lostmotion.inference.natural import find_term
-from lostmotion.inference.standing import standing
+from lostmotion.inference.significance import measure_significance
 from lostmotion.likelihood.problem import FreeParameter, Problem
 from lostmotion.likelihood.system import ALWAYS, onset_key
 from lostmotion.quantities import TIME
@@ -96,7 +96,7 @@ def drop_weak_onsets(fit: Fit) -> Fit:
     for key in sorted(fit.problem.active):
         if find_onset(fit.problem, key) > ALWAYS and fit.status != "diverged":
             ever = maximise(restart(fit).hold_values({onset_key(key): ALWAYS}), fit.theta)
-            needed = (PRICE + fit.problem.settings.select.onset) * standing(fit)[1] ** 2
+            needed = (PRICE + fit.problem.settings.select.onset) * measure_significance(fit)[1] ** 2
             if ever.status != "diverged" and not fit.log_evidence - ever.log_evidence > needed:
                 fit = ever
     return fit

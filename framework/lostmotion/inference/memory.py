@@ -13,10 +13,10 @@ from dataclasses import replace
 import numpy as np
 
 from lostmotion.inference.candidates import Shapes
-from lostmotion.inference.course import Selection
 from lostmotion.inference.fit import Fit, maximise, use_cores
-from lostmotion.inference.leftovers import significant_random_force
+from lostmotion.inference.random_force import compute_random_force_gain
 from lostmotion.inference.selection import Progress, Promise, Selector
+from lostmotion.inference.term_sets import Selection
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.levels import make_ar1_levels
 from lostmotion.likelihood.problem import Problem
@@ -36,9 +36,9 @@ def select_with_noise_memory(
     course = Selector(nominal, keys, say, shapes, promise).run()
     chosen = course.chosen
     least = chosen.problem.settings.select.noise_memory_tried
-    if not chosen.problem.active and significant_random_force(chosen) < least:
+    if not chosen.problem.active and compute_random_force_gain(chosen) < least:
         return course
-    say("measurement noise with a memory")
+    say("AR(1) measurement noise")
     coloured = fit_noise_memory(chosen)
     if coloured is None or not is_memory_supported(chosen, coloured):
         return course
@@ -48,7 +48,7 @@ def select_with_noise_memory(
     if bare is None or bare.status == "diverged":
         return course
     again = Selector(bare, keys, say, shapes, promise)
-    return again.resumed(coloured) if chosen.problem.active else again.run()
+    return again.resume(coloured) if chosen.problem.active else again.run()
 
 
 def _add_same_memory(nominal: Fit, coloured: Fit) -> Fit | None:

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from lostmotion.inference.candidates import Shapes
-from lostmotion.inference.course import Selection
 from lostmotion.inference.fit import Fit, maximise
 from lostmotion.inference.memory import select_with_noise_memory
 from lostmotion.inference.selection import Progress, Promise, Selector
+from lostmotion.inference.term_sets import Selection
 from lostmotion.inference.unseen import refit_start
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.problem import Problem
@@ -32,13 +32,13 @@ def search_stretches(
         return select_with_noise_memory(nominal, keys, say, shapes, promise)
     say(f"search on {short.samples} samples in {len(short.observations)} stretches")
     course = select_with_noise_memory(refit_start(maximise(short, nominal.theta)), keys, say, shapes, promise)
-    say("what was found, on all samples")
+    say("fit of the terms that were found, on all samples")
     whole = nominal.problem.observations
-    fits = (course.nominal, course.chosen, *course.close())
+    fits = (course.nominal, course.chosen, *course.list_close_fits())
     bare, chosen, *rivals = (maximise(f.problem.on(whole), f.theta) for f in fits)
     if "diverged" in (bare.status, chosen.status):
         return select_with_noise_memory(nominal, keys, say, shapes, promise)
-    return Selector(bare, keys, say, shapes, promise).verified(chosen, [f for f in rivals if f.status != "diverged"])
+    return Selector(bare, keys, say, shapes, promise).verify(chosen, [f for f in rivals if f.status != "diverged"])
 
 
 def cut_stretches(problem: Problem) -> Problem:

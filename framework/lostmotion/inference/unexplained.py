@@ -14,9 +14,9 @@ from lostmotion.inference.candidates import compute_slopes
 from lostmotion.inference.curves import CHOICES, ROUNDS, add_all_curves, fit_curve, run_curve_test
 from lostmotion.inference.fit import Fit, maximise
 from lostmotion.inference.learned import LearnedCurve
-from lostmotion.inference.leftovers import significant_random_force
 from lostmotion.inference.natural import find_term
-from lostmotion.inference.prices import price_of
+from lostmotion.inference.penalties import compute_penalty
+from lostmotion.inference.random_force import compute_random_force_gain
 from lostmotion.inference.surfaces import RICHER
 from lostmotion.likelihood.problem import RANDOM, Problem
 
@@ -75,7 +75,7 @@ class Search:
         term, _ = find_term(problem, key)
         if isinstance(term, LearnedCurve):
             return math.log(max(self.many, 1)) + 1.0 + CHOICES
-        return price_of(term, self.many, problem.settings)
+        return compute_penalty(term, self.many, problem.settings)
 
     def learn(self, fit: Fit, count: int = FITTED, *, richer: bool = False) -> None:
         """Fit the curves that promise most on top of a fit, if they promise to be decisive, and to reach the best set.
@@ -161,7 +161,7 @@ class CurveSearch:
         if chosen.problem.active:
             search.learn(before, 1)
         plain = _select_best(search)
-        if plain is None or significant_random_force(plain) > 0.0:
+        if plain is None or compute_random_force_gain(plain) > 0.0:
             search.learn(after, richer=True)
             search.learn(before, 1, richer=True)
         best = _select_best(search)
@@ -169,7 +169,7 @@ class CurveSearch:
             best = search.bare(best)
         if best is None or _changes_named_law(best, after):
             return None
-        while len(_list_curves(best.problem)) < int(limits.most_curves) and significant_random_force(best) > 0.0:
+        while len(_list_curves(best.problem)) < int(limits.most_curves) and compute_random_force_gain(best) > 0.0:
             search.learn(best, 1)
             further = _select_best(search, best.problem.active) or best
             if further.problem.active == best.problem.active:
@@ -184,7 +184,7 @@ class CurveSearch:
             return None
         alone = bool(chosen.problem.active) and best.problem.active == frozenset(_list_curves(best.problem))
         if chosen.problem.samples > best.problem.samples:
-            self.say("learned curves on all of the recording")
+            self.say("fit of the learned curves on all samples")
             whole = best.problem.on(chosen.problem.observations)
             best = maximise(whole, best.theta, rounds=ROUNDS, tolerance=0.3)
         return UnknownForce(best, _list_curves(best.problem), gain, alone)

@@ -12,11 +12,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from lostmotion.diagnosis.compare import pieces_of, predict, rates_of
+from lostmotion.diagnosis.compare import compute_rates, cut_heldout, predict
 from lostmotion.inference.candidates import join_term
 from lostmotion.inference.fit import Fit, maximise, raise_random_force, restart
-from lostmotion.inference.leftovers import significant_random_force
 from lostmotion.inference.natural import find_term
+from lostmotion.inference.random_force import compute_random_force_gain
 from lostmotion.inference.setup import choose_steps, make_problem, polish_fit, split_heldout
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.predict import Horizon
@@ -146,7 +146,7 @@ def _find_status(effect: Effect, key: str | None) -> str:
 
 def _gain_without_term(fit: Fit, effect: Effect) -> float:
     """Return the gain of what is no term: a random force beyond the usual."""
-    return significant_random_force(fit) if effect.mechanism == "random_force" else math.nan
+    return compute_random_force_gain(fit) if effect.mechanism == "random_force" else math.nan
 
 
 def _start_at_truth(problem: Problem, machine: SealedMachine) -> Problem:
@@ -185,12 +185,12 @@ def _add_term(problem: Problem, key: str, truth: Mapping[str, float]) -> Problem
 
 def _predict_heldout(fit: Fit, prepared: Prepared, held: Sequence[Observation], said: HeldOutScores) -> float:
     """Return the error of free runs of a fit on held-out data, over the horizon that a diagnosis chose."""
-    pieces = pieces_of(prepared.observations, held)
+    pieces = cut_heldout(prepared.observations, held)
     observation = pieces[0].observation
     unit_time, number = said.horizon_unit_time, said.after.horizon
     steps = int(min(max(round(number * unit_time / observation.dt), 2), observation.samples // 4))
     horizon = Horizon(steps, number, said.horizon_unit, unit_time)
-    error = predict(fit, pieces, horizon, rates_of(fit, prepared.observations)).nrmse
+    error = predict(fit, pieces, horizon, compute_rates(fit, prepared.observations)).nrmse
     return float(error) if np.isfinite(error) else math.nan
 
 
