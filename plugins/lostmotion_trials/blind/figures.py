@@ -36,7 +36,7 @@ CAPTIONS = {
 
 def draw_detection(told: ProofSummary) -> Figure:
     """Return the share of effects that were named, over their size, with the limit of the likelihood-ratio test."""
-    figure = style.blank(3.6)
+    figure = style.make_figure(3.6)
     axes = figure.subplots()
     limit = told.limit
     axes.plot(limit.gain, limit.informed, color=EDGE, linestyle=(0, (5, 3)), label="likelihood-ratio limit")
@@ -77,7 +77,7 @@ def _draw_banded(axes: Axes, places: Array, rows: Sequence[Rate]) -> None:
 
 def draw_reliability(told: ProofSummary) -> Figure:
     """Return the share of mechanisms that were present, over the probability that was stated."""
-    figure = style.blank(3.6)
+    figure = style.make_figure(3.6)
     axes = figure.subplots()
     rows = [row for row in told.reliability if row.rate.of]
     axes.plot([0.0, 1.0], [0.0, 1.0], color=EDGE, linewidth=0.8, linestyle=(0, (3, 2)))
@@ -91,7 +91,7 @@ def draw_reliability(told: ProofSummary) -> Figure:
 
 def draw_heldout(told: ProofSummary) -> Figure:
     """Return the errors of found models over those of the true ones, in order."""
-    figure = style.blank(2.6)
+    figure = style.make_figure(2.6)
     axes = figure.subplots()
     ratios = np.array(told.heldout.ratios)
     axes.axhspan(1.0 / 1.05, 1.05, color=style.SHADE, zorder=0)

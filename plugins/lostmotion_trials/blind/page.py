@@ -12,8 +12,8 @@ from matplotlib.figure import Figure
 
 from lostmotion.codec import from_plain, to_plain
 from lostmotion.report import style
-from lostmotion.report.pages import DrawnSection, template, written
-from lostmotion.report.words import DASH, figures, percent, sentence, spoken, typeset
+from lostmotion.report.pages import DrawnSection, load_template, write_page
+from lostmotion.report.words import DASH, figures, percent, sentence, to_words, typeset
 from lostmotion.storage import load_json, require_files
 from lostmotion_trials.blind.figures import CAPTIONS, draw_detection, draw_heldout, draw_reliability
 from lostmotion_trials.blind.results import (
@@ -59,19 +59,19 @@ def write_proof(folder: Path) -> Path:
     require_files(folder, ["proof.json"], "lostmotion prove")
     path = folder / "proof.json"
     proof = from_plain(Proof, load_json(path, AGAIN), str(path))
-    return written(folder / "report.html", lambda: render(proof), AGAIN)
+    return write_page(folder / "report.html", lambda: render(proof), AGAIN)
 
 
 def render(proof: Proof) -> str:
     """Return the page as one self-contained HTML text."""
     told = proof.summary
-    with style.applied():
+    with style.use_style():
         parts = _list_figures(told)
         drawn = [
-            DrawnSection(name, title, style.embedded(figure, name), CAPTIONS[name]) for name, title, figure in parts
+            DrawnSection(name, title, style.embed_figure(figure, name), CAPTIONS[name]) for name, title, figure in parts
         ]
     states = [row.state for row in told.targets]
-    return template("page.html.j2", __package__).render(
+    return load_template("page.html.j2", __package__).render(
         title=proof.title,
         badge=_choose_badge(states),
         passes="missed" not in states and "met" in states,
@@ -164,7 +164,7 @@ def _list_tables(told: ProofSummary) -> Iterator[Listed]:
         "For parameters of a mechanism: cases with white noise in which it was named exactly. For parameters of the"
         " machine: cases with white noise in which everything was named exactly.",
     )
-    rows = [_make_plain_cells(spoken(row.truth), spoken(row.answer), str(row.cases)) for row in told.confusion]
+    rows = [_make_plain_cells(to_words(row.truth), to_words(row.answer), str(row.cases)) for row in told.confusion]
     yield Listed("What was taken for what", ["Truth", "Answer", "Times"], rows, "")
 
 
@@ -192,10 +192,10 @@ def _list_mechanisms(told: ProofSummary, outcomes: list[str], note: str) -> List
     head = ["Named", "Share, 95 % band"]
     counts = [(row, [*_format_rate(row.counts.rate), *_format_outcomes(row.counts)]) for row in told.mechanisms]
     if told.sure:
-        rows = [_make_plain_cells(spoken(row.mechanism), *cells) for row, cells in counts]
+        rows = [_make_plain_cells(to_words(row.mechanism), *cells) for row, cells in counts]
         return Listed("By mechanism", ["Mechanism", *head, *outcomes], rows, note.partition("; in brackets")[0] + ".")
     rows = [
-        _make_plain_cells(spoken(row.mechanism), figures(row.median_gain), *cells, row.bound_status)
+        _make_plain_cells(to_words(row.mechanism), figures(row.median_gain), *cells, row.bound_status)
         for row, cells in counts
     ]
     return Listed("By mechanism", ["Mechanism", "Median gain", *head, *outcomes, "True model"], rows, "")
@@ -214,7 +214,7 @@ def _format_outcomes(row: Outcomes) -> list[str]:
 
 def _format_parameter(name: str) -> str:
     mechanism, dot, parameter = name.partition(".")
-    return f"{spoken(mechanism)}, {parameter}" if dot else name
+    return f"{to_words(mechanism)}, {parameter}" if dot else name
 
 
 def _list_cases(told: ProofSummary) -> Iterator[tuple[str, list[str]]]:
@@ -226,15 +226,15 @@ def _list_cases(told: ProofSummary) -> Iterator[tuple[str, list[str]]]:
 
 
 def _describe_miss(one: Miss, *, rough: bool) -> str:
-    what = one.what or spoken(one.mechanism)
+    what = one.what or to_words(one.mechanism)
     at = f" at the {one.at}" if one.at else ""
     gain = one.status if math.isnan(one.gain) else f"gain {figures(one.gain)}"
     size = "" if rough else f" ({gain})"
-    named = ", ".join(map(spoken, one.named)) or "nothing"
+    named = ", ".join(map(to_words, one.named)) or "nothing"
     margin = "" if math.isnan(one.margin) or not one.named else f", which fits worse by {figures(one.margin, 2)}"
     return f"{one.folder}: {what}{at}{size}, {one.outcome}; named was {named}{margin}."
 
 
 def _describe_alarm(one: FalseAlarm) -> str:
-    truth = ", ".join(map(spoken, one.truth)) or "nothing"
-    return f"{one.folder}: {', '.join(map(spoken, one.named))}; hidden was {truth}."
+    truth = ", ".join(map(to_words, one.truth)) or "nothing"
+    return f"{one.folder}: {', '.join(map(to_words, one.named))}; hidden was {truth}."

@@ -11,7 +11,7 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 from lostmotion.report import style
-from lostmotion.report.pages import template
+from lostmotion.report.pages import load_template
 from lostmotion.storage import whole
 from lostmotion_trials.paper import draw_basins as paper_basins
 from lostmotion_trials.paper import draw_curves as paper_curves
@@ -54,7 +54,7 @@ class PageEntry:
 
 def draw_figure(name: str, data: Drawing, folder: Path) -> tuple[str, ...]:
     """Draw the figure `name` and return the names of its files."""
-    with style.applied():
+    with style.use_style():
         return tuple(paper_style.save_figure(DRAWINGS[name](data), folder, name))
 
 
@@ -80,7 +80,9 @@ def write_index(folder: Path, entries: list[PageEntry], effort: str) -> Path:
     counts = {e.verdict: sum(x.verdict == e.verdict for x in entries) for e in entries}
     with whole(page) as spare:
         spare.write_text(
-            template("page.html.j2", __package__).render(entries=entries, counts=sorted(counts.items()), effort=effort),
+            load_template("page.html.j2", __package__).render(
+                entries=entries, counts=sorted(counts.items()), effort=effort
+            ),
             encoding="utf-8",
         )
     return page

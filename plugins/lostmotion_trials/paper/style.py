@@ -42,7 +42,7 @@ def save_figure(figure: Figure, folder: Path, name: str) -> list[str]:
 
 def make_panels(rows: int, columns: int, height: float, **options: Any) -> tuple[Figure, list[Axes]]:
     """Return a figure of `height` inches and its panels, row by row."""
-    figure = style.blank(height)
+    figure = style.make_figure(height)
     made = figure.subplots(rows, columns, squeeze=False, **options)
     return figure, [axes for row in made for axes in row]
 
