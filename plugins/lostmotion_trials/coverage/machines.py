@@ -106,7 +106,7 @@ def record_machine(system: System, full: Array, bench: Stand, drive: str, rng: n
     run = _DrivenRun(signal, bench.rate, 2 * bench.samples)
     response = _choose_mover(system)(system, full, run, of_start.uniform(-1.0, 1.0, 2))[bench.samples :]
     if not np.isfinite(response).all():
-        raise DataError(f"the simulated motion of {system.model.name} left all bounds")
+        raise DataError(f"the simulated motion of {system.model.name} diverges")
     excitation = signal.value(np.arange(bench.samples, run.samples) / bench.rate)
     loud = bench.excitation_noise * math.sqrt(2.0) * float(np.std(excitation))
     noise = bench.noise * float(np.std(response))
