@@ -200,7 +200,7 @@ def _list_tied(selection: Selection, here: TermSet, decisive: float) -> list[Ter
 
 
 def _score_heldout(fit: Fit, pieces: Sequence[HeldOutStretch]) -> float:
-    """Return the log score of one-step predictions of held-out data; minus infinity where a filter runs away."""
+    """Return the log score of one-step predictions of held-out data; minus infinity where a filter diverges."""
     total = 0.0
     for piece in pieces:
         seen = filter_recording(fit.problem.on((piece.observation,)), fit.theta)

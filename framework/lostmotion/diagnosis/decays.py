@@ -28,7 +28,7 @@ MOST_STRETCHES, MOST_CYCLES = 10, 240
 """So many hits are looked at, and so many cycles of all of them together: a tenth of a second or two."""
 DIGITS = 5
 BOUND = 1e3
-"""A free run beyond so many times the largest reading runs away."""
+"""A free run diverges when it exceeds so many times the largest reading."""
 PARTS, FEWEST = 8, 3
 """Parts of a decay in which a model is compared with the recording, and the fewest cycles of a part."""
 KNOWN, SURE, OVERLAP = 0.02, 3.0, 5
@@ -38,8 +38,8 @@ REACH = 1.2
 LEVEL, NEAR, CLOSE = 0.05, 0.15, 0.02
 """Change of a decrement that counts as none; distances of decrement and frequency up to which a model follows."""
 NONE_MEASURED = (
-    "No free decay could be measured: wanted are four cycles or more of one mode, which stand out of the noise and fall"
-    " by 10 % or more."
+    "No free decay could be measured: at least four cycles of one mode are needed, above the noise, whose amplitude"
+    " falls by 10 % or more."
 )
 
 

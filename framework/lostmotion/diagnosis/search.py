@@ -45,7 +45,7 @@ MANY = 2
 MOST_REPLACEMENTS = 3
 """So many sets are tried in place of one that held-out data have refuted."""
 LARGEST = 1e100
-"""A missing force beyond this means that the filter ran away: its square could not be taken."""
+"""A missing force beyond this means that the filter diverged: its square could not be computed."""
 
 
 def list_fitted_keys(system: System) -> tuple[str, ...]:

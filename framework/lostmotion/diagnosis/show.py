@@ -173,7 +173,7 @@ def _estimate_of_model(
     recorded, registry, rng = given
     x = observe_states(fit.problem.on((observation,)), fit.theta, states)
     if not np.isfinite(x).all():
-        return Estimate.refused("diverged", "The free run leaves all bounds.")
+        return Estimate.refused("diverged", "The free run diverges.")
     try:
         return _estimate_dimension(replace(recorded, x=checked(x)), registry, rng, 0.0)
     except LostMotionError as err:

@@ -76,7 +76,7 @@ def _describe_distance(entry: Distance, strobed: bool) -> str:
     if entry.status == "too_short":
         return f"{opening}: the recording holds too few points."
     if entry.status != "ok":
-        return f"{opening}: the free run leaves all bounds."
+        return f"{opening}: the free run diverges."
     closing = "the floor is that between the halves of the recording"
     if entry.p < LUCK:
         return f"{opening}: farther apart than chance would have it (p = {entry.p:.2g}); {closing}."

@@ -114,7 +114,7 @@ def _compute_ratio(fit: Fit, slopes: Sensitivity, key: str, term: LearnedCurve) 
     joint, k = join_curve(fit, slopes, key), len(slopes.theta)
     try:
         gradient, information, pulled = project_from(fit, joint, k)
-    except np.linalg.LinAlgError:  # the filter ran away
+    except np.linalg.LinAlgError:  # the filter diverged
         return LikelihoodRatio(-math.inf, -math.inf)
     scores = joint.scores()
     sums = _sum_blocks(scores[k:] - pulled.T @ scores[:k])

@@ -99,4 +99,4 @@ def _format_target(target: Target) -> str:
     if not found.of:
         return f"{target.state:<9}  {target.what}"
     share = f"{found.hits}/{found.of} = {found.share:.0%} [{found.low:.0%}, {found.high:.0%}]"
-    return f"{target.state:<9}  {target.what}: {share}, wanted {target.at_least:.0%} to {target.at_most:.0%}"
+    return f"{target.state:<9}  {target.what}: {share}, expected {target.at_least:.0%} to {target.at_most:.0%}"
