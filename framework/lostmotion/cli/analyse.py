@@ -11,6 +11,7 @@ from lostmotion.cli._lazy import PluginName, examples, registry_of
 from lostmotion.cli.options import on_a_trial, settable
 from lostmotion.cli.progress import progress
 from lostmotion.defaults import EMBEDDER
+from lostmotion.results import rounded
 
 if TYPE_CHECKING:
     from lostmotion.results.analysis import Analysis, Measure
@@ -82,4 +83,6 @@ def _measure_line(found: Measure) -> str:
     if found.value != found.value:
         return f"no number: {found.says}"
     unit = "" if found.unit == "1" else f" {found.unit}"
-    return f"{found.value:.3g}{unit}  95 % [{found.low:.3g}, {found.high:.3g}]  {found.says}".rstrip()
+    return (
+        f"{rounded(found.value, 3)}{unit}  95 % [{rounded(found.low, 3)}, {rounded(found.high, 3)}]  {found.says}"
+    ).rstrip()

@@ -25,6 +25,7 @@ from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.predict import filtered
 from lostmotion.likelihood.problem import RANDOM
 from lostmotion.quantities import TIME
+from lostmotion.results import percent, rounded
 
 ASKED = 3
 """So many sets of each size are asked what they predict."""
@@ -50,8 +51,9 @@ def unconfirmed(outcome: Outcome, observations: Sequence[Observation]) -> dict[s
         elif without is not None and not confirmed(errors, without, d.settings.heldout.chance):
             told[key] = (
                 "The model is not right in other ways too, and free runs over held-out data are better with it in"
-                f" {int(np.sum(errors < without))} of {len(errors)} parts only (they err by {_whole(errors):.2%} of the"
-                f" response with it and by {_whole(without):.2%} without it), which is within chance."
+                f" {int(np.sum(errors < without))} of {len(errors)} parts only (they err by"
+                f" {percent(_whole(errors), 3)} of the"
+                f" response with it and by {percent(_whole(without), 3)} without it), which is within chance."
             )
     return told
 
@@ -240,7 +242,7 @@ def usual(d: Diagnosed, key: str) -> str:
     if samples > d.settings.rival.late:
         return ""
     return (
-        f"A delay of {samples:.2g} samples is within what acquisition systems have as a rule, and the model is not"
+        f"A delay of {rounded(samples)} samples is within what acquisition systems have as a rule, and the model is not"
         " right in other ways too."
     )
 

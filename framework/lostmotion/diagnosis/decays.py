@@ -18,7 +18,7 @@ from lostmotion.likelihood.predict import free_run, observed
 from lostmotion.quantities import quantity_of, unit_of
 from lostmotion.recording.warnings import is_impulsive
 from lostmotion.report.words import readable, spoken
-from lostmotion.results import percent
+from lostmotion.results import percent, rounded
 from lostmotion.results.behaviour import DecayCycles, Decays
 from lostmotion.signals.decay import Decay, decay_of
 from lostmotion.signals.impacts import hits_of, onsets_of
@@ -100,7 +100,9 @@ def note_anew(observation: Observation) -> Iterator[str]:
     """Yield a note where a vibration begins anew in a recording without any input."""
     if not observation.free:
         return
-    times = [f"{place * observation.dt:.4g} s" for place in onsets_of(observation.response, observation.dt) if place]
+    times = [
+        f"{rounded(place * observation.dt, 4)} s" for place in onsets_of(observation.response, observation.dt) if place
+    ]
     if times:
         where = times[0] if len(times) == 1 else f"{', '.join(times[:-1])} and {times[-1]}"
         yield (
@@ -159,7 +161,7 @@ def _decay_sentence(d: Diagnosed, measured: Measured, models: dict[str, list[Dec
     opening = ""
     if len(measured) > 1:
         begun = (d.shown.begin + stretch.start) * d.shown.dt
-        opening = f"Of {len(measured)} decays, the one from {begun:.4g} s on goes furthest: "
+        opening = f"Of {len(measured)} decays, the one from {rounded(begun, 4)} s on goes furthest: "
     words = says(decay, scale.unit, factor=scale.factor)
     parts = [_beside(_named(d, name), decay, made[widest]) for name, made in models.items()]
     compared = "; ".join(parts)
@@ -195,8 +197,8 @@ def _range(values: Array, what: str, unit: str = "") -> str:
     """Return "a decrement of 0.094 at all amplitudes", or from where to where it goes as the motion dies."""
     middle, first, last = (float(v) for v in (np.median(values), values[0], values[-1]))
     if abs(last - first) < (LEVEL if not unit else 0.1 * LEVEL) * abs(middle):
-        return f"{what} of {middle:.3g}{unit} at all amplitudes"
-    return f"{what} that goes from {first:.3g} to {last:.3g}{unit}"
+        return f"{what} of {rounded(middle, 3)}{unit} at all amplitudes"
+    return f"{what} that goes from {rounded(first, 3)} to {rounded(last, 3)}{unit}"
 
 
 def off(seen: Decay, made: Decay, name: str) -> float:

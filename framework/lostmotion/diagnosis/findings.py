@@ -19,7 +19,7 @@ from lostmotion.inference.mixture import draws
 from lostmotion.inference.natural import term_of
 from lostmotion.likelihood.predict import Horizon
 from lostmotion.quantities import unit_of
-from lostmotion.results import Interval, percent
+from lostmotion.results import Interval, percent, rounded
 from lostmotion.results.diagnosis import Mechanism
 
 DRAWS = 2000
@@ -89,8 +89,9 @@ def why_withheld(outcome: Outcome) -> str:
         return ""
     model = "model" if outcome.diagnosis.found else "nominal model"
     return (
-        f"The {model} does not hold: its free runs over held-out data err by {outcome.after.nrmse:.0%} of the response,"
-        f" where the noise is {floor:.1%}. What is missing is open, and intervals are withheld."
+        f"The {model} does not hold: its free runs over held-out data err by"
+        f" {percent(outcome.after.nrmse)} of the response,"
+        f" where the noise is {percent(floor)}. What is missing is open, and intervals are withheld."
     )
 
 
@@ -114,7 +115,7 @@ def _entry(outcome: Outcome, key: str, after: Mapping[str, Interval]) -> Mechani
     own = {s.param.name: after.get(s.key) or _of(np.full(1, held[s.key]), s.unit) for s in slots}
     why = why_withheld(outcome)
     shown_own = {name: i.with_angles_in(outcome.angle) for name, i in own.items()}
-    numbers = {name: f"{i.median:.3g} {i.unit}" if why else str(i) for name, i in shown_own.items()}
+    numbers = {name: f"{rounded(i.median, 3)} {i.unit}" if why else str(i) for name, i in shown_own.items()}
     numbers |= {q.name: q.words[q.choices.index(own[q.name].median)] for q in term.params if q.words}
     sentence = term.physics.format(**numbers) + _whose(d, term)
     if term.at in elsewhere(system.model):
@@ -151,7 +152,9 @@ def _quantised_entry(d: Diagnosed, key: str) -> Mechanism:
     channel = next((s.channel for s in d.shown.sensors if s.place == term.at), d.shown.channel)
     unit = unit_of(channel, d.after.problem.system.model.motion)
     own = {s.param.name: Interval(v, v - 1.96 * sd, v + 1.96 * sd, unit) for s, v, sd in rows}
-    sentence = term.physics.format(**{name: f"{i.median:.3g} {i.unit}" for name, i in own.items()}) + _whose(d, term)
+    sentence = term.physics.format(**{name: f"{rounded(i.median, 3)} {i.unit}" for name, i in own.items()}) + _whose(
+        d, term
+    )
     return Mechanism(
         mechanism=term.name,
         at=term.at,

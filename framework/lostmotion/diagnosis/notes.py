@@ -18,6 +18,7 @@ from lostmotion.inference.unseen import place_of_body
 from lostmotion.likelihood.initial import placed
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.space import LEVELS
+from lostmotion.results import percent, rounded
 
 FAR = 5.0
 """Held-out errors of an adequate model that are this many times the noise deserve a warning."""
@@ -62,7 +63,8 @@ def _slow(d: Diagnosed) -> list[str]:
             share = ar1 / problem.measurement(theta, 0, i)
             whose = f" of {sensor.label}" if len(d.shown.sensors) > 1 else ""
             notes.append(
-                f"{share:.0%} of the variance of the measurement noise{whose} has a memory of {lasts:.2g} s; the fit"
+                f"{percent(share)} of the variance of the measurement noise{whose} has a memory of"
+                f" {rounded(lasts)} s; the fit"
                 " allows for it."
             )
     return notes
@@ -77,7 +79,7 @@ def drowned(outcome: Outcome) -> list[str]:
         if ar1 > LOUD or share > DEAFENING:
             whose = f" of {sensor.label}" if len(d.shown.sensors) > 1 else ""
             told.append(
-                f"What passes for noise{whose}{' has a memory and' if ar1 > LOUD else ''} is {share:.0%} of the"
+                f"What passes for noise{whose}{' has a memory and' if ar1 > LOUD else ''} is {percent(share)} of the"
                 " held-out readings: it may be motion that the model cannot make, such as another mode, or a sensor"
                 " that does not show what the case says (check its sign and place); then neither what was found nor"
                 " that nothing was found holds."
@@ -103,7 +105,8 @@ def _on_the_edge(d: Diagnosed) -> list[str]:
         if f.level not in LEVELS and "." not in f.parameter and not f.low + reach < at < f.high - reach:
             bound = f.value(f.low if at <= f.low + reach else f.high)
             notes.append(
-                f"{f.key} lies on the bound {bound:.4g} {f.unit} of its prior: widen the prior, or doubt what is"
+                f"{f.key} lies on the bound {rounded(bound, 4)} {f.unit} of its prior: widen the"
+                " prior, or doubt what is"
                 " known; what was found may stand in for it."
             )
     return notes
@@ -117,7 +120,8 @@ def _far_off(outcome: Outcome) -> list[str]:
     if far < FAR:
         return []
     return [
-        f"Free runs over held-out data err by {far:.2g} times the measurement noise: something remains that one-step"
+        f"Free runs over held-out data err by {rounded(far)} times the measurement noise: something"
+        " remains that one-step"
         " errors do not show, or small errors of the state grow fast."
     ]
 
@@ -135,9 +139,10 @@ def vague(fit: Fit, observation: Observation) -> list[str]:
             "No sensor shows the position, and it cannot be told from the recording: do not trust what rests on it."
         ]
     rotation, share = fit.problem.system.model.motion == "rotation", 100.0 * reach / amplitude
-    size = f"{reach:.2g} rad" if rotation else f"{1e3 * reach:.2g} mm"
+    size = f"{rounded(reach)} rad" if rotation else f"{rounded(1e3 * reach)} mm"
     return [
         f"No sensor shows the position: it is known to +-{size} only (2 standard deviations, largest over the"
-        f" recording), {share:.2g} % of its amplitude; what rests on the position, such as a gap, is as uncertain as"
+        f" recording), {rounded(share)} % of its amplitude; what rests on the position, such as a"
+        " gap, is as uncertain as"
         " its interval says."
     ]

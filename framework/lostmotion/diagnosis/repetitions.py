@@ -9,6 +9,7 @@ import numpy as np
 
 from lostmotion.contracts import Array
 from lostmotion.likelihood.observation import Observation
+from lostmotion.results import rounded
 from lostmotion.signals.repetition import SAME, Repetition, repeated_share, repetition_of
 
 FEW, ENOUGH = 1.5, 4
@@ -54,7 +55,8 @@ def _same_again(train: Sequence[Observation], held: Sequence[Observation]) -> li
     looks = [looks_of(o) for o, _ in again]
     cyclic = all(one is not None and one.distinct < FEW for one in looks)
     return [
-        f"{what} the motion of the part that was fitted ({least:.4g} % of it): that predictions hold there convinces"
+        f"{what} the motion of the part that was fitted ({rounded(least, 4)} % of it): that"
+        " predictions hold there convinces"
         f" nobody of more than that {'cycle' if cyclic else 'motion'}."
     ]
 
@@ -67,7 +69,8 @@ def _one_cycle(observations: Sequence[Observation]) -> list[str]:
         if looks is not None and looks.cycles >= ENOUGH and looks.distinct < FEW:
             these = f"The {looks.cycles} cycles of {observation.name}"
             notes.append(
-                f"{these} count as {looks.distinct:.1f} distinct (the mean cycle is {100.0 * looks.share:.4g} % of the"
+                f"{these} count as {looks.distinct:.1f} distinct (the mean cycle is"
+                f" {rounded(100.0 * looks.share, 4)} % of the"
                 " motion). More cycles like these lessen the noise; another level, frequency or waveform shows another"
                 " motion."
             )

@@ -18,6 +18,7 @@ from lostmotion.inference.prices import related
 from lostmotion.likelihood.system import key_of
 from lostmotion.quantities import unit_of
 from lostmotion.report.words import sentence, spoken
+from lostmotion.results import rounded
 from lostmotion.results.diagnosis import Confusion, DecidingExcitation
 
 MOST = 2
@@ -119,7 +120,7 @@ def _opening(d: Diagnosed, term: Term, p: float) -> str:
         return f"This recording gives {_called(term)} a probability of {p:.2f}."
     return (
         f"This recording does not rule out {_called(term)}: only the price of its further parameters brings it to a"
-        f" probability of {p:.2g}."
+        f" probability of {rounded(p)}."
     )
 
 
@@ -135,14 +136,17 @@ def _says(d: Diagnosed, term: Term, p: float, proposal: Proposal) -> str:
             f"{opening} No excitation within the limits is expected to separate them by more than {max(gain, 0.0):.1f}"
             " in log-likelihood: measure this part of the machine by itself."
         )
-    against = f"{gain / repeat:.2g} times as much as a repeat" if repeat >= 1.0 else "and a repeat by less than one"
+    against = (
+        f"{rounded(gain / repeat)} times as much as a repeat" if repeat >= 1.0 else "and a repeat by less than one"
+    )
     whose = ""
     if proposal.counted == (1,):
-        whose = f" if it is {_called(term)} (if it is not, by {max(proposal.ways[0], 0.0):.2g})"
+        whose = f" if it is {_called(term)} (if it is not, by {rounded(max(proposal.ways[0], 0.0))})"
     if proposal.counted == (0,):
-        whose = f" if it is not {_called(term)} (if it is, by {max(proposal.ways[1], 0.0):.2g})"
+        whose = f" if it is not {_called(term)} (if it is, by {rounded(max(proposal.ways[1], 0.0))})"
     return (
-        f"{opening} {_asked(d, proposal)}: this should separate them by {gain:.2g} in log-likelihood{whose}, {against}."
+        f"{opening} {_asked(d, proposal)}: this should separate them by {rounded(gain)} in"
+        f" log-likelihood{whose}, {against}."
     )
 
 
@@ -151,8 +155,8 @@ def _asked(d: Diagnosed, proposal: Proposal) -> str:
     e, old = proposal.excitation, d.selection.chosen.problem.observations[0].travel
     change = e.level / old if old else 1.0
     verb = "Raise the drive to" if change > 1.05 else "Lower the drive to" if change < 0.95 else "Keep the drive at"
-    low, high = (f"{f:.3g}" for f in e.band)
+    low, high = (f"{rounded(f, 3)}" for f in e.band)
     shape = f"at {low} Hz" if low == high else f"and make it a {e.waveform} from {low} to {high} Hz"
     if e.waveform == "two tones":
         shape = f"and make it two tones, of {low} and {high} Hz"
-    return f"{verb} {e.level:.3g} {_unit(d)} {shape}"
+    return f"{verb} {rounded(e.level, 3)} {_unit(d)} {shape}"

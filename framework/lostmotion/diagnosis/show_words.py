@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from lostmotion.report.words import span
+from lostmotion.results import rounded
 from lostmotion.results.behaviour import (
     DimensionInterval,
     Distance,
@@ -50,7 +51,7 @@ def _score(last: ModelBehaviour, floor: NoiseFloor) -> str:
     opening = "Log density of held-out samples, one step ahead"
     if short < 0.02:
         return f"{opening}: as high as the last model itself expects."
-    return f"{opening}: {short:.2g} per sample below what the last model itself expects."
+    return f"{opening}: {rounded(short)} per sample below what the last model itself expects."
 
 
 def _error(last: ModelBehaviour, floor: NoiseFloor, horizon: HorizonLength) -> str:
@@ -58,7 +59,7 @@ def _error(last: ModelBehaviour, floor: NoiseFloor, horizon: HorizonLength) -> s
     opening = f"Free runs over {span(horizon.value, horizon.unit)}, over the deviation of the response"
     if ratio < 1.2:
         return f"{opening}: no more than the measurement noise."
-    return f"{opening}: {ratio:.2g} times the measurement noise."
+    return f"{opening}: {rounded(ratio)} times the measurement noise."
 
 
 def _valid(last: ModelBehaviour) -> str:
@@ -79,10 +80,10 @@ def _apart(entry: Distance, strobed: bool) -> str:
         return f"{opening}: the free run leaves all bounds."
     closing = "the floor is that between the halves of the recording"
     if entry.p < LUCK:
-        return f"{opening}: farther apart than chance would have it (p = {entry.p:.2g}); {closing}."
+        return f"{opening}: farther apart than chance would have it (p = {rounded(entry.p)}); {closing}."
     if entry.p < DOUBTFUL:
-        return f"{opening}: perhaps farther apart than chance would have it (p = {entry.p:.2g}); {closing}."
-    return f"{opening}: no farther apart than chance would have it (p = {entry.p:.2g}); {closing}."
+        return f"{opening}: perhaps farther apart than chance would have it (p = {rounded(entry.p)}); {closing}."
+    return f"{opening}: no farther apart than chance would have it (p = {rounded(entry.p)}); {closing}."
 
 
 def _exponent(entry: ExponentInterval, *, driven: bool) -> str:
@@ -92,7 +93,7 @@ def _exponent(entry: ExponentInterval, *, driven: bool) -> str:
     kind = (
         "near runs part: chaos" if entry.low > 0.0 else "near runs close up" if entry.high < 0.0 else "its sign is open"
     )
-    return f"{opening}, with the scatter over ten blocks: {kind} ({entry.value:.3g} 1/s)."
+    return f"{opening}, with the scatter over ten blocks: {kind} ({rounded(entry.value, 3)} 1/s)."
 
 
 def _dimension(recorded: DimensionInterval, model: DimensionInterval) -> str:
@@ -110,5 +111,5 @@ def _white(p: float, certain: float) -> str:
     if p < certain:
         return "Ljung-Box test of one-step errors: they still hold something that can be predicted."
     if p < 5.0 * certain:
-        return f"Ljung-Box test of one-step errors: they may hold something that can be predicted (p = {p:.2g})."
+        return f"Ljung-Box test of one-step errors: they may hold something that can be predicted (p = {rounded(p)})."
     return "Ljung-Box test of one-step errors: they cannot be told from white noise."

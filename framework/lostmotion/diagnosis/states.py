@@ -15,6 +15,7 @@ from lostmotion.inference.natural import term_of
 from lostmotion.inference.prices import related
 from lostmotion.quantities import TIME
 from lostmotion.report.words import spoken
+from lostmotion.results import percent, rounded
 from lostmotion.results.diagnosis import Mechanism, OpenTerm
 from lostmotion.settings import DEFAULT, NameSettings
 
@@ -53,14 +54,14 @@ def _less_sure(d: Diagnosed, key: str) -> Iterator[str]:
     if d.selection.simplest:
         yield (
             "It explains the fitted data better than any learned curve, and held-out data as well; but a small smooth"
-            f" force without a name explains about as much, so that its probability is {p:.2g}."
+            f" force without a name explains about as much, so that its probability is {rounded(p)}."
         )
         return
     if p > d.settings.name.sure:
         return
     others = _others(d, key)
     rivals = f"; its rivals are {', '.join(others)}" if others else "; its rival is a smooth force without a name"
-    yield f"Its probability is {p:.2g}{rivals}."
+    yield f"Its probability is {rounded(p)}{rivals}."
 
 
 def _find_as_good(d: Diagnosed, key: str) -> Iterator[str]:
@@ -93,7 +94,7 @@ def _decided_late(d: Diagnosed, key: str) -> Iterator[str]:
     if chosen in d.selection.scored and key in d.selection.unbeaten:
         yield (
             "On the data that were fitted a small smooth force without a name explains about as much; held-out data"
-            f" decide, by {d.selection.scored[chosen]:.2g} in log score."
+            f" decide, by {rounded(d.selection.scored[chosen])} in log score."
         )
 
 
@@ -102,13 +103,14 @@ def _beside(d: Diagnosed, key: str) -> Iterator[str]:
     limits = d.settings.name
     if d.learned and won_by(d, key) < limits.beside * d.learned.gain:
         yield (
-            f"It wins {won_by(d, key):.3g} in log evidence, and what has no name beside it wins {d.learned.gain:.3g}:"
+            f"It wins {rounded(won_by(d, key), 3)} in log evidence, and what has no name beside it"
+            f" wins {rounded(d.learned.gain, 3)}:"
             " it may be a part of that."
         )
     elif d.unexplained and d.left:
         share = float(np.std(d.left.missing.force) / np.std(d.located.missing.force))
         if share > limits.remains:
-            yield f"Of the force that was missing, {share:.0%} is still missing with it."
+            yield f"Of the force that was missing, {percent(share)} is still missing with it."
 
 
 def won_by(d: Diagnosed, key: str) -> float:
@@ -140,8 +142,10 @@ def unsteady(d: Diagnosed, key: str) -> Iterator[str]:
         old, new = without.fit.values[f.key], chosen.values[f.key]
         if abs(new - old) > max(limits.moved * sds[f.key], limits.moved_share * abs(old)):
             yield (
-                f"{_called(d, owner)} has a {name} of {old:.3g} {f.unit} without {spoken(key.partition('@')[0])} and of"
-                f" {new:.3g} {f.unit} with it: a level that moves so far was not known, or the further term is wrong."
+                f"{_called(d, owner)} has a {name} of {rounded(old, 3)} {f.unit} without"
+                f" {spoken(key.partition('@')[0])} and of"
+                f" {rounded(new, 3)} {f.unit} with it: a level that moves so far was not known, or"
+                " the further term is wrong."
             )
 
 
@@ -159,7 +163,10 @@ def _unusual(d: Diagnosed, key: str) -> Iterator[str]:
     period = 2.0 * math.pi * d.after.problem.scales.time
     share = abs(d.after.values[late[0].key]) / period
     if share > d.settings.name.late:
-        yield f"A delay of {share:.0%} of a natural period is unusual: measure the time between the channels by itself."
+        yield (
+            f"A delay of {percent(share)} of a natural period is unusual: measure the time between"
+            " the channels by itself."
+        )
 
 
 def _early(d: Diagnosed, key: str) -> Iterator[str]:
@@ -172,7 +179,8 @@ def _early(d: Diagnosed, key: str) -> Iterator[str]:
         share = (d.after.values[slot.key] - float(fitted.time[0])) / (fitted.samples * fitted.dt)
         if share < d.settings.name.early:
             yield (
-                f"The change is over within the first {max(share, 0.0):.1%} of the recording: a known value that is"
+                f"The change is over within the first {percent(max(share, 0.0))} of the recording: a"
+                " known value that is"
                 " wrong from the beginning looks the same."
             )
 

@@ -25,7 +25,7 @@ from lostmotion.inference.surfaces import OverHistory, Surface
 from lostmotion.inference.unexplained import UnknownForce
 from lostmotion.quantities import LENGTH, NUMBER, SPEED, TIME, Dimension
 from lostmotion.report.words import spoken
-from lostmotion.results import Interval
+from lostmotion.results import Interval, percent, rounded
 from lostmotion.results.diagnosis import LearnedCurve, LookAlike, Mechanism, ProposedFormula
 from lostmotion.results.mismatch import ForceDependence
 
@@ -56,7 +56,7 @@ def learned_entry(d: Diagnosed) -> Mechanism:
     size = Interval(rms, max(rms - BAND * sd, 0.0), rms + BAND * sd, unit)
     depends = names_of(unknown.terms)
     share = rms / d.after.problem.scales.force
-    size_of = f"{rms:.3g} {unit} rms, {share:.2%} of {d.yardstick}"
+    size_of = f"{rounded(rms, 3)} {unit} rms, {percent(share)} of {d.yardstick}"
     alike, share_of_likeness, looks = _looks(d)
     text = f"A force of {size_of}, is missing {_why_unnamed(d, unknown)}"
     return Mechanism(
@@ -105,7 +105,7 @@ def _looks(d: Diagnosed) -> tuple[tuple[LookAlike, ...], float | None, str]:
     several = len(problem.system.model.interfaces) > 1
     names = [spoken(term.name) + (f" at {term.at}" if several else "") for term in terms]
     alike = tuple(LookAlike(term.name, term.at) for term in terms)
-    return alike, found.share, f", looks like {' and '.join(names)} ({found.share:.0%} of its variance)"
+    return alike, found.share, f", looks like {' and '.join(names)} ({percent(found.share)} of its variance)"
 
 
 def unnamed_entry(d: Diagnosed) -> Mechanism:
@@ -115,7 +115,7 @@ def unnamed_entry(d: Diagnosed) -> Mechanism:
     rms = float(np.std(located.missing.force))
     unit = _unit_of(d, Dimension(1, 0, 0))
     share = rms / d.after.problem.scales.force
-    size = f"{rms:.3g} {unit} rms, {share:.1%} of {d.yardstick}"
+    size = f"{rounded(rms, 3)} {unit} rms, {percent(share)} of {d.yardstick}"
     on = f"depends on {listed(depends)}" if depends else "depends on nothing that was recorded"
     return Mechanism(
         mechanism="unknown" if depends else "random_force",
@@ -242,5 +242,5 @@ def where(located: Located, learned: UnknownForce | None = None) -> ForceDepende
         p_value=p_values(located.odds) if located.odds else by_share,
         p_value_of_share=by_share,
         significant=tuple(located.significant),
-        against=f"{against}, at {located.limits.level:.0%} over all covariates together",
+        against=f"{against}, at {percent(located.limits.level)} over all covariates together",
     )

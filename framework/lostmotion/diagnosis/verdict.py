@@ -20,7 +20,7 @@ from lostmotion.inference.prices import price_of
 from lostmotion.likelihood.system import key_of
 from lostmotion.quantities import unit_of
 from lostmotion.report.words import chance, span, spoken
-from lostmotion.results import rounded
+from lostmotion.results import percent, rounded
 from lostmotion.results.diagnosis import (
     Both,
     BothTrue,
@@ -117,8 +117,8 @@ def _white(p: float, certain: float) -> str:
             f"One-step errors are not white (Ljung-Box {chance(p)}): they still hold something that can be predicted."
         )
     if p < 5.0 * certain:
-        return f"One-step errors may hold something that can be predicted (Ljung-Box p = {p:.2g})."
-    return f"One-step errors cannot be told from white noise (Ljung-Box p = {p:.2g})."
+        return f"One-step errors may hold something that can be predicted (Ljung-Box p = {rounded(p)})."
+    return f"One-step errors cannot be told from white noise (Ljung-Box p = {rounded(p)})."
 
 
 def sensors_of(d: Diagnosed) -> tuple[SensorFacts, ...]:
@@ -278,8 +278,9 @@ def says(outcome: Outcome, found: Sequence[Mechanism], rest: Sequence[OpenTerm] 
     if not found:
         return (
             "Nothing is missing that this recording can show.",
-            f"The nominal model predicts held-out data over {time} to {outcome.before.nrmse:.1%} of the response; the"
-            f" noise alone is {floor:.1%}.",
+            f"The nominal model predicts held-out data over {time} to {percent(outcome.before.nrmse)}"
+            " of the response; the"
+            f" noise alone is {percent(floor)}.",
             *drowned(outcome),
         )
     left = [f"Open: {row.says}" for row in rest[:MOST_OPEN]]
@@ -299,8 +300,9 @@ def says(outcome: Outcome, found: Sequence[Mechanism], rest: Sequence[OpenTerm] 
     opening.append(
         f"With {'it' if len(found) == 1 else 'them'} the unexplained force{_taken_as(d)} {verbs[0]} from"
         f" {sizes[0]} to {sizes[1]} {new.unit} (rms), and the free-running prediction error of held-out"
-        f" data over {time}{verbs[1]} from {errors[0]:.1%} to {errors[1]:.1%} of the response; the noise alone is"
-        f" {floor:.1%}."
+        f" data over {time}{verbs[1]} from {percent(errors[0])} to {percent(errors[1])} of the"
+        " response; the noise alone is"
+        f" {percent(floor)}."
     )
     opening += drowned(outcome)
     if d.unexplained:

@@ -11,6 +11,7 @@ import click
 
 from lostmotion.cli import PluginName, examples
 from lostmotion.cli.options import on_a_trial
+from lostmotion.results import percent
 
 if TYPE_CHECKING:
     from lostmotion_trials.blind.results import Target
@@ -96,5 +97,5 @@ def _line(target: Target) -> str:
     found = target.rate
     if not found.of:
         return f"{target.state:<9}  {target.what}"
-    share = f"{found.hits}/{found.of} = {found.share:.0%} [{found.low:.0%}, {found.high:.0%}]"
-    return f"{target.state:<9}  {target.what}: {share}, wanted {target.at_least:.0%} to {target.at_most:.0%}"
+    share = f"{found.hits}/{found.of} = {percent(found.share)} [{percent(found.low)}, {percent(found.high)}]"
+    return f"{target.state:<9}  {target.what}: {share}, wanted {percent(target.at_least)} to {percent(target.at_most)}"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from lostmotion.results import percent
 from lostmotion_trials.blind.results import ProofSummary, Rate
 
 FEW = 40
@@ -60,7 +61,7 @@ def _rest(told: ProofSummary) -> Iterator[str]:
     if covered.of:
         yield f"The 95 % intervals hold {covered.hits} of {covered.of} true parameters."
     if held.shares:
-        yield f"On held-out data {held.median_share:.0%} of what the true model would win was won (median)."
+        yield f"On held-out data {percent(held.median_share)} of what the true model would win was won (median)."
     if told.failed:
         yield f"{len(told.failed)} cases could not be diagnosed: they are listed, and count as missed."
     if told.unmeasured:

@@ -25,7 +25,7 @@ from lostmotion.diagnosis.report import (
 from lostmotion.diagnosis.report.evidence import AGAIN, Evidence, read_evidence
 from lostmotion.report import style
 from lostmotion.report.pages import PageSection, drawn, template, written
-from lostmotion.report.words import typeset
+from lostmotion.report.words import headed, typeset
 
 SECTIONS: tuple[PageSection[Evidence], ...] = (
     PageSection("prediction", "Recording and prediction", prediction.draw, prediction.caption),
@@ -59,7 +59,7 @@ def render(evidence: Evidence) -> str:
     return template("page.html.j2", __package__).render(
         title=result.title,
         badge=opening.badge(result),
-        answer=[typeset(part) for part in result.says],
+        answer=[typeset(part) for part in headed(result.says)],
         model=result.model,
         numbers=numbers,
         mechanisms=mechanisms,

@@ -52,7 +52,7 @@ def caption(evidence: Evidence) -> str:
     if not predicted(evidence):
         return "The recording; held-out part shaded, and a few periods of it drawn large."
     closing = (
-        " The vermillion curve leaves the black one where the missing physics acts; the blue one should stay on it."
+        " The vermillion curve leaves the recording where the missing physics acts; the blue one should stay on it."
         if len(_forecasts(evidence)) > 1
         else " Where nothing is missing, the prediction stays on the recording until noise and chaos part them."
     )

@@ -14,6 +14,7 @@ from lostmotion.results.diagnosis import Candidate, Mechanism
 
 MOST = 16
 MOST_BELOW = 20.0
+LIKELY = 0.5
 
 
 def draw(evidence: Evidence) -> Figure | None:
@@ -29,17 +30,32 @@ def draw(evidence: Evidence) -> Figure | None:
 
 def caption(evidence: Evidence) -> str:
     """Return what to see in the figure."""
-    hidden = len(evidence.result.ranking) - MOST
+    rows = ranked(evidence)
+    hidden = len(evidence.result.ranking) - len(rows)
     check = evidence.result.evidence.says
     rest = f" The {hidden} candidates that rank lowest are not drawn." if hidden > 0 else ""
     rest += f" {check}" if check else ""
-    gains = [_gain(one, 0.0) for one in ranked(evidence)]
+    gains = [_gain(one, 0.0) for one in rows]
     cut = " ◂ marks a bar that was cut short." if gains and min(gains) < _reach(gains)[1] else ""
     return (
         "Each candidate was fitted with all parameters of the model set free again. The bar is what the log evidence "
         "gains over the model as it stands; a gain of 5 is strong, and one near zero or below says that the term is "
         "not needed. The column on the right is the posterior probability among all candidates, that is of the best"
-        f" sets of terms, each beside a small smooth force that nobody has named{_priced(evidence)}." + cut + rest
+        f" sets of terms, each beside a small smooth force that nobody has named{_priced(evidence)}."
+        + _beaten(rows)
+        + cut
+        + rest
+    )
+
+
+def _beaten(rows: list[Candidate]) -> str:
+    """Return why a long bar may come with a small probability, where that is seen in the figure."""
+    best = max((_gain(one, -math.inf) for one in rows if one.probability > LIKELY), default=math.inf)
+    if not any(_gain(one, -math.inf) > best and one.probability <= LIKELY for one in rows):
+        return ""
+    return (
+        " A bar is the gain of a candidate alone: where several act together, one that gains more alone may be in none"
+        " of the best sets."
     )
 
 
@@ -55,8 +71,14 @@ def _priced(evidence: Evidence) -> str:
 
 
 def ranked(evidence: Evidence, most: int = MOST) -> list[Candidate]:
-    """Return the entries of the ranking, largest gain first; candidates without a number stand last."""
-    return sorted(evidence.result.ranking, key=lambda one: -_gain(one, -math.inf))[:most]
+    """Return the entries of the ranking, largest gain first; what was found is among them whatever it gains alone.
+
+    Candidates without a number stand last.
+    """
+    found = {_key(one) for one in evidence.result.found}
+    rows = sorted(evidence.result.ranking, key=lambda one: -_gain(one, -math.inf))
+    late = [one for one in rows[most:] if _key(one) in found]
+    return rows[: most - len(late)] + late
 
 
 def draw_bars(axes: Axes, evidence: Evidence, rows: list[Candidate]) -> None:

@@ -14,7 +14,7 @@ from lostmotion.diagnosis.report.evidence import Evidence
 from lostmotion.report import style
 from lostmotion.report.pages import Grid
 from lostmotion.report.words import DASH, figures, with_unit
-from lostmotion.results import Array
+from lostmotion.results import Array, percent
 from lostmotion.results.mismatch import DisagreementOverTime
 
 SPAN = 3.0
@@ -90,7 +90,7 @@ def caption(evidence: Evidence) -> str:
     return (
         f"{said}{shaded} For each {window}: the mean squared one-step prediction error over the variance that the model"
         " states for it, 1 where the model holds. Chance is what remains when blocks of errors change places; it is"
-        f" {LEVEL:.0%} over all windows together. {recordings.says if recordings else ''}"
+        f" {percent(LEVEL)} over all windows together. {recordings.says if recordings else ''}"
     ).rstrip()
 
 
