@@ -192,7 +192,7 @@ def _dumped(tree, path):
 def plugin(seeds, rng, folder, write_only):
     """Give a class with strange metadata to a registry, and ask it for what `plugins show` prints."""
     from lostmotion.cli.plugins import _print_sheet
-    from lostmotion.cli.sheets import sheet_of
+    from lostmotion.cli.sheets import make_sheet
     from lostmotion.contracts import Param, Term
     from lostmotion.quantities import FORCE
 
@@ -215,7 +215,7 @@ def plugin(seeds, rng, folder, write_only):
         registry = Registry().add(made)
         (entry,) = registry.entries()
         with redirect_stdout(io.StringIO()):
-            _print_sheet(sheet_of(entry, registry.load("term", entry.name)))
+            _print_sheet(make_sheet(entry, registry.load("term", entry.name)))
 
 
 def _tree(value, rng, depth=0, spare=0.02):

@@ -135,7 +135,7 @@ class Commands(Written):
 
     def lines(self) -> Iterator[str]:
         """Yield a directive for each command."""
-        for name, (target, _) in main.commands_of(click.Context(main)).items():
+        for name, (target, _) in main.find_commands(click.Context(main)).items():
             command = main.get_command(click.Context(main), name)
             nested = "full" if isinstance(command, click.Group) else "none"
             yield from ("", f".. click:: {target}", f"   :prog: lostmotion {name}", f"   :nested: {nested}", "")

@@ -136,36 +136,36 @@ def test_a_model_of_ones_own_makes_a_case(tmp_path):
     case = lm.Case(
         recording(), Cart(), known={"m": 1.0}, estimate={"c": lm.LogUniform(0.1, 9.0), "k": lm.Uniform(1, 99)}
     )
-    assert case.prepared(Registry.discover()).model == Cart()
-    with pytest.raises(lm.LostMotionError, match="stands in no file"):
+    assert case.prepare(Registry.discover()).model == Cart()
+    with pytest.raises(lm.LostMotionError, match="no file defines"):
         case.write(tmp_path / "folder")
     assert not (tmp_path / "folder").exists()
 
 
 def test_terms_are_chosen_by_name():
     case = lm.Case(recording(), "linear_oscillator", {"m": 1.0}, {"c": lm.LogUniform(0.1, 9.0), "k": lm.Uniform(1, 99)})
-    found = case.prepared(Registry.discover(), ["coulomb_friction", "offset_force"])
+    found = case.prepare(Registry.discover(), ["coulomb_friction", "offset_force"])
     assert {term.name for term in found.terms} == {"coulomb_friction", "offset_force"}
-    (one,) = case.prepared(Registry.discover(), ["coulomb_friction@ground"]).terms
+    (one,) = case.prepare(Registry.discover(), ["coulomb_friction@ground"]).terms
     assert (one.name, one.at) == ("coulomb_friction", "ground")
     with pytest.raises(lm.LostMotionError, match="coulomb_friction cannot act at 'base': it can at ground"):
-        case.prepared(Registry.discover(), ["coulomb_friction@base"])
+        case.prepare(Registry.discover(), ["coulomb_friction@base"])
     with pytest.raises(lm.LostMotionError, match="did you mean 'coulomb_friction'"):
-        case.prepared(Registry.discover(), "coulomb_frction")
+        case.prepare(Registry.discover(), "coulomb_frction")
 
 
 def test_a_recording_and_a_model_are_a_case_with_wide_priors():
-    from lostmotion.notebook.doors import case_from
+    from lostmotion.notebook.doors import make_case
 
-    case = case_from(recording(), "m*x'' + c*x' + k*x = force", {"m": 1.0}, None, Registry.discover())
+    case = make_case(recording(), "m*x'' + c*x' + k*x = force", {"m": 1.0}, None, Registry.discover())
     assert set(case.estimate) == {"c", "k"}
     assert all(prior.kind == "log-uniform" for prior in case.estimate.values())
     with pytest.raises(lm.LostMotionError, match="a recording alone is no case"):
-        case_from(recording(), None, None, None, Registry.discover())
+        make_case(recording(), None, None, None, Registry.discover())
 
 
 def test_a_folder_without_a_result_is_refused(tmp_path):
-    with pytest.raises(lm.LostMotionError, match="holds no result"):
+    with pytest.raises(lm.LostMotionError, match="contains no result"):
         lm.load(tmp_path)
 
 

@@ -61,7 +61,7 @@ def test_the_command_lists_them_and_what_was_changed():
     text = run.invoke(main, ["settings"]).output
     assert all(one.key in text for one in DEFAULT)
     text = run.invoke(main, ["settings", "heldout", "--set", "heldout.share=0.4"]).output
-    assert "heldout.share = 0.4   (usually 0.3)" in text
+    assert "heldout.share = 0.4   (default 0.3)" in text
     assert "select.decisive" not in text
     told = json.loads(run.invoke(main, ["settings", "--json"]).output)
     assert told == DEFAULT.as_dict()

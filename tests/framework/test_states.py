@@ -167,10 +167,15 @@ def test_the_simplest_explanation_is_likely_and_says_why():
         ({"a": 40.0, "ab": 45.0}, {"a": 9.0, "ab": 9.0, "smooth": 10.0, "": 0.0}, 30.0, "ab"),
         ({"a": 40.0, "b": 41.0}, {"a": 9.0, "b": 1.0, "smooth": 10.0, "": 0.0}, 30.0, "a"),
         ({"a": 11.0}, {"a": 9.0, "smooth": 10.0, "": 0.0}, 0.0, None),
+        ({"l": 40.0}, {"l": 9.0, "smooth": 10.0, "": 0.0}, 30.0, None),
+        ({"u": 40.0}, {"u": 9.0, "smooth": 10.0, "": 0.0}, 30.0, None),
     ],
 )
 def test_a_law_better_than_any_curve_is_the_simplest_explanation(monkeypatch, weights, scores, curve, chosen):
-    """It beats the learned curve and the usual errors of channels (9 here), and predicts held-out data as well."""
+    """It beats the learned curve and the usual errors of channels (9 here), and predicts held-out data as well.
+
+    With `l` a random force is left, and `u` is a delay that acquisition systems have as a rule.
+    """
     fits = {k: SimpleNamespace(status="converged", key=k, problem=NOTHING) for k in scores}
     nominal = SimpleNamespace(problem=SimpleNamespace(active=frozenset(), settings=DEFAULT))
     visits = {frozenset(k): Visit(frozenset(k), fits[k], weights.get(k, 0.0)) for k in ("", *weights)}
@@ -178,6 +183,8 @@ def test_a_law_better_than_any_curve_is_the_simplest_explanation(monkeypatch, we
     selection = Selection(nominal, nominal, visits)
     monkeypatch.setattr(Selection, "won", lambda self, visit: SimpleNamespace(fit=fits["smooth"]))
     monkeypatch.setattr(Selection, "expansion", lambda self, visit: expansion)
+    monkeypatch.setattr(confirming, "quiet", lambda fit: fit.key != "l")
+    monkeypatch.setattr(confirming, "_delay_in_samples", lambda fit, key: 0.1 if key == "u" else np.inf)
     monkeypatch.setattr(confirming, "_scored", lambda fit, pieces: scores[fit.key])
     monkeypatch.setattr(confirming, "run_errors", lambda fit, pieces, horizon: np.ones(PARTS))
     monkeypatch.setattr(confirming, "pieces_of", lambda observations, held: ())
@@ -376,7 +383,8 @@ def test_errors_that_fall_in_each_part_are_confirmed_and_the_same_errors_are_not
 @pytest.mark.parametrize(("delay", "told"), [(0.004, True), (0.006, False)])
 def test_a_delay_of_less_than_half_a_sample_is_usual(delay, told):
     fit = fit_of({f"{DELAY}.delay": delay}, {DELAY})
-    d = SimpleNamespace(after=fit, shown=SimpleNamespace(dt=0.01), values=fit.values, settings=DEFAULT)
+    fit.problem.observations = (SimpleNamespace(dt=0.01),)
+    d = SimpleNamespace(after=fit, values=fit.values, settings=DEFAULT)
     assert bool(usual(d, DELAY)) == told
 
 

@@ -103,4 +103,4 @@ def test_objects_of_the_readme_make_a_case(tmp_path):
 
 def test_commands_of_the_readme_exist():
     named = re.findall(r"lostmotion (?:--plugin \S+ )?([a-z]+)\b", "\n".join(blocks("sh")))
-    assert set(named) <= set(main.commands_of(click.Context(main)))
+    assert set(named) <= set(main.find_commands(click.Context(main)))

@@ -55,7 +55,7 @@ def timed():
     return time.perf_counter() - start
 
 
-COMMANDS = main.commands_of(click.Context(main))
+COMMANDS = main.find_commands(click.Context(main))
 
 
 @pytest.mark.parametrize("name", list(COMMANDS))

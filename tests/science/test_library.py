@@ -3,6 +3,7 @@
 import json
 import math
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -26,7 +27,7 @@ from lostmotion_plugins.terms.friction import CoulombFriction
 from lostmotion_plugins.terms.friction_kinds import DirectionalFriction
 from lostmotion_plugins.terms.lag import ActuatorLag, SensorLag, apply_lag
 from lostmotion_plugins.terms.play import Backlash, EndStop
-from lostmotion_plugins.terms.sensor import PositionRipple
+from lostmotion_plugins.terms.sensor import PositionRipple, SensorGain
 from lostmotion_plugins.terms.viscous import QuadraticDamping
 from lostmotion_trials.blind.bound import alike, spelled
 from lostmotion_trials.blind.mechanisms import TABLE
@@ -116,6 +117,39 @@ def test_friction_from_the_beginning_has_no_onset(tmp_path):
     assert onset(course.chosen.problem, "coulomb_friction") == ALWAYS
     assert since(course.chosen, "coulomb_friction") is None
     assert refined(course.chosen, "coulomb_friction") is course.chosen
+
+
+def test_a_gain_that_sets_in_is_named_with_its_time(tmp_path):
+    """A gain of a sensor that rises by 8 % between the samples at 3.10 and 3.12 s."""
+    fit = nominal_of(tmp_path, [SensorGain(), CoulombFriction()], shown=lambda x: x * np.where(T > LATE, 1.08, 1.0))
+    course = Selector(fit, ("sensor_gain", "coulomb_friction"), lambda _: None).run()
+    assert course.chosen.problem.active == {"sensor_gain"}
+    assert course.chosen.values["sensor_gain.error"] == pytest.approx(0.08, abs=0.001)
+    told = since(course.chosen, "sensor_gain")
+    assert told.low <= LATE + 0.02
+    assert told.high >= LATE
+    assert told.high - told.low < 0.05
+
+
+def test_a_gain_from_the_beginning_has_no_time(tmp_path):
+    fit = nominal_of(tmp_path, [SensorGain()], shown=lambda x: 1.08 * x)
+    course = Selector(fit, ("sensor_gain",), lambda _: None).run()
+    assert since(course.chosen, "sensor_gain") is None
+
+
+def test_the_likelihood_of_a_sensor_that_changes_is_that_of_corrected_readings(tmp_path):
+    """The slow twin: readings divided by hand; the density of what was read is wider by the gain.
+
+    The prior of the first state is as wide as the readings are, which makes a difference of 0.02.
+    """
+    fit = nominal_of(tmp_path, [SensorGain()], shown=lambda x: x * np.where(T > LATE, 1.08, 1.0))
+    problem = fit.problem.knowing({"sensor_gain.error": 0.08, since_of("sensor_gain"): LATE + 0.01})
+    changed = replace(problem, active=frozenset({"sensor_gain"}))
+    (observation,) = fit.problem.observations
+    late = observation.time > LATE
+    right = replace(observation, readings=np.where(late, observation.response / 1.08, observation.response)[:, None])
+    by_hand = fit.problem.on((right,)).log_likelihoods(fit.theta[None]) - np.sum(late) * math.log(1.08)
+    assert changed.log_likelihoods(fit.theta[None]) == pytest.approx(by_hand, abs=0.05)
 
 
 def test_cut_sensitivities_are_those_of_a_term_that_sets_in(tmp_path):

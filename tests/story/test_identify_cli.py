@@ -86,7 +86,7 @@ def test_what_is_printed(done):
     outcome, out = done
     assert f"{FRICTION}  " in outcome.output
     assert "R-hat" in outcome.output
-    assert "effective draws a second" in outcome.output
+    assert "effective draws per second" in outcome.output
     assert outcome.output.rstrip().endswith(str(out / "report.html"))
 
 

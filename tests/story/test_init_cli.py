@@ -53,7 +53,7 @@ def test_a_case_that_is_there_is_not_lost(place):
     ("options", "says"),
     [
         (("--drive", "Forse"), "did you mean 'Force'?"),
-        (("--factor", "Force=much"), "'much' is no number"),
+        (("--factor", "Force=much"), "'much' is not a number"),
         (("--unit", "Force"), "wanted COLUMN=VALUE"),
         (("--unit", "Laser=V"), "measures none of force, position"),
         (
@@ -88,7 +88,7 @@ def test_a_model_goes_with_a_recording_and_not_with_a_case(place):
     assert said("my run.csv")[0] == 0
     result = CliRunner().invoke(main, ["diagnose", "case.toml", "--model", "duffing"])
     assert result.exit_code == 2
-    assert "--model goes with a recording" in result.output
+    assert "--model needs a recording" in result.output
 
 
 def test_the_front_doors_are_listed():

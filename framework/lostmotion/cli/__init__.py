@@ -1,6 +1,6 @@
-"""The command line: `main` knows its commands by name and imports one when it runs.
+"""The command line: `main` has a table of its commands and imports a command only when it runs.
 
-Packages add commands by a hook: `demo`, `prove`, `calibrate` and `reproduce` of `lostmotion_trials` come so.
+Packages add commands by a hook; `demo`, `prove`, `calibrate` and `reproduce` come from `lostmotion_trials` in this way.
 """
 
 from __future__ import annotations
@@ -19,12 +19,12 @@ __all__ = ["PluginName", "examples", "main", "registry_of"]
 
 class _Commands(LazyGroup):
     table: ClassVar[Mapping[str, tuple[str, str]]] = {
-        "analyse": ("lostmotion.cli.analyse:command", "Tell whether a recorded motion is periodic, chaotic or noise."),
-        "diagnose": ("lostmotion.cli.diagnose:command", "Find the physics that the model of a case leaves out."),
-        "identify": ("lostmotion.cli.identify:command", "Estimate the parameters of a case, with their intervals."),
-        "init": ("lostmotion.cli.init:command", "Look at a recording and write a first case for it."),
-        "map": ("lostmotion.cli.map:command", "Map an exponent, or anything else, over parameters."),
-        "settings": ("lostmotion.cli.settings:command", "List the thresholds that decide, each with its reason."),
+        "analyse": ("lostmotion.cli.analyse:command", "Classify a recorded motion as periodic, chaotic or noise."),
+        "diagnose": ("lostmotion.cli.diagnose:command", "Find the physics that the model of a case does not include."),
+        "identify": ("lostmotion.cli.identify:command", "Estimate the parameters of a case, with intervals."),
+        "init": ("lostmotion.cli.init:command", "Inspect a recording and write a first case for it."),
+        "map": ("lostmotion.cli.map:command", "Map an exponent or another quantity over parameters."),
+        "settings": ("lostmotion.cli.settings:command", "List the thresholds of all decisions, with reasons."),
         "simulate": ("lostmotion.cli.simulate:command", "Simulate a machine with or without extra terms."),
         "plugins": ("lostmotion.cli.plugins:command", "List, show and check the models, terms and methods."),
     }
@@ -37,7 +37,7 @@ class _Commands(LazyGroup):
         "lostmotion demo",
         "lostmotion diagnose CASE.toml --out DIR",
         "lostmotion --plugin my_terms.py diagnose CASE.toml --out DIR",
-        'eval "$(_LOSTMOTION_COMPLETE=bash_source lostmotion)"     the Tab key, in bash',
+        'eval "$(_LOSTMOTION_COMPLETE=bash_source lostmotion)"     activate Tab completion in bash',
     ),
 )
 @click.version_option(__version__, prog_name="lostmotion", message="%(prog)s %(version)s")
@@ -46,11 +46,15 @@ class _Commands(LazyGroup):
     metavar="FILE.py",
     multiple=True,
     type=click.Path(dir_okay=False),
-    help="Use the models and terms written in this Python file too; may be given several times.",
+    help="Also load the models and terms in this Python file; may be given several times.",
 )
 @click.pass_context
 def main(ctx: click.Context, plugin: tuple[str, ...]) -> None:
-    """Find the physics that a machine model leaves out."""
+    """Find the physics that a machine model does not include.
+
+    Exit status 0 when a command has finished, 2 for an input that cannot be used, 130 when it was interrupted. The help
+    of each command describes its own exit status.
+    """
     ctx.obj = default()
     for path in plugin:
         ctx.obj.add_file(path)

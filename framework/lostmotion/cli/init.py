@@ -1,4 +1,4 @@
-"""`lostmotion init`: from a recording that nobody has prepared to a case that can be diagnosed."""
+"""`lostmotion init`: from an unprepared recording to a case that can be diagnosed."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any
 
 import click
 
-from lostmotion.cli._lazy import PluginName, examples, plain, registry_of
+from lostmotion.cli._lazy import PluginName, examples, flatten_text, registry_of
 
 
 @click.command(
@@ -21,48 +21,50 @@ from lostmotion.cli._lazy import PluginName, examples, plain, registry_of
 )
 @click.argument("recording", metavar="RECORDING", type=click.Path(path_type=Path))
 @click.option("--out", default="case.toml", show_default=True, type=click.Path(dir_okay=False, path_type=Path),
-              metavar="FILE", help="Where the case goes.")  # fmt: skip
-@click.option("--time", metavar="COLUMN", help="The column of time, where it is not the one that looks like it.")
-@click.option("--rate", metavar="HZ", type=click.FloatRange(0.0, min_open=True), help="Samples per second, in place of"
-              " a column of time.")  # fmt: skip
-@click.option("--drive", metavar="COLUMN", help="What drives the machine, or `none`.")
-@click.option("--response", metavar="COLUMN", help="What is measured of its motion.")
-@click.option("--unit", "units", metavar="COLUMN=UNIT", multiple=True, help="The unit of a column; again for more.")
-@click.option("--factor", "factors", metavar="COLUMN=NUMBER", multiple=True, help="What a column is multiplied by"
-              " before its unit, as newtons per volt.")  # fmt: skip
-@click.option("--model", type=PluginName("model"), default="", help="The model of the machine; `plugins` lists"
-              " them. Or equations of motion, with semicolons between them.")  # fmt: skip
-@click.option("--force", is_flag=True, help="Write over a case that is there.")
+              metavar="FILE", help="Path of the new case file.")  # fmt: skip
+@click.option("--time", metavar="COLUMN", help="Column of time, if the automatic choice is wrong.")
+@click.option("--rate", metavar="HZ", type=click.FloatRange(0.0, min_open=True), help="Samples per second, instead of a"
+              " time column.")  # fmt: skip
+@click.option("--drive", metavar="COLUMN", help="Column of the excitation, or `none`.")
+@click.option("--response", metavar="COLUMN", help="Column of the measured motion.")
+@click.option("--unit", "units", metavar="COLUMN=UNIT", multiple=True, help="Unit of a column; may be repeated.")
+@click.option("--factor", "factors", metavar="COLUMN=NUMBER", multiple=True, help="Factor on a column before its"
+              " unit, such as newtons per volt.")  # fmt: skip
+@click.option("--model", type=PluginName("model"), default="", help="Model of the machine (`plugins` lists them),"
+              " or equations of motion separated by semicolons.")  # fmt: skip
+@click.option("--force", is_flag=True, help="Overwrite an existing case.")
 @click.pass_context
 def command(
     ctx: click.Context, /, recording: Path, out: Path, units: tuple[str, ...], factors: tuple[str, ...], model: str,
     force: bool, **roles: Any,
 ) -> None:  # fmt: skip
-    """Look at a recording and write a first case for it: columns, units, rate, a model, wide priors.
+    """Inspect a recording and write a first case for it: columns, units, rate, a model, wide priors.
 
-    Says which column looks like time, which one drives the machine and which one responds, and what looks wrong. Units
-    of the file decide, names of columns where it has none; options say it where a guess is wrong. The case has a remark
-    behind each line that was guessed.
+    Reports which column is time, which is the excitation and which is the response, and possible errors in the data.
+    The units in the file decide, or the column names where there are no units; options correct a wrong guess. Each
+    guessed line of the case has a comment.
 
-    Exit status 0 when the case can be used; 2 where a role cannot be told, or the recording cannot be used: then the
-    message says which option helps.
+    Exit status 0 when the case can be used; 2 when a role cannot be determined or the recording cannot be used. The
+    message then names the option that helps.
     """
     from lostmotion.preparation.beginning import begun
     from lostmotion.recording.outline import Wishes
 
     if out.exists() and not force:
-        raise click.UsageError(f"{out} is there already: give another --out, or --force")
-    wishes = Wishes(roles["time"], roles["rate"], roles["drive"], roles["response"], dict(_pairs(units, "--unit")))
-    gains = {name: _number(name, value) for name, value in _pairs(factors, "--factor")}
+        raise click.UsageError(f"{out} exists already: give another --out, or --force")
+    wishes = Wishes(
+        roles["time"], roles["rate"], roles["drive"], roles["response"], dict(_split_pairs(units, "--unit"))
+    )
+    gains = {name: _parse_number(name, value) for name, value in _split_pairs(factors, "--factor")}
     draft = begun(recording, out, wishes, registry_of(ctx), model, gains)
     for line in draft.found:
-        click.echo(plain(line))
+        click.echo(flatten_text(line))
     for note in draft.notes:
-        click.echo(f"  look at this: {plain(note)}")
-    click.echo(f"{out} is written. Check it, then: lostmotion diagnose {shlex.quote(str(out))} --out result")
+        click.echo(f"  please check: {flatten_text(note)}")
+    click.echo(f"{out} is written. Check it, then run: lostmotion diagnose {shlex.quote(str(out))} --out result")
 
 
-def _pairs(given: tuple[str, ...], option: str) -> list[tuple[str, str]]:
+def _split_pairs(given: tuple[str, ...], option: str) -> list[tuple[str, str]]:
     pairs = [text.rpartition("=") for text in given]
     for text, (name, mark, value) in zip(given, pairs, strict=True):
         if not (name and mark and value):
@@ -70,8 +72,8 @@ def _pairs(given: tuple[str, ...], option: str) -> list[tuple[str, str]]:
     return [(name, value) for name, _, value in pairs]
 
 
-def _number(name: str, value: str) -> float:
+def _parse_number(name: str, value: str) -> float:
     try:
         return float(value)
     except ValueError as err:
-        raise click.UsageError(f"--factor {name}={value}: {value!r} is no number") from err
+        raise click.UsageError(f"--factor {name}={value}: {value!r} is not a number") from err

@@ -1,4 +1,4 @@
-"""`lostmotion map`: a quantity of a machine over its parameters, from many starts, in chunks that outlive a crash."""
+"""`lostmotion map`: map quantities of a machine over its parameters; an interrupted map is continued."""
 
 from __future__ import annotations
 
@@ -30,29 +30,33 @@ _AXIS = "NAME=LOW:HIGH:N[:log|inverse]"
         "    --x coulomb_friction.force=0:10:20 --y drive.amplitude=50:300:20 --out friction.zarr",
     )
 )
-@click.option("--model", required=True, type=PluginName("model"), help="The machine.")
+@click.option("--model", required=True, type=PluginName("model"), help="Model of the machine.")
 @click.option(
     "--motion",
     type=click.Choice(["translation", "rotation"]),
     default=None,
-    help="In N and m, or in N m and rad, where the model can be either; `plugins show` tells.",
+    help="Use N and m, or N m and rad, if the model allows both (see `plugins show`).",
 )
 @click.option("--x", "x", metavar=_AXIS, help="The first axis; `inverse` spaces 1/NAME evenly.")
 @click.option("--y", "y", metavar=_AXIS, help="The second axis.")
 @click.option("--axis", "more", metavar=_AXIS, multiple=True, help="A further axis; may be given several times.")
-@click.option("--set", "sets", metavar="NAME=VALUE", multiple=True, help="Anything an axis may be, held at a value.")
+@click.option("--set", "sets", metavar="NAME=VALUE", multiple=True, help="A fixed value; the same names as for axes.")
 @click.option(
     "--term",
     "terms",
     metavar="NAME[@PLACE][:PARAM=VALUE,...]",
     type=PluginName("term"),
     multiple=True,
-    help="Physics to add.",
+    help="A term to add to the model.",
 )
 @click.option("--drive", default="", metavar="harmonic:KEY=VALUE,...", help="amplitude, omega or frequency, phase.")
-@click.option("--periods", default=600, show_default=True, type=click.IntRange(40), help="Periods that count.")
-@click.option("--transient", default=200, show_default=True, type=click.IntRange(0), help="Periods left out before.")
-@click.option("--starts", default=4, show_default=True, type=click.IntRange(1, 10_000), help="Starts in each cell.")
+@click.option("--periods", default=600, show_default=True, type=click.IntRange(40), help="Periods that are evaluated.")
+@click.option(
+    "--transient", default=200, show_default=True, type=click.IntRange(0), help="Periods before these, not evaluated."
+)
+@click.option(
+    "--starts", default=4, show_default=True, type=click.IntRange(1, 10_000), help="Initial states in each cell."
+)
 @click.option(
     "--quantity",
     "--quantifier",
@@ -60,16 +64,26 @@ _AXIS = "NAME=LOW:HIGH:N[:log|inverse]"
     metavar="NAME",
     type=PluginName("quantifier"),
     multiple=True,
-    help="A further quantifier, such as kaplan_yorke, or d2, which takes about a second a start.",
+    help="A further quantifier, such as kaplan_yorke, or d2, which takes about a second for each start.",
 )
-@click.option("--unit", default="nat", show_default=True, type=click.Choice(["nat", "bit"]), help="Of exponents.")
-@click.option("--refine", default=0, metavar="LEVELS", type=click.IntRange(0), help="Halve squares at the boundary.")
-@click.option("--seed", default=0, show_default=True, type=click.IntRange(0), help="The same seed, the same bytes.")
-@click.option("--jobs", default=0, metavar="N", type=click.IntRange(0), help="Threads; one to each core if not given.")
+@click.option("--unit", default="nat", show_default=True, type=click.Choice(["nat", "bit"]), help="Unit of exponents.")
+@click.option(
+    "--refine",
+    default=0,
+    metavar="LEVELS",
+    type=click.IntRange(0),
+    help="Number of halvings of squares at the boundary of chaos.",
+)
+@click.option(
+    "--seed", default=0, show_default=True, type=click.IntRange(0), help="The same seed gives the same bytes."
+)
+@click.option("--jobs", default=0, metavar="N", type=click.IntRange(0), help="Threads; one for each core if not given.")
 @click.option("--dask", "address", default="", metavar="ADDRESS", help="Compute on the workers of a dask cluster.")
-@click.option("--out", required=True, metavar="FILE.zarr|FILE.nc", type=click.Path(path_type=Path))
-@click.option("--figure", is_flag=True, help="Draw the map beside it, as FILE.png.")
-@click.option("--fresh", is_flag=True, help="Throw away the map that is there, instead of continuing it.")
+@click.option(
+    "--out", required=True, metavar="FILE.zarr|FILE.nc", type=click.Path(path_type=Path), help="Path of the map."
+)
+@click.option("--figure", is_flag=True, help="Also draw the map, as FILE.png.")
+@click.option("--fresh", is_flag=True, help="Discard an existing map instead of continuing it.")
 @click.option("--quiet", is_flag=True, help="Show no progress.")
 @click.pass_context
 def command(
@@ -88,11 +102,12 @@ def command(
       alpha, zeta, ...             a dimensionless number of the model
       c, coulomb_friction.force    a parameter of the model or of a term
       drive.amplitude, drive.omega, drive.phase
-      start.position, ...          where the motion starts: a map of basins
+      start.position, ...          an initial state, for a map of basins of attraction
 
-    Where no parameter of the model is named it is normalised: all that sets a scale is one, omega is 0.2 unless told,
-    and exponents are per t_bar. The same command continues a map that was interrupted, at any moment; the bytes do not
-    depend on that, nor on the number of workers. Exit status 0 when the map is whole, 2 when it cannot be made.
+    If no parameter of the model is named, the model is normalised: all parameters that set a scale are one, omega is
+    0.2 unless given, and exponents are per t_bar. The same command continues an interrupted map; the bytes depend
+    neither on interruptions nor on the number of workers. Exit status 0 when the map is complete, 2 when it cannot be
+    made.
     """  # noqa: D301 - click wants the character itself
     from lostmotion.maps.run import Request, RunOptions, make_map, make_study
     from lostmotion.maps.sweep import Workers
@@ -100,26 +115,26 @@ def command(
     own = {key: settings.pop(key) for key in ("refine", "jobs", "address", "figure", "fresh", "quiet")}
     axes = tuple(text for text in (x, y, *more) if text)
     study = make_study(Request(axes=axes, **settings), registry_of(ctx))  # type: ignore[arg-type]
-    how = RunOptions(Workers(own["jobs"], own["address"]), own["refine"], own["fresh"])  # type: ignore[arg-type]
+    options = RunOptions(Workers(own["jobs"], own["address"]), own["refine"], own["fresh"])  # type: ignore[arg-type]
     begin = time.perf_counter()
-    with _bar(bool(own["quiet"])) as say:
-        found = make_map(study, out, how, say)
+    with _show_bar(bool(own["quiet"])) as say:
+        found = make_map(study, out, options, say)
         done = say.computed  # type: ignore[attr-defined]
-    click.echo(_summary(out, found))
+    click.echo(_format_summary(out, found))
     for name in study.further:
-        _tell_failures(name, found)
+        _report_failures(name, found)
     if done:
         seconds = time.perf_counter() - begin
         each = seconds / (done * study.starts * (study.periods + study.transient))
-        click.echo(f"{done} cells computed in {seconds:.1f} s, {1e6 * each:.2f} us a cell-period")
+        click.echo(f"{done} cells computed in {seconds:.1f} s, {1e6 * each:.2f} us per cell and period")
     if own["figure"]:
         from lostmotion.maps.figure import save
 
         click.echo(str(save(found.dataset, out.with_suffix(".png"))))
 
 
-class _Say:
-    """Counts the cells that were computed, and moves the bar."""
+class _CellCounter:
+    """Count the computed cells and update the progress bar."""
 
     def __init__(self, bar: object) -> None:
         self._bar, self._last, self.computed = bar, 0, 0
@@ -136,28 +151,28 @@ class _Say:
 
 
 @contextmanager
-def _bar(quiet: bool) -> Iterator[Callable[[int, int], None]]:
-    """Yield what is told how many cells are done of how many; it shows nothing when `quiet` or when nobody watches."""
+def _show_bar(quiet: bool) -> Iterator[Callable[[int, int], None]]:
+    """Yield the callback for finished and all cells; it shows nothing when `quiet` or outside of a terminal."""
     from tqdm import tqdm
 
     with tqdm(total=0, desc="map", unit=" cells", leave=False, disable=True if quiet else None) as bar:
-        yield _Say(bar)
+        yield _CellCounter(bar)
 
 
-def _tell_failures(name: str, found: Map) -> None:
-    """Tell on standard error for how many motions a quantifier of somebody else broke down."""
+def _report_failures(name: str, found: Map) -> None:
+    """Report on standard error for how many motions a further quantifier failed."""
     from lostmotion.maps.cells import CODES
 
     flags = found.dataset[f"{name}_status"].to_numpy()
     if failed := int((flags == CODES["failed"]).sum()):
-        says = f"{name} has no number for {failed} of {flags.size} motions: it broke down there"
+        says = f"{name} has no value for {failed} of {flags.size} motions: it failed there"
         click.echo(f"lostmotion: warning: {says} (`lostmotion plugins check {name}`)", err=True)
 
 
-def _summary(out: Path, found: Map) -> str:
-    """Return one line on a finished map."""
+def _format_summary(out: Path, found: Map) -> str:
+    """Return one line about a finished map."""
     shape = " x ".join(f"{found.dataset.sizes[name]} {name}" for name in found.axes)
     flags = found.dataset["status"].to_numpy()
     share = 100.0 * float(found.share.mean())
     doubtful = 100.0 * float((flags != 0).mean())
-    return f"{out}: {shape}, {found.dataset.sizes['start']} starts; {share:.0f} % chaotic, {doubtful:.0f} % not settled"
+    return f"{out}: {shape}, {found.dataset.sizes['start']} starts; {share:.0f} % chaotic, {doubtful:.0f} % uncertain"

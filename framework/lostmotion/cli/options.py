@@ -1,4 +1,4 @@
-"""What commands have in common: the case, where the results go, seed, cores, silence."""
+"""Options that several commands share: the case, the folder of the results, seed, cores, quiet mode."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ from lostmotion.settings import DEFAULT, Settings
 Command = Callable[..., Any]
 
 
-def usual_folder() -> Path:
-    """Return the folder in which the results of the running command go where nobody says: `lostmotion-diagnose`."""
+def make_default_folder() -> Path:
+    """Return the default folder for the results of the running command, such as `lostmotion-diagnose`."""
     return Path(f"lostmotion-{click.get_current_context().info_name}")
 
 
@@ -23,71 +23,73 @@ _CASE = click.argument("case", metavar="CASE.toml", type=click.Path(path_type=Pa
 _COMMON = (
     click.option(
         "--out",
-        default=usual_folder,
+        default=make_default_folder,
         show_default="lostmotion-COMMAND",
         metavar="DIR",
         type=click.Path(file_okay=False, path_type=Path),
-        help="Where the results go.",
+        help="Folder for the results.",
     ),
-    click.option("--seed", default=0, show_default=True, type=click.IntRange(0), help="The same seed, the same bytes."),
-    click.option("--jobs", default=2, show_default=True, type=click.IntRange(1), help="How many cores to use."),
+    click.option(
+        "--seed", default=0, show_default=True, type=click.IntRange(0), help="The same seed gives the same bytes."
+    ),
+    click.option("--jobs", default=2, show_default=True, type=click.IntRange(1), help="Number of cores."),
     click.option("--quiet", is_flag=True, help="Show no progress."),
 )
 
 
-def _settings(ctx: click.Context, option: click.Parameter, given: tuple[str, ...]) -> Settings:
-    """Return the settings that are meant by words of the form STAGE.NAME=VALUE."""
+def _parse_settings(ctx: click.Context, option: click.Parameter, given: tuple[str, ...]) -> Settings:
+    """Return the settings from texts of the form STAGE.NAME=VALUE."""
     pairs = [text.partition("=") for text in given]
     for text, (_, sign, value) in zip(given, pairs, strict=True):
         if not sign or not value:
             raise click.BadParameter(
-                f"{text!r} is not of the form STAGE.NAME=VALUE: write for instance select.decisive=4"
+                f"{text!r} is not of the form STAGE.NAME=VALUE: write for example select.decisive=4"
             )
     return DEFAULT.changed({key.strip(): value for key, _, value in pairs})
 
 
-def settable(command: Command) -> Command:
-    """Return the command with the option --set, which changes thresholds that decide: `settings` is what it gets."""
+def add_settings_option(command: Command) -> Command:
+    """Return the command with the option --set, which changes thresholds; the command gets them as `settings`."""
     return click.option(
         "--set",
         "settings",
         metavar="STAGE.NAME=VALUE",
         multiple=True,
-        callback=_settings,
-        help="Change a threshold that decides, such as select.decisive=4; `lostmotion settings` lists them.",
+        callback=_parse_settings,
+        help="Change a threshold, such as select.decisive=4; `lostmotion settings` lists all of them.",
     )(command)
 
 
-def with_terms(command: Command) -> Command:
-    """Return the command with the option --term, terms that are added to the model that is fitted: `terms`."""
+def add_terms_option(command: Command) -> Command:
+    """Return the command with the option --term for terms that are added to the fitted model, as `terms`."""
     return click.option(
         "--term",
         "terms",
         metavar="NAME[@PLACE]",
         type=PluginName("term"),
         multiple=True,
-        help="A term to add to the model that is fitted.",
+        help="A term to add to the fitted model.",
     )(command)
 
 
-def with_maps(command: Command) -> Command:
-    """Return the command with the option --map, maps that the route by quantifiers looks things up in: `maps`."""
+def add_maps_option(command: Command) -> Command:
+    """Return the command with the option --map for maps of the quantifier route, as `maps`."""
     return click.option(
         "--map",
         "maps",
         metavar="FILE.nc|FILE.zarr",
         multiple=True,
         type=click.Path(exists=True, path_type=Path),
-        help="A map for the route by quantifiers, of `lostmotion map`; made in DIR if not given.",
+        help="A map from `lostmotion map` for the quantifier route; made in DIR if not given.",
     )(command)
 
 
-def on_a_case(command: Command) -> Command:
+def add_case_options(command: Command) -> Command:
     """Return the command with the argument CASE.toml and the options --out, --seed, --jobs and --quiet."""
-    return on_a_trial(_CASE(command))
+    return add_common_options(_CASE(command))
 
 
-def on_a_trial(command: Command) -> Command:
+def add_common_options(command: Command) -> Command:
     """Return the command with the options --out, --seed, --jobs and --quiet."""
     for option in reversed(_COMMON):
         command = option(command)

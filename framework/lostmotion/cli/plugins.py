@@ -1,4 +1,4 @@
-"""`lostmotion plugins`: what there is, what it says of itself, and whether it keeps its contract."""
+"""`lostmotion plugins`: list the plugins, show their descriptions, and check them against their contracts."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from lostmotion.cli.sheets import ParameterSheet, PluginSheet
     from lostmotion.testing import Finding
 
-_AS_JSON = click.option("--json", "as_json", is_flag=True, help="Write JSON, for machines.")
+_AS_JSON = click.option("--json", "as_json", is_flag=True, help="Write JSON, for programs.")
 _NAME = click.argument("name", type=PluginName())
 
 
@@ -35,26 +35,32 @@ _NAME = click.argument("name", type=PluginName())
 @_AS_JSON
 @click.pass_context
 def command(ctx: click.Context, as_json: bool) -> None:
-    """List every model, term and method: kind, name, owner, state."""
+    """List every model, term and method: kind, name, owner, state.
+
+    Exit status 0, also when some plugins cannot be used: the list shows the reason.
+    """
     if ctx.invoked_subcommand is None:
         entries = registry_of(ctx).entries()
         _print_json(ctx, plugins=[asdict(e) for e in entries]) if as_json else _print_table(entries)
 
 
 @command.command(
-    short_help="Show what a plugin says of itself.",
+    short_help="Show the description of a plugin.",
     epilog=examples("lostmotion plugins show lin_backlash", "lostmotion plugins show lugre_friction --json"),
 )
 @_NAME
 @_AS_JSON
 @click.pass_context
 def show(ctx: click.Context, name: str, as_json: bool) -> None:
-    """Show what a plugin says of itself: physics, formula, parameters with units and bounds, paper, owner."""
-    from lostmotion.cli.sheets import sheet_of
+    """Show the description of a plugin: physics, formula, parameters with units and bounds, paper, owner.
+
+    Exit status 0; 2 when no usable plugin has this name.
+    """
+    from lostmotion.cli.sheets import make_sheet
     from lostmotion.codec import to_plain
 
     registry = registry_of(ctx)
-    sheets = [sheet_of(entry, registry.load(entry.kind, name)) for entry in _called(registry, name)]
+    sheets = [make_sheet(entry, registry.load(entry.kind, name)) for entry in _find_entries(registry, name)]
     if _wants_json(ctx, as_json):
         _print_json(ctx, plugins=[to_plain(sheet) for sheet in sheets])
         return
@@ -63,7 +69,7 @@ def show(ctx: click.Context, name: str, as_json: bool) -> None:
 
 
 @command.command(
-    short_help="Hold plugins against the rules of their kind.",
+    short_help="Check plugins against the rules of their kind.",
     epilog=examples(
         "lostmotion plugins check coulomb_friction", "lostmotion --plugin my_terms.py plugins check my_drag my_spring"
     ),
@@ -72,14 +78,15 @@ def show(ctx: click.Context, name: str, as_json: bool) -> None:
 @_AS_JSON
 @click.pass_context
 def check(ctx: click.Context, names: tuple[str, ...], as_json: bool) -> None:
-    """Hold plugins against the rules of their kind; the exit status is 1 when one is broken.
+    """Check plugins against the rules of their kind.
 
-    A rule that the plugin itself names in `known_failures`, with the reason, is told and does not count.
+    A broken rule that the plugin lists in `known_failures`, with the reason, is reported and does not count. Exit
+    status 0 when all rules are kept, 1 when a rule is broken, 2 when no usable plugin has this name.
     """
     from lostmotion import testing
 
     registry = registry_of(ctx)
-    entries = [entry for name in names for entry in _called(registry, name)]
+    entries = [entry for name in names for entry in _find_entries(registry, name)]
     report = [(e, testing.check(registry.load(e.kind, e.name))) for e in entries]
     if _wants_json(ctx, as_json):
         _print_json(ctx, checks=[{"kind": e.kind, "name": e.name, "rules": [asdict(f) for f in r]} for e, r in report])
@@ -88,7 +95,7 @@ def check(ctx: click.Context, names: tuple[str, ...], as_json: bool) -> None:
     ctx.exit(0 if all(f.ok or f.known for _, findings in report for f in findings) else 1)
 
 
-def _called(registry: Registry, name: str) -> list[Entry]:
+def _find_entries(registry: Registry, name: str) -> list[Entry]:
     """Return the entries of this name, one for each kind that has it, or raise `PluginError`."""
     named = {e.kind: e for e in registry.entries() if e.name == name}
     if not named:
@@ -115,20 +122,20 @@ def _print_table(entries: tuple[Entry, ...]) -> None:
     rows += [(e.kind, e.name, f"{e.owner} {e.version}".strip(), e.state) for e in entries]
     widths = [max(len(row[i]) for row in rows) for i in range(4)]
     lines = ["  ".join(cell.ljust(w) for cell, w in zip(row, widths, strict=True)).rstrip() for row in rows]
-    lines += [f"\n{why}" for why in dict.fromkeys(_complaint(e) for e in entries if e.why)]
+    lines += [f"\n{why}" for why in dict.fromkeys(_format_complaint(e) for e in entries if e.why)]
     click.echo("\n".join(lines))
 
 
-def _complaint(entry: Entry) -> str:
+def _format_complaint(entry: Entry) -> str:
     return f"{entry.owner} ({entry.target}): {entry.why}" if entry.kind == "package" else entry.why
 
 
 def _print_sheet(sheet: PluginSheet) -> None:
-    from lostmotion.cli.sheets import LISTS, SETS, WORDS
+    from lostmotion.cli.sheets import LIST_FIELDS, SET_FIELDS, TEXT_FIELDS
 
     click.secho(f"{sheet.name} ({sheet.kind} of {sheet.owner})", bold=True)
     click.echo(click.wrap_text(sheet.about, 100, "  ", "  "))
-    for key in (*WORDS, *LISTS, *SETS):
+    for key in (*TEXT_FIELDS, *LIST_FIELDS, *SET_FIELDS):
         if (value := getattr(sheet, key)) is not None:
             text = value if isinstance(value, str) else ", ".join(value)
             click.echo(click.wrap_text(text, 100, f"  {key:<11}", " " * 13))
@@ -136,7 +143,7 @@ def _print_sheet(sheet: PluginSheet) -> None:
         holds = f", holds {', '.join(place.holds)}" if place.holds else ""
         click.echo(f"  {'interface':<11}{place.name}: acts on row {place.row} through {place.inertia}{holds}")
     for parameter in sheet.parameters or ():
-        click.echo(f"  {'parameter':<11}{_parameter_line(parameter)}")
+        click.echo(f"  {'parameter':<11}{_format_parameter(parameter)}")
         if parameter.prior is not None:
             click.echo(f"  {'':<11}  prior {parameter.prior}")
     for option, default in (sheet.options or {}).items():
@@ -145,7 +152,7 @@ def _print_sheet(sheet: PluginSheet) -> None:
         click.echo(f"  {'breaks':<11}{rule}: {reason}")
 
 
-def _parameter_line(q: ParameterSheet) -> str:
+def _format_parameter(q: ParameterSheet) -> str:
     units = " or ".join(dict.fromkeys(q.units.values()))
     null = "" if q.null is None else f", does nothing at {q.null:g}"
     also = f", also called {', '.join(q.aliases)}" if q.aliases else ""
@@ -156,16 +163,16 @@ def _print_checks(report: list[tuple[Entry, list[Finding]]]) -> None:
     for entry, findings in report:
         click.secho(f"{entry.name} ({entry.kind} of {entry.owner})", bold=True)
         for finding in findings:
-            click.echo(f"  {_state(finding):<5} {finding.rule}")
+            click.echo(f"  {_get_mark(finding):<5} {finding.rule}")
             if not finding.ok:
                 sentence = f"{finding.found}. Known: {finding.known}" if finding.known else finding.sentence
                 click.echo(click.wrap_text(sentence, 100, " " * 8, " " * 8))
-    many = Counter(_state(f) for _, findings in report for f in findings)
+    many = Counter(_get_mark(f) for _, findings in report for f in findings)
     known = f", {many['known']} known to be broken" if many["known"] else ""
     click.echo(f"{many['ok']} rules kept, {many['FAIL']} broken{known}")
 
 
-def _state(finding: Finding) -> str:
+def _get_mark(finding: Finding) -> str:
     """Return how a finding is marked in the list."""
     if finding.ok:
         return "ok"

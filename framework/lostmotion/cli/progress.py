@@ -1,4 +1,4 @@
-"""A line on standard error that says what is being done and for how long."""
+"""Progress on standard error: the current step and the elapsed time."""
 
 from __future__ import annotations
 
@@ -7,24 +7,22 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
-LONGEST = 120
-COMPILING = "compiling, which this machine has to do once"
-
-
-SELDOM = 20.0
-"""Seconds between two lines where nobody watches a terminal."""
+MAX_LINE_LENGTH = 120
+COMPILING = "compiling (only once on this machine)"
+LINE_INTERVAL = 20.0
+"""Smallest number of seconds between two lines when standard error is not a terminal."""
 
 
 @contextmanager
-def counted(what: str, total: int, unit: str, *, quiet: bool) -> Iterator[Callable[[int, int], None]]:
-    """Yield a function that is told how many are done of how many; what was done before the start costs no time.
+def show_count(what: str, total: int, unit: str, *, quiet: bool) -> Iterator[Callable[[int, int], None]]:
+    """Yield a callback for the finished and the total number; the first call counts as done before the start.
 
-    Off a terminal a line is written now and then, with the time to go.
+    Outside of a terminal, a line with the remaining time is written from time to time.
     """
     from tqdm import tqdm
 
     with tqdm(desc=what, total=total, unit=f" {unit}", leave=False, disable=True if quiet else None) as bar:
-        lines, first = _Lines(what), -1
+        lines, first = _LineWriter(what), -1
 
         def say(done: int, _of: int) -> None:
             nonlocal first
@@ -34,14 +32,14 @@ def counted(what: str, total: int, unit: str, *, quiet: bool) -> Iterator[Callab
             bar.n = done
             bar.refresh()
             if bar.disable and not quiet:
-                lines.say(f"{done} of {total} {unit}{lines.to_go(done - first, total - done)}")
+                lines.write(f"{done} of {total} {unit}{lines.format_remaining(done - first, total - done)}")
 
         yield say
 
 
 @contextmanager
-def progress(what: str, *, quiet: bool) -> Iterator[Callable[[str], None]]:
-    """Yield a function that is told each step; off a terminal it writes a line now and then, when `quiet` nothing."""
+def show_progress(what: str, *, quiet: bool) -> Iterator[Callable[[str], None]]:
+    """Yield a callback for each step; outside of a terminal it writes a line from time to time, if `quiet` nothing."""
     from tqdm import tqdm
 
     with tqdm(
@@ -63,56 +61,60 @@ def progress(what: str, *, quiet: bool) -> Iterator[Callable[[str], None]]:
         if quiet:
             yield say
         elif bar.disable:
-            yield _Lines(what).say
+            yield _LineWriter(what).write
         else:
-            with _compiling(lambda busy: bar.set_postfix_str(f"{last} · {COMPILING}" if busy else last)):
+            with _watch_compilation(lambda busy: bar.set_postfix_str(f"{last} · {COMPILING}" if busy else last)):
                 yield say
 
 
-class _Lines:
-    """Lines on standard error, one in `SELDOM` seconds at most: short work leaves none."""
+class _LineWriter:
+    """Lines on standard error, at most one in `LINE_INTERVAL` seconds: short work writes none."""
 
     def __init__(self, what: str) -> None:
         self.what, self.begin = what, time.monotonic()
         self.last = self.begin
 
-    def say(self, step: str) -> None:
-        """Write what is being done, if the last line is long enough ago."""
+    def write(self, step: str) -> None:
+        """Write the current step, if the last line is long enough ago."""
         now = time.monotonic()
-        if now - self.last >= SELDOM:
+        if now - self.last >= LINE_INTERVAL:
             self.last = now
-            sys.stderr.write(f"{self.what}: {_minutes(now - self.begin)}: {_shorten(step)}\n")
+            sys.stderr.write(f"{self.what}: {_format_duration(now - self.begin)}: {_shorten_step(step)}\n")
             sys.stderr.flush()
 
-    def to_go(self, done: int, left: int) -> str:
-        """Return the time to go in words, where so many were done since the beginning and so many are left."""
+    def format_remaining(self, done: int, left: int) -> str:
+        """Return the remaining time in words, from the numbers done since the beginning and left."""
         if done <= 0:
             return ""
-        return f", about {_minutes((time.monotonic() - self.begin) / done * left)} to go"
+        return f", about {_format_duration((time.monotonic() - self.begin) / done * left)} to go"
 
 
-def _shorten(step: str) -> str:
-    """Return a step on a line that is not too long: what is cut off at a comma is told by dots."""
-    return step if len(step) <= LONGEST else f"{step[:LONGEST].rpartition(', ')[0] or step[:LONGEST]}, ..."
+def _shorten_step(step: str) -> str:
+    """Return a step as a text of limited length, cut at a comma and marked with dots."""
+    return (
+        step
+        if len(step) <= MAX_LINE_LENGTH
+        else f"{step[:MAX_LINE_LENGTH].rpartition(', ')[0] or step[:MAX_LINE_LENGTH]}, ..."
+    )
 
 
-def _minutes(seconds: float) -> str:
-    """Return a time as people say it, for instance 3 min 20 s."""
+def _format_duration(seconds: float) -> str:
+    """Return a duration as text, for example 3 min 20 s."""
     whole = round(seconds)
     return f"{whole // 60} min {whole % 60} s" if whole >= 60 else f"{whole} s"
 
 
 @contextmanager
-def _compiling(told: Callable[[bool], None]) -> Iterator[None]:
-    """Tell when a kernel begins to be compiled, and when it is."""
+def _watch_compilation(report: Callable[[bool], None]) -> Iterator[None]:
+    """Call `report` with True when the compilation of a kernel begins, and with False when it ends."""
     from numba.core import event
 
     class Listener(event.Listener):
         def on_start(self, event: event.Event) -> None:
-            told(True)
+            report(True)
 
         def on_end(self, event: event.Event) -> None:
-            told(False)
+            report(False)
 
     with event.install_listener("numba:compile", Listener()):
         yield

@@ -1,4 +1,4 @@
-"""What plugins say of themselves, as `lostmotion plugins show` tells it; it loads NumPy, which the listing does not."""
+"""The descriptions of plugins that `lostmotion plugins show` prints; this module loads NumPy, the listing does not."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from lostmotion.codec import described
 from lostmotion.contracts import Param
 from lostmotion.registry import Entry
 
-WORDS = ("physics", "formula", "null", "paper", "motion", "reads", "unit")
-LISTS = ("states", "inputs", "channels", "needs", "motions", "resembles")
-SETS = ("preserves",)
+TEXT_FIELDS = ("physics", "formula", "null", "paper", "motion", "reads", "unit")
+LIST_FIELDS = ("states", "inputs", "channels", "needs", "motions", "resembles")
+SET_FIELDS = ("preserves",)
 
 
 @dataclass(frozen=True)
 class PlaceSheet:
-    """What a model says of a place at which a force can act."""
+    """The description of a place of a model at which a force can act."""
 
     name: str = described("its name")
     row: int = described("the row of the equations of motion on which the force acts")
@@ -27,7 +27,7 @@ class PlaceSheet:
 
 @dataclass(frozen=True)
 class ParameterSheet:
-    """What a plugin says of a parameter."""
+    """The description of a parameter of a plugin."""
 
     name: str = described("its name")
     meaning: str = described("what it is, in words")
@@ -36,20 +36,20 @@ class ParameterSheet:
     high: float = described("upper bound; null where there is none")
     scale: str = described("log where it is known by order of magnitude, else linear")
     null: float | None = described("where the plugin does nothing; null where there is no such value")
-    typical: float = described("width of the usual prior, in natural sizes of the recording")
+    typical: float = described("width of the default prior, in natural scales of the recording")
     aliases: tuple[str, ...] = described("further names")
-    prior: str | None = described("how a diagnosis believes in it beforehand, in words", default=None)
+    prior: str | None = described("its prior in a diagnosis, in words", default=None)
 
 
 @dataclass(frozen=True)
 class PluginSheet:
-    """Everything that a plugin says of itself; what it does not say is absent."""
+    """The description of a plugin; fields that do not apply are absent."""
 
     kind: str = described("model, term, quantifier, ...")
     name: str = described("its name")
-    owner: str = described("the package it came with, and its version")
+    owner: str = described("its package and version")
     about: str = described("what it is, in a paragraph")
-    physics: str | None = described("the sentence by which a finding is told", default=None)
+    physics: str | None = described("the sentence that reports a finding", default=None)
     formula: str | None = described("its formula", default=None)
     null: str | None = described("the null hypothesis of a surrogate", default=None)
     paper: str | None = described("the paper it follows", default=None)
@@ -60,17 +60,17 @@ class PluginSheet:
     states: tuple[str, ...] | None = described("states of a model or term", default=None)
     inputs: tuple[str, ...] | None = described("inputs of a model", default=None)
     channels: tuple[str, ...] | None = described("what sensors of a model can see", default=None)
-    needs: tuple[str, ...] | None = described("what must be there for it", default=None)
+    needs: tuple[str, ...] | None = described("parameters that a place must have for it", default=None)
     motions: tuple[str, ...] | None = described("kinds of motion it can be used in", default=None)
-    resembles: tuple[str, ...] | None = described("terms that few recordings tell from it", default=None)
+    resembles: tuple[str, ...] | None = described("terms that few recordings distinguish from it", default=None)
     interfaces: tuple[PlaceSheet, ...] | None = described("places at which a force can act on a model", default=None)
     parameters: tuple[ParameterSheet, ...] | None = described("its parameters", default=None)
     options: Mapping[str, object] | None = described("its options with their defaults", default=None)
     known_failures: Mapping[str, str] | None = described("rules that it breaks, with the reason", default=None)
 
 
-def sheet_of(entry: Entry, cls: type[Any]) -> PluginSheet:
-    """Return everything that a class says of itself."""
+def make_sheet(entry: Entry, cls: type[Any]) -> PluginSheet:
+    """Return the description of a plugin class."""
     motions = getattr(cls, "motions", None) or (getattr(cls, "motion", ""),)
     options = [f for f in fields(cls) if f.init and f.name != "at"] if is_dataclass(cls) else []
     places = [PlaceSheet(i.name, i.row, i.inertia, tuple(i.holds)) for i in getattr(cls, "interfaces", None) or ()]
@@ -79,38 +79,39 @@ def sheet_of(entry: Entry, cls: type[Any]) -> PluginSheet:
         name=entry.name,
         owner=f"{entry.owner} {entry.version}".strip(),
         about=" ".join((cls.__doc__ or "").split()),
-        physics=_word(cls, "physics"),
-        formula=_word(cls, "formula"),
-        null=_word(cls, "null"),
-        paper=_word(cls, "paper"),
-        motion=_word(cls, "motion"),
-        reads=_word(cls, "reads"),
-        unit=_word(cls, "unit"),
-        preserves=tuple(sorted(_names(cls, "preserves") or ())) or None,
-        states=_names(cls, "states"),
-        inputs=_names(cls, "inputs"),
-        channels=_names(cls, "channels"),
-        needs=_names(cls, "needs"),
-        motions=_names(cls, "motions"),
-        resembles=_names(cls, "resembles"),
+        physics=_get_text(cls, "physics"),
+        formula=_get_text(cls, "formula"),
+        null=_get_text(cls, "null"),
+        paper=_get_text(cls, "paper"),
+        motion=_get_text(cls, "motion"),
+        reads=_get_text(cls, "reads"),
+        unit=_get_text(cls, "unit"),
+        preserves=tuple(sorted(_get_names(cls, "preserves") or ())) or None,
+        states=_get_names(cls, "states"),
+        inputs=_get_names(cls, "inputs"),
+        channels=_get_names(cls, "channels"),
+        needs=_get_names(cls, "needs"),
+        motions=_get_names(cls, "motions"),
+        resembles=_get_names(cls, "resembles"),
         interfaces=tuple(places) or None,
-        parameters=tuple(_parameter(q, motions, entry.kind) for q in getattr(cls, "params", None) or ()) or None,
+        parameters=tuple(_make_parameter_sheet(q, motions, entry.kind) for q in getattr(cls, "params", None) or ())
+        or None,
         options={f.name: None if f.default is MISSING else f.default for f in options} or None,
         known_failures=dict(getattr(cls, "known_failures", None) or {}) or None,
     )
 
 
-def _word(cls: type[Any], key: str) -> str | None:
+def _get_text(cls: type[Any], key: str) -> str | None:
     word = getattr(cls, key, None)
     return word if isinstance(word, str) else None
 
 
-def _names(cls: type[Any], key: str) -> tuple[str, ...] | None:
+def _get_names(cls: type[Any], key: str) -> tuple[str, ...] | None:
     return tuple(getattr(cls, key, None) or ()) or None
 
 
-def _parameter(q: Param, motions: tuple[str, ...], kind: str) -> ParameterSheet:
-    """Return what a parameter is, with its unit in each kind of motion."""
+def _make_parameter_sheet(q: Param, motions: tuple[str, ...], kind: str) -> ParameterSheet:
+    """Return the description of a parameter, with its unit in each kind of motion."""
     return ParameterSheet(
         name=q.name,
         meaning=q.meaning,
@@ -121,12 +122,12 @@ def _parameter(q: Param, motions: tuple[str, ...], kind: str) -> ParameterSheet:
         null=q.null,
         typical=q.typical,
         aliases=q.aliases,
-        prior=_prior(q) if kind == "term" else None,
+        prior=_describe_prior(q) if kind == "term" else None,
     )
 
 
-def _prior(q: Param) -> str:
-    """Return how a diagnosis believes in a parameter of a term beforehand, in natural sizes of the recording."""
+def _describe_prior(q: Param) -> str:
+    """Return the prior of a term's parameter in a diagnosis, in natural scales of the recording."""
     if q.choices:
         return f"one of {', '.join(f'{c:g}' for c in q.choices)}"
     sizes = ("drive force", "rms position", "length of the recording" if q.lasting else "time of the motion")

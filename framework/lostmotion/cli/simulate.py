@@ -1,4 +1,4 @@
-"""`lostmotion simulate`: a table of what a machine would do, with or without extra physics."""
+"""`lostmotion simulate`: write a table of the simulated motion of a machine, with or without additional terms."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import click
 
 from lostmotion.cli._lazy import PluginName, examples, registry_of
 
-_JOINT = "--set m=0.05 --set c=0.15 --set k0=180 --set x0=0.0131"
+_JOINT_PARAMETERS = "--set m=0.05 --set c=0.15 --set k0=180 --set x0=0.0131"
 
 
 @click.command(
@@ -16,10 +16,10 @@ _JOINT = "--set m=0.05 --set c=0.15 --set k0=180 --set x0=0.0131"
         "lostmotion simulate lin_backlash --set m=1 --set c=8 --set k0=4e4 --set x0=0.005 \\",
         "    --term coulomb_friction:force=3 --drive harmonic:amplitude=100,omega=40 \\",
         "    --duration 15 --rate 1000 --noise 0.01 --out friction.csv",
-        f"lostmotion simulate robot_joint {_JOINT} \\",
+        f"lostmotion simulate robot_joint {_JOINT_PARAMETERS} \\",
         "    --term coulomb_friction@base:force=0.03 --drive harmonic:amplitude=0.05236,frequency=1.54 \\",
         "    --initial position=0.05 --duration 39 --rate 200 --out joint.nc",
-        "lostmotion plugins show lin_backlash     its parameters, with units",
+        "lostmotion plugins show lin_backlash     show its parameters with units",
     )
 )
 @click.argument("model", type=PluginName("model"))
@@ -30,13 +30,13 @@ _JOINT = "--set m=0.05 --set c=0.15 --set k0=180 --set x0=0.0131"
     metavar="NAME[@PLACE][:PARAM=VALUE,...]",
     type=PluginName("term"),
     multiple=True,
-    help="Physics to add; it acts at the ground unless a PLACE of the model is given.",
+    help="A term to add; it acts at the ground unless a PLACE of the model is given.",
 )
 @click.option(
     "--motion",
     type=click.Choice(["translation", "rotation"]),
     default=None,
-    help="In N and m, or in N m and rad, where the model can be either; `plugins show` tells.",
+    help="Use N and m, or N m and rad, if the model allows both (see `plugins show`).",
 )
 @click.option(
     "--drive",
@@ -44,20 +44,20 @@ _JOINT = "--set m=0.05 --set c=0.15 --set k0=180 --set x0=0.0131"
     metavar="KIND:KEY=VALUE,...",
     multiple=True,
     required=True,
-    help="What moves the machine: the force (N, N m), or the motion of the base (m, rad) where the model has one. "
-    "Several add up. Below, Hz and s.",
+    help="The excitation: a force (N, N m), or a motion of the base (m, rad) if the model has one. Several are added. "
+    "The kinds are listed above.",
 )
-@click.option("--duration", type=float, required=True, metavar="S", help="How long, in s.")
+@click.option("--duration", type=float, required=True, metavar="S", help="Duration in s.")
 @click.option("--rate", type=float, required=True, metavar="HZ", help="Samples per second.")
-@click.option("--initial", metavar="STATE=VALUE", multiple=True, help="Where the machine starts; at zero if not given.")
-@click.option("--noise", type=float, default=0.0, metavar="SHARE", help="Noise on each channel, over its deviation.")
-@click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="The same seed, the same file.")
+@click.option("--initial", metavar="STATE=VALUE", multiple=True, help="Initial value of a state; zero if not given.")
+@click.option("--noise", type=float, default=0.0, metavar="SHARE", help="Noise of each channel, relative to its sd.")
+@click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="The same seed gives the same file.")
 @click.option(
     "--out",
     type=click.Path(dir_okay=False, path_type=Path),
     required=True,
     metavar="FILE.csv|FILE.nc",
-    help="Where to write `time`, the inputs and the channels.",
+    help="File for `time`, the inputs and the channels.",
 )
 @click.pass_context
 def command(
@@ -71,7 +71,7 @@ def command(
     out: Path,
     **settings: object,
 ) -> None:
-    """Simulate MODEL, and write what went in and what its sensors show.
+    """Simulate MODEL, and write its inputs and its channels as a table.
 
     \b
     Drives:
@@ -81,7 +81,8 @@ def command(
       step       size, at, rise (s)
       noise      rms, bandwidth (Hz)
 
-    A parameter of the model that may be zero, such as k1 or mgl, is zero when it is not set.
+    A parameter of the model that may be zero, such as k1 or mgl, is zero when it is not set. Exit status 0 when the
+    table is written, 2 for an input that cannot be used.
     """  # noqa: D301
     from lostmotion.simulation.simulate import Plan, assembly_of, simulate
     from lostmotion.storage import require_ending
@@ -90,16 +91,17 @@ def command(
     registry = registry_of(ctx)
     assembly, values = assembly_of(registry, model, terms, motion)
     used = [("model", model), *(("term", term.name) for term in assembly.terms)]
-    values |= _numbers(sets, "--set")
-    plan = Plan(assembly, values, initial=_numbers(initial, "--initial"), origins=registry.origins(*used), **settings)  # type: ignore[arg-type]
+    values |= _parse_numbers(sets, "--set")
+    start, origins = _parse_numbers(initial, "--initial"), registry.origins(*used)
+    plan = Plan(assembly, values, initial=start, origins=origins, **settings)  # type: ignore[arg-type]
     table = simulate(plan)
     table.save(out)
     rows = len(table.columns["time"])
     click.echo(f"{out}: {rows} samples of {assembly.label} at {plan.rate:g} Hz ({table.nsub} steps between samples)")
 
 
-def _numbers(texts: tuple[str, ...], option: str) -> dict[str, float]:
-    """Return the `NAME=VALUE` of an option given several times; one text may hold several, with commas between."""
+def _parse_numbers(texts: tuple[str, ...], option: str) -> dict[str, float]:
+    """Return the values of an option NAME=VALUE that may be repeated; commas separate several in one text."""
     from lostmotion.simulation.drives import number, pairs
 
     found = pairs(",".join(texts), option)

@@ -19,6 +19,7 @@ from lostmotion.diagnosis.search import Diagnosed
 from lostmotion.inference.course import Selection, Simplest, Visit
 from lostmotion.inference.fit import Fit
 from lostmotion.inference.learned import OverTime
+from lostmotion.inference.leftovers import quiet
 from lostmotion.inference.natural import term_of
 from lostmotion.inference.rival import Righted
 from lostmotion.likelihood.observation import Observation
@@ -111,10 +112,11 @@ def decided(outcome: Outcome, observations: Sequence[Observation]) -> tuple[Fit,
 def find_simplest(outcome: Outcome, observations: Sequence[Observation]) -> tuple[Fit, Simplest] | None:
     """Return the fit of the terms that are the simplest explanation, with the probability of each; None without any.
 
-    It is asked where no set is ahead of a generic smooth force. A set qualifies when its log evidence, less the
-    penalties of its terms, exceeds that of the best learned curve, of the chosen set, and of the usual errors of known
-    values and channels, and when it predicts held-out data as well as the best of them. Its terms are reported as
-    likely: a smooth force without a name explains about as much.
+    It is asked where no set is ahead of a generic smooth force. A set qualifies when no random force is left with it,
+    when its log evidence, less the penalties of its terms, exceeds that of the best learned curve, of the chosen set,
+    and of the usual errors of known values and channels, and when it predicts held-out data as well as the best of
+    them. It does not extend terms that were chosen: these stand on their own. Its terms are reported as likely: a
+    smooth force without a name explains about as much.
     """
     d, selection = outcome.diagnosis, outcome.diagnosis.selection
     here = selection.visits.get(selection.chosen.problem.active)
@@ -157,16 +159,22 @@ def _predicting(
 
 
 def _simpler_sets(selection: Selection, here: Visit) -> list[Visit]:
-    """Return the visited sets, each of whose terms is decisive in it, that are neither chosen nor a part of that."""
-    barred = selection.declined | selection.withdrawn
-    sets = [v for v in selection.visits.values() if not v.terms <= here.terms and not v.terms & barred]
-    decisive = selection.nominal.problem.settings.select.decisive
+    """Return the visited sets that leave no random force, without terms that are not decisive or usual in channels.
 
-    def needed(visit: Visit) -> bool:
+    Neither the chosen set nor a part of it is among them, nor one that only adds to chosen terms.
+    """
+    barred, settings = selection.declined | selection.withdrawn, selection.nominal.problem.settings
+
+    def qualifies(visit: Visit) -> bool:
+        if visit.terms <= here.terms or (here.terms and visit.terms > here.terms) or visit.terms & barred:
+            return False
+        if visit.fit.status == "diverged" or not quiet(visit.fit):
+            return False
         parts = (selection.visits.get(visit.terms - {key}) for key in visit.terms)
-        return all(visit.weight > part.weight + decisive for part in parts if part)
+        decisive = all(visit.weight > part.weight + settings.select.decisive for part in parts if part)
+        return decisive and all(_delay_in_samples(visit.fit, key) > settings.rival.late for key in visit.terms)
 
-    return [v for v in sets if v.fit.status != "diverged" and needed(v)]
+    return [v for v in selection.visits.values() if qualifies(v)]
 
 
 def _over_time(selection: Selection, here: Visit) -> bool:
@@ -233,18 +241,23 @@ def _right(d: Diagnosed, here: Visit) -> bool:
 
 
 def usual(d: Diagnosed, key: str) -> str:
-    """Return a sentence on a delay that is no longer than acquisition systems have as a rule; empty where it is."""
-    term, slots = term_of(d.after.problem, key)
-    late = [s for s in slots if s.param.dimension == TIME and s.key in d.after.values]
-    if term.acts == "motion" or not late:
-        return ""
-    samples = abs(d.after.values[late[0].key]) / d.shown.dt
-    if samples > d.settings.rival.late:
+    """Return a sentence on a delay that is no longer than acquisition systems have as a rule; empty for all others."""
+    samples = _delay_in_samples(d.after, key)
+    if not samples <= d.settings.rival.late:
         return ""
     return (
         f"A delay of {rounded(samples)} samples is within what acquisition systems have as a rule, and the model is not"
         " right in other ways too."
     )
+
+
+def _delay_in_samples(fit: Fit, key: str) -> float:
+    """Return the delay or the lag of a channel in samples; infinity for other terms."""
+    term, slots = term_of(fit.problem, key)
+    late = [s for s in slots if s.param.dimension == TIME and s.key in fit.values]
+    if term.acts == "motion" or not late:
+        return math.inf
+    return abs(fit.values[late[0].key]) / fit.problem.observations[0].dt
 
 
 def _whole(errors: Array) -> float:

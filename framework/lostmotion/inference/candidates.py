@@ -11,7 +11,7 @@ import numpy as np
 from lostmotion.contracts import Array, Term, Values, place_of
 from lostmotion.errors import ContractError
 from lostmotion.inference.fit import Fit, Sensitivity, maximise, restarted, sensitivity, solved, warmed
-from lostmotion.inference.late import PRICE, can_be_late, cut, refined
+from lostmotion.inference.late import PRICE, at_any_time, can_be_late, cut, refined, times_of
 from lostmotion.inference.natural import frees_of, size_of, sorted_slots, star, term_of, tried_of
 from lostmotion.likelihood.observation import Observation
 from lostmotion.likelihood.plan import handed
@@ -100,6 +100,19 @@ def _late(fit: Fit, key: str, amplitudes: Sequence[Slot], always: Hint, joint: S
         if hint.gain > best.gain + (ONSET if best is always else 0.0):
             best = replace(hint, start={**hint.start, since_of(key): time})
     return best
+
+
+def _refine_onset(fit: Fit, hint: Hint) -> Hint:
+    """Return the hint of a sensor term with its onset at the best sample between the neighbouring tried onsets.
+
+    A gain or an offset that sets in makes the reading jump: a fit that begins at a wrong sample does not find the time.
+    """
+    wider, times = joined(restarted(fit), hint.key, hint.start), times_of(fit.problem)
+    dt, near = fit.problem.observations[0].dt, hint.start[since_of(hint.key)]
+    grid = np.arange(near - (times[1] - times[0]), near + (times[1] - times[0]), dt)
+    held = wider.extended((at_any_time(fit.problem, hint.key, near),), ())
+    best = int(np.argmax(held.log_likelihoods(np.array([np.append(wider.start, t) for t in grid]))))
+    return replace(hint, start={**hint.start, since_of(hint.key): float(grid[best])})
 
 
 def _afar(fit: Fit, slot: Slot, key: str, distinct: float) -> Hint:
@@ -214,7 +227,8 @@ def _scored(fit: Fit, slopes: Sensitivity, key: str, shapes: Sequence[Mapping[st
     if can_be_late(fit.problem, key):
         best = max(range(len(hints)), key=lambda i: hints[i].gain)
         late = _late(fit, key, amplitudes, hints[best], joints[best])
-        hints += [late] if late.late else []
+        if late.late:
+            hints.append(_refine_onset(fit, late) if key in fit.problem.system.rescaling else late)
     return hints
 
 

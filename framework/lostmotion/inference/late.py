@@ -28,7 +28,7 @@ PRICE = math.log(TIMES)
 
 
 def can_be_late(problem: Problem, key: str) -> bool:
-    """Return whether an onset of a term can be estimated: from one recording, and not of a sensor.
+    """Return whether an onset of a term can be estimated: from one recording.
 
     A term whose own parameters say when it acts (a change at a time, a warming up) has no second time beside that.
     """

@@ -1,23 +1,69 @@
-"""Readings of sensors that are bent: put right before the filter sees them, with what that does to their density."""
+"""Readings of nonlinear sensors, and of sensors that change at a time, corrected before the filter sees them.
+
+The density of the readings changes by the slope of the correction, so that likelihoods stay comparable.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from lostmotion.contracts import Array, SensorTerm, Values
 from lostmotion.likelihood.engine import Innovations
 from lostmotion.likelihood.observation import Observation
+from lostmotion.likelihood.sensors import FLATTEST, Sensor, SensorChange
 
-Bend = tuple[int, SensorTerm, Values]
-"""The number of a sensor, the term that bends it, and what that is handed."""
+if TYPE_CHECKING:
+    from lostmotion.likelihood.system import System
+
 ROUNDS = 30
 CLOSE, NUDGE = 1e-10, 1e-6
 """A reading is put right to this share of its range; slopes are taken over this share of it."""
-FLATTEST = 0.1
-"""A sensor shows at least this share of a change of what it should show: one that folds back is not undone."""
+
+
+class Bend(NamedTuple):
+    """A nonlinear sensor: its number, the term that makes it so, and the parameters of that."""
+
+    sensor: int
+    term: SensorTerm
+    values: Values
+
+
+class Corrections(NamedTuple):
+    """What has to be undone in the readings of a recording: nonlinear sensors, and the changes of each sensor."""
+
+    bends: tuple[Bend, ...] = ()
+    changes: tuple[tuple[SensorChange, ...], ...] = ()
+
+
+def corrections_of(system: System, active: frozenset[str], full: Array, sensors: Sequence[Sensor]) -> Corrections:
+    """Return the corrections that the active terms of a system ask for at a full vector (parameters,)."""
+    if not active & {*system.bending, *system.rescaling}:
+        return Corrections()
+    bends = tuple(
+        Bend(s, term, p)
+        for s, sensor in enumerate(sensors)
+        for term, p in system.at_sensor(full, active, sensor.place)
+        if type(term).bent is not SensorTerm.bent
+    )
+    changes = tuple(system.changes_at_sensor(full, active, sensor.place) for sensor in sensors)
+    return Corrections(bends, changes if any(changes) else ())
+
+
+def correct(seen: Observation, corrections: Corrections) -> tuple[Observation, Array | None]:
+    """Return an observation with its readings corrected, and the slopes (samples, sensors) of that; None without."""
+    if not any(corrections):
+        return seen, None
+    seen, slopes = unbent(seen, corrections.bends)
+    readings, time = seen.readings.copy(), seen.time
+    for sensor, changes in enumerate(corrections.changes):
+        for change in reversed(changes):
+            readings[:, sensor], slope = change.undo(readings[:, sensor], time)
+            slopes[:, sensor] *= slope
+    return replace(seen, readings=readings), slopes
 
 
 def unbent(seen: Observation, bends: Sequence[Bend]) -> tuple[Observation, Array]:

@@ -70,12 +70,24 @@ class Layout:
 
     @cached_property
     def onsets(self) -> tuple[Slot, ...]:
-        """The time from which on each term acts: `key.since`; those of the kernel first, then those of the drive.
+        """The time from which on each term acts: `key.since`; of forces first, then of the drive, then of sensors.
 
-        They stand behind all parameters in the full vector. What a sensor shows has no onset.
+        They stand behind all parameters in the full vector.
         """
         keys = [key for key, _ in self.forces] + [k for k, t in self.channel_terms.items() if t.acts == "drive"]
+        keys += self.rescaling
         return tuple(Slot(since_of(key), ONSET, "s", self.keys.index(key)) for key in keys)
+
+    @cached_property
+    def rescaling(self) -> tuple[str, ...]:
+        """The keys of the sensor terms that are a gain or an offset and nothing else: these may set in at a time."""
+        plain = ("delay", "bent", "rounded", "quantisation", "rate")
+        return tuple(
+            key
+            for key, term in self.channel_terms.items()
+            if isinstance(term, SensorTerm)
+            and all(getattr(type(term), name) is getattr(SensorTerm, name) for name in plain)
+        )
 
     @cached_property
     def index(self) -> Mapping[str, int]:

@@ -146,7 +146,11 @@ def observed(problem: Problem, theta: Array, states: Array, where: tuple[int, in
         shown = np.interp(at, np.arange(len(shown)), shown, left=shown[0])
     for term, p in system.at_sensor(problem.full(theta, index), problem.active, observation.sensors[sensor].place):
         shown = term.bent(shown, p)
-    return np.asarray(gain * shown + offset)
+    seen, when = gain * shown + offset, observation.time[0] + (start + np.arange(len(states))) * observation.dt
+    place = observation.sensors[sensor].place
+    for change in system.changes_at_sensor(problem.full(theta, index), problem.active, place):
+        seen = change.apply(seen, when)
+    return np.asarray(seen)
 
 
 def growth_rates(problem: Problem, theta: Array, y0: Array, index: int = 0) -> Array:

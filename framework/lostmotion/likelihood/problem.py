@@ -11,10 +11,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from lostmotion.contracts import Array, Engine, SensorTerm
+from lostmotion.contracts import Array, Engine
 from lostmotion.kernels.threads import each
 from lostmotion.likelihood.batches import distinct, grouped, joined, realigned
-from lostmotion.likelihood.bends import Bend, stretched, unbent
+from lostmotion.likelihood.bends import Corrections, correct, corrections_of, stretched
 from lostmotion.likelihood.drive import Drive, widened
 from lostmotion.likelihood.engine import Dynamics, Innovations, Points, Random, Smoothed
 from lostmotion.likelihood.initial import initial
@@ -232,11 +232,11 @@ class Problem:
     def _each(self, tasks: Sequence[tuple[int, NDArray[np.intp]]], thetas: Array) -> list[Innovations]:
         def work(task: tuple[int, NDArray[np.intp]]) -> Innovations:
             index, rows = task
-            late, bends = self.late(thetas[rows[:1]], index)[0], self._bends(thetas[rows[0]], index)
-            seen, slopes = unbent(self._seen(index, late), bends)
+            late = self.late(thetas[rows[:1]], index)[0]
+            seen, slopes = correct(self._seen(index, late), self._corrections(thetas[rows[0]], index))
             awake = self._awake(thetas[rows[0]], index)
             found = self.engine.filter(awake.dynamics, seen, awake.points(thetas[rows], index))
-            found = stretched(found, slopes) if bends else found
+            found = found if slopes is None else stretched(found, slopes)
             return realigned(found, late) if any(late) else found
 
         return each(work, tasks, self.jobs)
@@ -244,11 +244,11 @@ class Problem:
     def _views_of(self, thetas: Array, index: int) -> list[tuple[Any, ...]]:
         """Return for each of some coordinates (points, n) what makes readings another view: delays, bends and lags."""
         late = self.late(thetas, index)
-        if not self.active & {*self.system.bending, *self.system.lagging}:
+        if not self.active & {*self.system.bending, *self.system.lagging, *self.system.rescaling}:
             return list(late)
-        bends = [tuple((s, p) for s, _, p in self._bends(theta, index)) for theta in thetas]
+        corrections = [self._corrections(theta, index) for theta in thetas]
         awake = [self._awake(theta, index).active for theta in thetas]
-        return list(zip(late, bends, awake, strict=True))
+        return list(zip(late, corrections, awake, strict=True))
 
     def _awake(self, theta: Array, index: int) -> Problem:
         """Return the problem without sensors that lag by nothing at some coordinates: a lag of zero has no rate."""
@@ -256,17 +256,9 @@ class Problem:
         idle = {key for key in lagging if self.system.idle(self.full(theta, index), key)}
         return replace(self, active=self.active - idle) if idle else self
 
-    def _bends(self, theta: Array, index: int) -> list[Bend]:
-        """Return which sensors of a recording are bent at some coordinates, by which term and with which numbers."""
-        if not self.active & set(self.system.bending):
-            return []
-        full, sensors = self.full(theta, index), self.observations[index].sensors
-        return [
-            (s, term, p)
-            for s, sensor in enumerate(sensors)
-            for term, p in self.system.at_sensor(full, self.active, sensor.place)
-            if type(term).bent is not SensorTerm.bent
-        ]
+    def _corrections(self, theta: Array, index: int) -> Corrections:
+        """Return what has to be undone in the readings of a recording at some coordinates."""
+        return corrections_of(self.system, self.active, self.full(theta, index), self.observations[index].sensors)
 
     def points(self, thetas: Array, index: int = 0) -> Points:
         """Return coordinates (points, n) as an engine takes them, for one recording."""
@@ -373,7 +365,7 @@ class Problem:
 
     def smooth(self, theta: Array, index: int = 0) -> Smoothed:
         """Return the filtered and the smoothed states of a recording at the coordinates `theta`."""
-        seen, _ = unbent(self._seen(index, self.late(theta[None], index)[0]), self._bends(theta, index))
+        seen, _ = correct(self._seen(index, self.late(theta[None], index)[0]), self._corrections(theta, index))
         return self.engine.smooth(self.dynamics, seen, self.points(theta[None], index))
 
     def extended(self, more: Iterable[FreeParameter], active: Iterable[str]) -> Problem:

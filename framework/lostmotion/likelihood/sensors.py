@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, NamedTuple
+
+import numpy as np
+
+from lostmotion.contracts import Array
 
 
 @dataclass(frozen=True)
@@ -57,3 +61,25 @@ class Sensor:
     def label(self) -> str:
         """The name, or the channel where it has none."""
         return self.name or self.channel
+
+
+FLATTEST = 0.1
+"""A sensor shows at least this share of a change of the value: a reading that folds back cannot be undone."""
+
+
+class SensorChange(NamedTuple):
+    """A sensor that shows `gain` times the value plus `offset` (unit of the channel) from a time `since` (s) on."""
+
+    gain: float
+    offset: float
+    since: float
+
+    def apply(self, shown: Array, time: Array) -> Array:
+        """Return what the sensor shows (samples,) in place of `shown` at these times (samples,)."""
+        return np.where(time < self.since, shown, self.gain * shown + self.offset)
+
+    def undo(self, readings: Array, time: Array) -> tuple[Array, Array]:
+        """Return the readings (samples,) without the change, and their slope with respect to those with it."""
+        gain = max(abs(self.gain), FLATTEST) * (-1.0 if self.gain < 0.0 else 1.0)
+        before = time < self.since
+        return np.where(before, readings, (readings - self.offset) / gain), np.where(before, 1.0, 1.0 / abs(gain))

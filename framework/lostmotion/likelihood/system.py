@@ -21,7 +21,7 @@ from lostmotion.likelihood.drive import SILENT, Drive, DriveHarmonic
 from lostmotion.likelihood.layout import ALWAYS, NUMB, Layout, Slot, key_of, since_of
 from lostmotion.likelihood.motion import derivatives, run
 from lostmotion.likelihood.plan import Blueprint, Place, law_of, room_for
-from lostmotion.likelihood.sensors import Sensor
+from lostmotion.likelihood.sensors import Sensor, SensorChange
 
 __all__ = ["ALWAYS", "Clock", "Motion", "Slot", "System", "key_of", "since_of"]
 
@@ -142,13 +142,26 @@ class System(Layout):
         return math.prod(t.gain(p) for t, p in self.at_sensor(full, active, place))
 
     def at_sensor(self, full: Array, active: Iterable[str], place: str) -> list[tuple[SensorTerm, tuple[float, ...]]]:
-        """Return the active terms of the sensor at a place, with what each is handed."""
+        """Return the terms of the sensor at a place that act from the beginning, with what each is handed."""
         chosen = set(active)
         return [
             (term, self.values(full, key, SILENT))
             for key, term in self.channel_terms.items()
-            if isinstance(term, SensorTerm) and key in chosen and term.at == place
+            if isinstance(term, SensorTerm)
+            and key in chosen
+            and term.at == place
+            and not self.onset(full, key) > ALWAYS
         ]
+
+    def changes_at_sensor(self, full: Array, active: Iterable[str], place: str) -> tuple[SensorChange, ...]:
+        """Return the changes of gain and offset that the sensor at a place undergoes, those of one with an onset."""
+        keys = [key for key in self.rescaling if key in set(active) and self.onset(full, key) > ALWAYS]
+        found = []
+        for key in keys:
+            term, p = self.channel_terms[key], self.values(full, key, SILENT)
+            if isinstance(term, SensorTerm) and term.at == place and (term.gain(p), term.offset(p)) != (1.0, 0.0):
+                found.append(SensorChange(term.gain(p), term.offset(p), self.onset(full, key)))
+        return tuple(found)
 
     @cached_property
     def bending(self) -> tuple[str, ...]:

@@ -1,4 +1,4 @@
-"""The objects of a notebook: recordings, cases and results, and the functions that lead from one to the next.
+"""The Python interface for notebooks: recordings, cases and results as objects, and the functions between them.
 
-The command line does the same work on files. Nothing here writes a file unless it is asked to.
+The command line does the same work on files. No function here writes a file unless this is requested.
 """

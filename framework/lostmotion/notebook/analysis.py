@@ -1,4 +1,4 @@
-"""What an analysis found, as an object: the verdict on a motion, its measures, arrays and the page."""
+"""The result of an analysis as an object: the verdict on a motion, its measures, arrays and the page."""
 
 from __future__ import annotations
 
@@ -19,23 +19,23 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class AnalysisResult:
-    """What `lostmotion.analyse` returns: `result` is what `analysis.json` holds, `arrays` the dataset behind it."""
+    """The result of `lostmotion.analyse`: `result` is the content of `analysis.json`, `arrays` its dataset."""
 
     result: Analysis
     arrays: xr.Dataset = field(repr=False)
 
     @property
     def verdict(self) -> str:
-        """What kind of motion it is."""
+        """The kind of motion."""
         return self.result.verdict
 
     @property
     def says(self) -> tuple[str, ...]:
-        """The answer, in sentences."""
+        """The result in sentences."""
         return (self.result.says,)
 
     def to_dict(self) -> dict[str, Any]:
-        """Return what `analysis.json` holds."""
+        """Return the content of `analysis.json`."""
         made: dict[str, Any] = to_plain(self.result)
         return made
 
@@ -44,11 +44,11 @@ class AnalysisResult:
         return self.arrays
 
     def report(self, path: str | Path = "report.html") -> Path:
-        """Return the path of the page that was written: self-contained HTML."""
+        """Write the page as self-contained HTML and return its path."""
         return save_text(Path(path), page.render(make_view(self.result, self.arrays)))
 
     def save(self, folder: str | Path) -> Path:
-        """Return the folder into which `analysis.json`, `analysis.nc` and `report.html` were written."""
+        """Write `analysis.json`, `analysis.nc` and `report.html` into a folder and return it."""
         place = folder_for(Path(folder))
         save_datasets(place / ARRAYS, {None: self.arrays})
         save_json(place / RESULT, to_plain(self.result))
@@ -59,10 +59,10 @@ class AnalysisResult:
         return "\n".join([f"{self.result.title}: {self.verdict}", *self.says])
 
     def _repr_html_(self) -> str:
-        said = "".join(f"<li>{html.escape(one)}</li>" for one in self.says)
-        return f"<h4>{html.escape(self.result.title)}: {html.escape(self.verdict)}</h4><ul>{said}</ul>"
+        items = "".join(f"<li>{html.escape(one)}</li>" for one in self.says)
+        return f"<h4>{html.escape(self.result.title)}: {html.escape(self.verdict)}</h4><ul>{items}</ul>"
 
 
 def load_analysis(folder: Path) -> AnalysisResult:
-    """Return the analysis that was saved into a folder; `DataError` where it is absent or damaged."""
+    """Return the analysis stored in a folder; raise `DataError` where it is absent or damaged."""
     return AnalysisResult(load_result(Analysis, folder / RESULT, RERUN_HINT), load_arrays(folder / ARRAYS, RERUN_HINT))

@@ -1,4 +1,4 @@
-"""A case as an object: recordings, a model, what is known of it and what is to be estimated."""
+"""A case as an object: recordings, a model, its known values, and the priors of the estimated parameters."""
 
 from __future__ import annotations
 
@@ -23,10 +23,10 @@ from lostmotion.written import Written, is_equation, model_of
 
 
 def model(text: str | Sequence[str], **options: Any) -> Model:
-    """Return a model by its name, or made of equations of motion: `lm.model("m*x'' + c*x' + k*x = force")`.
+    """Return a model by its name, or one made from equations of motion: `lm.model("m*x'' + c*x' + k*x = force")`.
 
-    `options` are fields of a model with a name; `units` (SI, by parameter), `motion` and `params` of equations. Raises
-    `PluginError` for an unknown name and `CaseError` for what cannot be read, with the place.
+    `options` are fields of a model with a name, or `units` (SI, by parameter), `motion` and `params` for equations.
+    Raises `PluginError` for an unknown name and `CaseError` for an equation that cannot be read, with the position.
     """
     lines = (text,) if isinstance(text, str) else tuple(text)
     if len(lines) == 1 and not is_equation(lines[0]):
@@ -39,11 +39,11 @@ def model(text: str | Sequence[str], **options: Any) -> Model:
 
 @dataclass(frozen=True, eq=False)
 class Case:
-    """What was recorded, the model, what is known (SI) and the priors of what is to be estimated.
+    """Recordings, a model, known values (SI), and the priors of the estimated parameters.
 
     `recordings` is one recording or several with the same sensors. `model` is a model, a name, or equations. `truth`
-    holds true values, which are drawn and used for nothing else. `sensor` says what several recordings share of noise.
-    Raises `CaseError` where it cannot be meant.
+    holds true values, which only appear in figures and tables. `sensor` describes the noise that several recordings
+    share. Raises `CaseError` for a case that is not valid.
     """
 
     recordings: Recording | Sequence[Recording]
@@ -61,19 +61,22 @@ class Case:
         if not several or not all(isinstance(one, Recording) for one in several):
             raise CaseError("a case needs a Recording, or a list of them: lm.Recording.from_arrays(...) makes one")
         object.__setattr__(self, "recordings", several)
-        check_alike(tuple(_sensors_of(one) for one in several))
+        check_alike(tuple(_describe_sensors(one) for one in several))
         if wrong := [name for name, prior in self.estimate.items() if not isinstance(prior, Prior)]:
             raise CaseError(
                 f"the prior of {wrong[0]!r} is {self.estimate[wrong[0]]!r}: wanted lm.LogUniform(1, 100) or the like"
             )
         if both := sorted(set(self.known) & set(self.estimate)):
-            raise CaseError(f"{both[0]!r} is both known and estimated: take it out of one of the two")
-        made = self._made()
+            raise CaseError(f"{both[0]!r} is both known and estimated: remove it from one of the two")
+        made = self._make_model()
         object.__setattr__(self, "model", made)
         if isinstance(made, Written):
-            object.__setattr__(self, "recordings", tuple(_aliased(one, made.coordinates[0]) for one in several))
+            object.__setattr__(
+                self, "recordings", tuple(_rename_coordinate(one, made.coordinates[0]) for one in several)
+            )
 
-    def _made(self) -> Model:
+    def _make_model(self) -> Model:
+        """Return the model as an instance, from an instance, a class, a name or equations."""
         given = self.model
         if isinstance(given, Model):
             return given
@@ -86,7 +89,7 @@ class Case:
 
     @classmethod
     def read(cls, path: str | Path, registry: Registry | None = None) -> Case:
-        """Return the case of a file `case.toml`, its recordings loaded; `CaseError` or `DataError` if unusable."""
+        """Return the case of a `case.toml` with loaded recordings; raise `CaseError` or `DataError` if unusable."""
         known = registry or default()
         file = case_of(Path(path), known)
         loaded = tuple(load_recording(spec, file.folder) for spec in file.recordings)
@@ -97,65 +100,66 @@ class Case:
         )
 
     def write(self, folder: str | Path) -> Path:
-        """Return the path of `case.toml`, written into a folder with a table of each recording, all in SI units.
+        """Write `case.toml` and a table of each recording into a folder, all in SI units, and return the path.
 
-        Nothing is written where the model cannot be named in a file.
+        No file is written where the model cannot be named in a file.
         """
         model, place = self._model_table(), folder_for(Path(folder))
-        entries = [_written(one, place) for one in self._several]
+        entries = [_write_recording(one, place) for one in self._recordings]
         content: dict[str, Any] = {"title": self.title, "recordings": entries, "model": model}
         content |= self._further_tables()
         dump_case(content, place / "case.toml")
         return place / "case.toml"
 
     def _further_tables(self) -> dict[str, Any]:
-        """Return the tables `[truth]`, `[sensor]` and `[experiment]`, those that say anything."""
+        """Return the tables `[truth]`, `[sensor]` and `[experiment]`, except empty ones."""
         offset, usual = self.sensor.offset, SensorSpec()
         sensor = {
             "noise": None if self.sensor.noise == usual.noise else self.sensor.noise,
-            "offset": None if offset is None else _prior(offset),
+            "offset": None if offset is None else _format_prior(offset),
         }
         limits = {"max_level": self.experiment.max_level, "max_frequency": self.experiment.max_frequency}
         tables: dict[str, dict[str, Any]] = {"truth": dict(self.truth), "sensor": sensor, "experiment": limits}
-        kept = {name: {k: v for k, v in told.items() if v is not None} for name, told in tables.items()}
-        return {name: told for name, told in kept.items() if told}
+        kept = {name: {k: v for k, v in table.items() if v is not None} for name, table in tables.items()}
+        return {name: table for name, table in kept.items() if table}
 
     def _model_table(self) -> dict[str, Any]:
-        """Return the table `[model]`; a model that nobody else could find is refused."""
+        """Return the table `[model]`; raise `CaseError` for a model that no file defines."""
         made = self._model
         if isinstance(made, Written):
-            told: dict[str, Any] = {"equations": list(made.equations), "motion": made.motion}
-            told |= {"units": dict(made.origin[1])} if made.origin[1] else {}
+            table: dict[str, Any] = {"equations": list(made.equations), "motion": made.motion}
+            table |= {"units": dict(made.origin[1])} if made.origin[1] else {}
         else:
             try:
                 default().entry("model", made.name)
             except PluginError as err:
-                raise CaseError(f"{made.name} stands in no file: write it into one and name that in plugins") from err
-            told = {"name": made.name, "motion": made.motion}
-        return {**told, "known": dict(self.known), "estimate": {k: _prior(p) for k, p in self.estimate.items()}}
+                raise CaseError(f"no file defines {made.name}: write it into a file and name that in plugins") from err
+            table = {"name": made.name, "motion": made.motion}
+        return {**table, "known": dict(self.known), "estimate": {k: _format_prior(p) for k, p in self.estimate.items()}}
 
     @property
-    def _several(self) -> tuple[Recording, ...]:
+    def _recordings(self) -> tuple[Recording, ...]:
         return tuple(self.recordings)  # type: ignore[arg-type]
 
     @property
     def _model(self) -> Model:
         return self.model  # type: ignore[return-value]
 
-    def prepared(self, registry: Registry, terms: str | Sequence[str] = "all") -> Prepared:
-        """Return the case as the stages take it, with the terms that are to be tried: "all", or names of terms."""
-        file = self.file or self._as_file()
+    def prepare(self, registry: Registry, terms: str | Sequence[str] = "all") -> Prepared:
+        """Return the prepared case for the stages, with the candidate terms: "all", or names of terms."""
+        file = self.file or self._make_case_file()
         made = self._model
         if isinstance(made, Written) or made.name not in registry.names("model"):
             registry.add(
                 type(made) if isinstance(made, Written) else made, WRITTEN if isinstance(made, Written) else None
             )
-        found = prepared_with(file, self._several, made, registry)
-        return found if terms == "all" else replace(found, terms=_chosen(found, terms))
+        found = prepared_with(file, self._recordings, made, registry)
+        return found if terms == "all" else replace(found, terms=_choose_terms(found, terms))
 
-    def _as_file(self) -> CaseFile:
+    def _make_case_file(self) -> CaseFile:
+        """Return the case in the form of a case file, with a digest of its content."""
         made = self._model
-        told = repr(
+        content = repr(
             (
                 self.title,
                 made,
@@ -173,7 +177,7 @@ class Case:
             estimate=dict(self.estimate),
             truth=dict(self.truth),
             plugins=(),
-            digest=hashlib.sha256(told.encode()).hexdigest(),
+            digest=hashlib.sha256(content.encode()).hexdigest(),
             sensor=self.sensor,
             experiment=self.experiment,
             equations=made.equations if isinstance(made, Written) else (),
@@ -181,21 +185,21 @@ class Case:
         )
 
     def __repr__(self) -> str:
-        names = ", ".join(one.name for one in self._several)
+        names = ", ".join(one.name for one in self._recordings)
         return (
             f"<Case {self.title!r}: {self._model.name} on {names}; known {[*self.known]}, estimated {[*self.estimate]}>"
         )
 
 
-def _aliased(recording: Recording, coordinate: str) -> Recording:
-    """Return a recording whose sensors of the first coordinate show `position`, `velocity` or `acceleration`."""
+def _rename_coordinate(recording: Recording, coordinate: str) -> Recording:
+    """Return the recording with the channels of the first coordinate named position, velocity or acceleration."""
     same = {coordinate: "position"} | {f"{coordinate}.{rate}": rate for rate in ("velocity", "acceleration")}
     sensors = tuple(a.assign_attrs(of=same.get(a.attrs["of"], a.attrs["of"])) for a in recording.sensors)
     return replace(recording, sensors=sensors)
 
 
-def _sensors_of(recording: Recording) -> tuple[Any, ...]:
-    """Return the sensors of a recording as a case file has them."""
+def _describe_sensors(recording: Recording) -> tuple[Any, ...]:
+    """Return the sensors of a recording in the form of a case file."""
     from lostmotion.recording import Channel
 
     return tuple(
@@ -204,8 +208,8 @@ def _sensors_of(recording: Recording) -> tuple[Any, ...]:
     )
 
 
-def _chosen(found: Prepared, terms: str | Sequence[str]) -> tuple[Any, ...]:
-    """Return the terms of these names, each at all its places or, as NAME@PLACE, at one of them."""
+def _choose_terms(found: Prepared, terms: str | Sequence[str]) -> tuple[Any, ...]:
+    """Return the terms with these names, each at all its places, or, as NAME@PLACE, at one place."""
     asked = (terms,) if isinstance(terms, str) else tuple(terms)
     names = dict.fromkeys(term.name for term in found.terms)
     keys = {f"{term.name}@{term.at}" for term in found.terms}
@@ -221,8 +225,8 @@ def _chosen(found: Prepared, terms: str | Sequence[str]) -> tuple[Any, ...]:
     return tuple(term for term in found.terms if {term.name, f"{term.name}@{term.at}"} & set(asked))
 
 
-def _prior(prior: Prior) -> dict[str, Any]:
-    """Return a prior as a case file has it."""
+def _format_prior(prior: Prior) -> dict[str, Any]:
+    """Return a prior in the form of a case file."""
     forms: dict[str, dict[str, Any]] = {
         "uniform": {"low": prior.low, "high": prior.high},
         "log-uniform": {"low": prior.low, "high": prior.high, "scale": "log"},
@@ -233,8 +237,8 @@ def _prior(prior: Prior) -> dict[str, Any]:
     return {**forms[prior.kind], **({"each": True} if prior.each else {})}
 
 
-def _written(recording: Recording, folder: Path) -> dict[str, Any]:
-    """Return the entry of a recording in a case file, after its table was written."""
+def _write_recording(recording: Recording, folder: Path) -> dict[str, Any]:
+    """Write the table of a recording, and return its entry in the case file."""
     name = re.sub(r"[^\w.-]+", "_", recording.name).strip("._") or "recording"
     first = recording.sensors[0]
     columns = {"time": np.asarray(first["time"], dtype=float)}

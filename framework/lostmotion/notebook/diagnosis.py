@@ -1,4 +1,4 @@
-"""What a diagnosis found, as an object: in words, numbers, figures, arrays, and as a model that can be run."""
+"""The result of a diagnosis as an object: sentences, numbers, figures, arrays, and a model that can be simulated."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from lostmotion.diagnosis.report import learned, missing, page, portraits, poste
 from lostmotion.diagnosis.report.evidence import Evidence, evidence_with
 from lostmotion.identification.predictive import predict_readings
 from lostmotion.inference import mixture
-from lostmotion.notebook.machine import FittedModel, fitted_of, machine_of
+from lostmotion.notebook.machine import FittedModel, make_fitted_model, restore_fitted_model
 from lostmotion.registry import Registry, default
 from lostmotion.report import style
 from lostmotion.results import Interval
@@ -29,14 +29,14 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-AGAIN = "run `lostmotion diagnose` again"
-PREDICTED = 500
-"""Draws of which `to_arviz` tells what they say of the readings."""
+RERUN_HINT = "run `lostmotion diagnose` again"
+PREDICTED_DRAWS = 500
+"""Number of draws with log-likelihoods and predicted readings in `to_arviz`."""
 
 
 @dataclass(frozen=True, eq=False)
 class DiagnosisPlots:
-    """The figures of a diagnosis; each returns a matplotlib figure, and a bare call the prediction."""
+    """The figures of a diagnosis; each method returns a matplotlib figure, and calling the object the prediction."""
 
     evidence: Evidence
 
@@ -51,50 +51,50 @@ class DiagnosisPlots:
         return self.prediction()
 
     def prediction(self, ax: Axes | None = None) -> Figure:
-        """Return the recording with free runs over held-out data, before and after; into `ax` alone where given."""
+        """Return the recording with free runs over held-out data, before and after; with `ax`, draw into these axes."""
         if ax is None:
-            return self._drawn(prediction.draw)
+            return self._draw(prediction.draw)
         with style.applied(self.evidence.result.units.angle):
             prediction.draw_window(ax, self.evidence, prediction.window_of(self.evidence))
             ax.legend()
         return ax.get_figure(root=True)  # type: ignore[return-value]
 
     def missing_force(self) -> Figure:
-        """Return the force that the model does not explain, over what it may depend on."""
-        return self._drawn(missing.draw)
+        """Return the force that the model does not explain, over the covariates on which it may depend."""
+        return self._draw(missing.draw)
 
     def ranking(self) -> Figure:
-        """Return the candidates with the log evidence that each adds, and their probabilities."""
-        return self._drawn(ranking.draw)
+        """Return the candidates with their gains in log evidence and their probabilities."""
+        return self._draw(ranking.draw)
 
     def parameters(self) -> Figure:
         """Return the posterior densities of the parameters, before and after."""
-        return self._drawn(posteriors.draw)
+        return self._draw(posteriors.draw)
 
     def sections(self) -> Figure:
         """Return phase portraits and Poincare sections of recording and models."""
-        return self._drawn(portraits.draw)
+        return self._draw(portraits.draw)
 
     def learned_force(self) -> Figure:
-        """Return the force that was learned, with its band; an empty figure where none was."""
-        return self._drawn(learned.draw)
+        """Return the learned force with its band, or an empty figure without one."""
+        return self._draw(learned.draw)
 
-    def _drawn(self, draw: Callable[[Evidence], Figure | None]) -> Figure:
-        """Return a figure; one that says so where there is nothing to be drawn."""
+    def _draw(self, draw: Callable[[Evidence], Figure | None]) -> Figure:
+        """Return a figure, or a figure with a short text where there is nothing to draw."""
         with style.applied(self.evidence.result.units.angle):
             made = draw(self.evidence)
             if made is None:
                 made = style.blank(1.0)
-                made.text(0.5, 0.5, "there is nothing to be drawn here", ha="center", va="center")
+                made.text(0.5, 0.5, "there is nothing to draw here", ha="center", va="center")
         return made
 
 
 @dataclass(frozen=True, eq=False)
 class DiagnosisResult:
-    """What `lostmotion.diagnose` returns. It shows itself as the answer in words.
+    """The result of `lostmotion.diagnose`; its representation is the answer in words.
 
-    `result` is the diagnosis with all that `diagnosis.json` holds, `arrays` the dataset behind it; `outcome` is what
-    both were made of, where it was made in this session.
+    `result` is the diagnosis with the content of `diagnosis.json`, `arrays` the dataset behind it; `outcome` holds the
+    fits behind both, where the diagnosis was made in this session.
     """
 
     result: Diagnosis
@@ -109,17 +109,17 @@ class DiagnosisResult:
 
     @property
     def says(self) -> tuple[str, ...]:
-        """The answer, in sentences."""
+        """The result in sentences."""
         return self.result.says
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """Sentences on the recordings and on what makes the answer less certain."""
+        """Notes on the recordings and on the limitations of the result."""
         return self.result.notes
 
     @property
     def found(self) -> tuple[Mechanism, ...]:
-        """What the model leaves out, what is named first and what is open last."""
+        """The missing mechanisms: named ones first, open ones last."""
         return self.result.found
 
     @property
@@ -129,29 +129,29 @@ class DiagnosisResult:
 
     @property
     def parameters_before(self) -> Mapping[str, Interval]:
-        """The parameters of the model as it was, by name."""
+        """The parameters of the nominal model, by name."""
         return self.result.parameters.before
 
     @property
     def parameters_after(self) -> Mapping[str, Interval]:
-        """The parameters of the model with what was found, by name."""
+        """The parameters of the model with the found mechanisms, by name."""
         return self.result.parameters.after
 
     @property
     def heldout(self) -> Mapping[str, HeldOutScore]:
-        """What the models "before" and "after" predict of data that no fit has seen."""
+        """The prediction scores of the models "before" and "after" on held-out data."""
         return {"before": self.result.fit.before, "after": self.result.fit.after}
 
     @cached_property
     def model(self) -> FittedModel:
-        """The model with what was found, fitted: `.simulate(inputs, duration=..., rate=...)` sets it in motion."""
+        """The fitted model with the found mechanisms: `.simulate(inputs, duration=..., rate=...)` simulates it."""
         if self.outcome is not None:
-            return fitted_of(self.outcome, self.result.machine)
-        return machine_of(self.result.machine, self.registry)
+            return make_fitted_model(self.outcome, self.result.machine)
+        return restore_fitted_model(self.result.machine, self.registry)
 
     @cached_property
     def evidence(self) -> Evidence:
-        """The result and its arrays as figures take them."""
+        """The result and its arrays in the form that the figures use."""
         return evidence_with(self.result, self.arrays)
 
     @property
@@ -169,15 +169,15 @@ class DiagnosisResult:
         return self.arrays
 
     def to_arviz(self) -> Any:
-        """Return ArviZ's `InferenceData`: draws of the parameters after (one chain), and what was observed.
+        """Return ArviZ's `InferenceData`: draws of the parameters after (one chain), and the observed data.
 
-        Of a diagnosis that was made in this session there are `log_likelihood` and `posterior_predictive` beside them,
-        for `arviz.loo` and `arviz.plot_ppc`: of `PREDICTED` draws, over the part of the recording that was fitted.
+        A diagnosis made in this session also has `log_likelihood` and `posterior_predictive`, for `arviz.loo` and
+        `arviz.plot_ppc`, with `PREDICTED_DRAWS` draws over the fitted part of the recording.
         """
         import arviz
 
         names = [str(name) for name in self.arrays["parameter_after"].values]
-        draws, predicted = np.asarray(self.arrays["posterior_after"], dtype=float), self._predicted()
+        draws, predicted = np.asarray(self.arrays["posterior_after"], dtype=float), self._predict_readings()
         response = {"response": np.asarray(self.arrays["response"], dtype=float)}
         made = arviz.from_dict(
             posterior={name: draws[None, :, i] for i, name in enumerate(names)},
@@ -186,25 +186,25 @@ class DiagnosisResult:
             dims={"response": ["time"]},
             coords={"time": np.asarray(self.arrays["time"], dtype=float)},
         )
-        for name, told in self.parameters_after.items():
+        for name, interval in self.parameters_after.items():
             if name in made.posterior:
-                made.posterior[name].attrs["units"] = told.unit
+                made.posterior[name].attrs["units"] = interval.unit
         made.add_groups(predicted)
         return made
 
-    def _predicted(self) -> dict[str, Any]:
-        """Return the groups of ArviZ on the readings, by name; none where the diagnosis was loaded from a folder."""
+    def _predict_readings(self) -> dict[str, Any]:
+        """Return the ArviZ groups for the readings, by name; none where the diagnosis was loaded from a folder."""
         if self.outcome is None:
             return {}
         fit, rng = self.outcome.diagnosis.after, np.random.default_rng(0)
-        return predict_readings(fit.problem, mixture.draws(fit, rng, PREDICTED), (1, PREDICTED), rng)
+        return predict_readings(fit.problem, mixture.draws(fit, rng, PREDICTED_DRAWS), (1, PREDICTED_DRAWS), rng)
 
     def report(self, path: str | Path = "report.html") -> Path:
-        """Return the path of the page that was written: self-contained HTML."""
+        """Write the page as self-contained HTML and return its path."""
         return save_text(Path(path), page.render(self.evidence))
 
     def save(self, folder: str | Path) -> Path:
-        """Return the folder into which `diagnosis.json`, `arrays.nc` and `report.html` were written, for `load`."""
+        """Write `diagnosis.json`, `arrays.nc` and `report.html` into a folder, for `load`, and return it."""
         place = folder_for(Path(folder))
         save_datasets(place / "arrays.nc", {None: self.arrays})
         save_json(place / "diagnosis.json", self.to_dict())
@@ -213,20 +213,20 @@ class DiagnosisResult:
 
     def __repr__(self) -> str:
         lines = [f"{self.result.title}: {self.verdict}", *self.says]
-        lines += [f"  {name} = {told}" for name, told in self.parameters_after.items()]
+        lines += [f"  {name} = {interval}" for name, interval in self.parameters_after.items()]
         return "\n".join(lines)
 
     def _repr_html_(self) -> str:
-        said = "".join(f"<li>{html.escape(one)}</li>" for one in self.says)
+        items = "".join(f"<li>{html.escape(one)}</li>" for one in self.says)
         with style.applied(self.evidence.result.units.angle):
             drawn = prediction.draw(self.evidence)
             figure = style.embedded(drawn, "prediction") if drawn else ""
         title = html.escape(self.result.title)
-        return f"<h4>{title}: {html.escape(self.verdict)}</h4><ul>{said}</ul>{figure}"
+        return f"<h4>{title}: {html.escape(self.verdict)}</h4><ul>{items}</ul>{figure}"
 
 
 def load_diagnosis(folder: Path, registry: Registry | None = None) -> DiagnosisResult:
-    """Return the diagnosis that was saved into a folder; `DataError` where it is absent or damaged."""
+    """Return the diagnosis stored in a folder; raise `DataError` where it is absent or damaged."""
     file = folder / "diagnosis.json"
-    result = from_plain(Diagnosis, load_json(file, AGAIN), str(file))
-    return DiagnosisResult(result, load_arrays(folder / "arrays.nc", AGAIN), registry or default())
+    result = from_plain(Diagnosis, load_json(file, RERUN_HINT), str(file))
+    return DiagnosisResult(result, load_arrays(folder / "arrays.nc", RERUN_HINT), registry or default())

@@ -1,7 +1,7 @@
-"""The commands as functions of objects: `lostmotion.diagnose(case)`, and the same on paths.
+"""The commands as Python functions on objects or paths, such as `lostmotion.diagnose(case)`.
 
-Each takes the registry of this process unless it is handed another one: what `registry.default().add(...)` or
-`add_file` has put into it is used everywhere. No file is written unless `out` names a folder.
+Each function uses the registry of this process unless another one is given: plugins added by
+`registry.default().add(...)` or `add_file` are available everywhere. No file is written unless `out` names a folder.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     import xarray
 
 Modelled = Model | type[Model] | str | Sequence[str]
-KINDS: Mapping[str, Callable[[Path], Any]] = {
+LOADERS: Mapping[str, Callable[[Path], Any]] = {
     "diagnosis.json": load_diagnosis,
     "identification.json": load_identification,
     "analysis.json": load_analysis,
@@ -54,23 +54,23 @@ def diagnose(
     registry: Registry | None = None,
     settings: Settings | Mapping[str, float] | None = None,
 ) -> DiagnosisResult:
-    """Return what the model of a case leaves out, as an object that shows itself in words.
+    """Return the diagnosis of a case: the physics that its model does not include.
 
-    `case` is a `Case`, the path of a `case.toml`, or a `Recording` with a `model` beside it: then `known` and
-    `estimate` hold values and priors, and what neither names has a wide prior about the natural sizes of the
-    recording. `terms` is "all", or the names of those that are to be tried. The same `seed` gives the same answer.
-    `settings` changes thresholds that decide, such as `{"select.decisive": 4.0}` (`lostmotion.settings` lists them).
-    Raises `CaseError` or `DataError` where the case cannot be used, with the sentence of the command line.
+    `case` is a `Case`, the path of a `case.toml`, or a `Recording` together with a `model`: then `known` and `estimate`
+    hold values and priors, and all other parameters have wide priors about the natural scales of the recording. `terms`
+    is "all", or the names of the candidate terms. The same `seed` gives the same result. `settings` changes thresholds,
+    such as `{"select.decisive": 4.0}` (`lostmotion.settings` lists them). Raises `CaseError` or `DataError` where the
+    case cannot be used, with the message of the command line.
     """
     from lostmotion.diagnosis.run import diagnose_prepared
 
     known_to = registry or default()
-    asked = case_from(case, model, known, estimate, known_to)
-    with shown("diagnose", progress) as say:
-        told = diagnose_prepared(
-            asked.prepared(known_to, terms), known_to, seed=seed, jobs=jobs, say=say, settings=read(settings)
+    asked = make_case(case, model, known, estimate, known_to)
+    with show_progress("diagnose", progress) as say:
+        done = diagnose_prepared(
+            asked.prepare(known_to, terms), known_to, seed=seed, jobs=jobs, say=say, settings=read(settings)
         )
-    found = DiagnosisResult(told.result, told.arrays, known_to, told.outcome)
+    found = DiagnosisResult(done.result, done.arrays, known_to, done.outcome)
     if out is not None:
         found.save(out)
     return found
@@ -98,10 +98,10 @@ def identify(
 ) -> IdentificationResult:
     """Return the posterior of the parameters of a case, with the `terms` added to its model.
 
-    `case` is as for `diagnose`. It is sampled until the effective sample size is `ess`, at most `max_steps` of each of
-    the `walkers`. `out` is a folder for the results, in which an interrupted chain is continued unless a `fresh` one is
-    wanted. `route` is "trajectory" or "quantifiers", which needs the path of a case, and may be given `maps`.
-    `settings` are as for `diagnose`.
+    `case` is as for `diagnose`. The posterior is sampled until the effective sample size is `ess`, with at most
+    `max_steps` steps of each of the `walkers`. `out` is a folder for the results, in which an interrupted chain is
+    continued unless a `fresh` chain is wanted. `route` is "trajectory" or "quantifiers"; the latter needs the path of a
+    case and accepts `maps`. `settings` are as for `diagnose`.
     """
     from lostmotion.identification.run import IdentificationRequest, choose_route, identify_case, make_inference_data
     from lostmotion.identification.sampling import SamplingPlan
@@ -110,14 +110,16 @@ def identify(
     known_to = registry or default()
     limits = read(settings)
     plan = SamplingPlan(ess, max_steps, walkers, limits.chain)
-    order = IdentificationRequest(_texts(terms), seed, jobs, plan, route, tuple(Path(m) for m in maps), fresh, limits)
-    with shown("identify", progress) as say, TemporaryDirectory() as spare:
+    order = IdentificationRequest(
+        _to_texts(terms), seed, jobs, plan, route, tuple(Path(m) for m in maps), fresh, limits
+    )
+    with show_progress("identify", progress) as say, TemporaryDirectory() as spare:
         place = Path(out) if out is not None else Path(spare)
         file = case_of(Path(case), known_to) if isinstance(case, str | Path) else None
         if file is not None and choose_route(file, order) == "quantifiers":
             done = identify_case(file, None, place, known_to, order, lambda _steps, says: say(says))
         else:
-            prepared = case_from(case, model, known, estimate, known_to).prepared(known_to)
+            prepared = make_case(case, model, known, estimate, known_to).prepare(known_to)
             done = identify_case(prepared.case, prepared, place, known_to, order, lambda _steps, says: say(says))
         data = make_inference_data(done)
     found = IdentificationResult(done.result, {name: data[name] for name in data.groups()})
@@ -147,26 +149,26 @@ def analyse(
     jobs: int = 2,
     settings: Settings | Mapping[str, float] | None = None,
 ) -> AnalysisResult:
-    """Return what kind of motion a recording shows: chaos or noise, exponents, dimensions and surrogate tests.
+    """Return the kind of motion in a recording, with exponents, dimensions and surrogate tests.
 
-    `channel` names a sensor of a `Recording`; of a file `columns` does, and `rate` (Hz) where it has no time. One
-    sample in `every` is kept. `period` (s) is that of the drive, where it is known. Plugins are named: `embedder`,
-    `denoiser` ("none" for none, None where the noise decides), further `quantifiers`, and `surrogates` with the number
-    of their `draws`. `unit` is that of exponents: "1/s", "bit/s", "1/period" or "bit/period". `settings` are as
-    for `diagnose`.
+    `channel` names a sensor of a `Recording`; for a file, `columns` names its columns, and `rate` (Hz) is needed where
+    it has no time. One sample of `every` is kept. `period` (s) is the period of the drive, if it is known. Plugins are
+    given by name: `embedder`, `denoiser` ("none" for no reduction; with None the noise level decides), further
+    `quantifiers`, and `surrogates` with the number of their `draws`. `unit` is the unit of exponents: "1/s", "bit/s",
+    "1/period" or "bit/period". `settings` are as for `diagnose`.
     """
     from lostmotion.analysis.run import AnalysisRequest, analyse_source
     from lostmotion.analysis.source import WantedChannel, extract_source, load_source
 
     request = AnalysisRequest(
-        columns=_texts(columns),
+        columns=_to_texts(columns),
         rate=rate,
         every=every,
         period=period,
         embedder=embedder,
         denoiser=denoiser,
-        quantifiers=_texts(quantifiers),
-        surrogates=_texts(surrogates),
+        quantifiers=_to_texts(quantifiers),
+        surrogates=_to_texts(surrogates),
         draws=draws,
         unit=unit,
         seed=seed,
@@ -175,11 +177,11 @@ def analyse(
     )
     known_to = registry or default()
     if isinstance(recording, Recording):
-        source = extract_source(recording, _sensor(recording, channel))
+        source = extract_source(recording, _find_sensor(recording, channel))
     else:
-        wanted = WantedChannel(request.columns or _texts(channel or ()), request.rate, request.every)
+        wanted = WantedChannel(request.columns or _to_texts(channel or ()), request.rate, request.every)
         source = load_source(Path(recording), wanted, known_to)
-    with shown("analyse", progress) as say:
+    with show_progress("analyse", progress) as say:
         result, arrays = analyse_source(source, known_to, request, say)
     found = AnalysisResult(result, arrays)
     if out is not None:
@@ -188,12 +190,12 @@ def analyse(
 
 
 def load(folder: str | Path) -> Any:
-    """Return the result that a command or `.save` has left in a folder: of a diagnosis, identification or analysis."""
+    """Return the result that a command or `.save` wrote into a folder: a diagnosis, identification or analysis."""
     place = Path(folder)
-    for name, reader in KINDS.items():
+    for name, reader in LOADERS.items():
         if (place / name).is_file():
             return reader(place)
-    raise DataError(f"{place} holds no result: wanted a folder with {', '.join(KINDS)}")
+    raise DataError(f"{place} contains no result: a folder with one of {', '.join(LOADERS)} is wanted")
 
 
 def simulate(
@@ -211,18 +213,18 @@ def simulate(
     noise: float = 0.0,
     seed: int = 0,
 ) -> _simulate.SimulatedTable:
-    """Return the table of a simulated machine, each column (samples,) by name; `out` (.csv, .nc) is written too.
+    """Return the table of a simulated machine, with columns (samples,) by name; `out` (.csv, .nc) is an optional file.
 
-    `values` and `initial` are those of parameters and states by name, in SI; `drives` texts such as
-    "harmonic:amplitude=1,frequency=2", `duration` in s, `rate` in Hz. `noise` is white, as a share of the standard
-    deviation of each channel. `motion` ("translation", "rotation") turns a model that can be either.
+    `values` and `initial` are values of parameters and states by name, in SI units. `drives` are texts such as
+    "harmonic:amplitude=1,frequency=2"; `duration` is in s and `rate` in Hz. `noise` is white, as a share of the
+    standard deviation of each channel. `motion` ("translation", "rotation") selects one kind where a model allows both.
     """
     known = registry or default()
-    assembly, told = _simulate.assembly_of(known, model, _texts(terms), motion)
+    assembly, own = _simulate.assembly_of(known, model, _to_texts(terms), motion)
     used = [("model", model), *(("term", term.name) for term in assembly.terms)]
-    every = {**told, **values}
+    every = {**own, **values}
     plan = _simulate.Plan(
-        assembly, every, _texts(drives), duration, rate, initial or {}, noise, seed, known.origins(*used)
+        assembly, every, _to_texts(drives), duration, rate, initial or {}, noise, seed, known.origins(*used)
     )
     table = _simulate.simulate(plan)
     if out is not None:
@@ -251,57 +253,59 @@ def map(
     motion: str | None = None,
     progress: bool = True,
 ) -> xarray.Dataset:
-    """Return a map of a model over `axes` (NAME=LOW:HIGH:N); with `out` (.zarr, .nc) it is kept, and continued there.
+    """Return a map of a model over `axes` (NAME=LOW:HIGH:N); with `out` (.zarr, .nc) it is stored and continued there.
 
-    `sets` are NAME=VALUE, `terms` NAME[@PLACE][:param=value], `drive` a text such as "harmonic:amplitude=1,omega=2",
-    `quantities` names of quantifiers beside the largest exponent, in `unit` ("nat" or "bit") a second. Each cell has so
-    many `starts`, followed over so many `periods`, of which a `transient` is left out; `refine` halves cells so often
-    where neighbours differ.
+    `sets` are texts NAME=VALUE, `terms` NAME[@PLACE][:param=value], `drive` a text such as
+    "harmonic:amplitude=1,omega=2", `quantities` names of quantifiers beside the largest exponent; `unit` is "nat" or
+    "bit". Each cell has `starts` initial states, followed over `periods` after a `transient`; `refine` is the number of
+    times that cells are halved where neighbours differ.
     """
     from lostmotion.maps.run import Request, RunOptions, make_map, make_study
     from lostmotion.maps.sweep import Workers
 
     request = Request(
         model,
-        _texts(axes),
+        _to_texts(axes),
         periods,
         transient,
         starts,
-        _texts(sets),
-        _texts(terms),
+        _to_texts(sets),
+        _to_texts(terms),
         drive,
-        _texts(quantities),
+        _to_texts(quantities),
         unit,
         seed,
         motion,
     )
     study = make_study(request, registry or default())
     options = RunOptions(Workers(jobs), refine, fresh)
-    with shown("map", progress) as say, TemporaryDirectory() as spare:
+    with show_progress("map", progress) as say, TemporaryDirectory() as spare:
         place = Path(out) if out is not None else Path(spare) / "map.nc"
         made = make_map(study, place, options, lambda done, of: say(f"{done} of {of} cells")).dataset
         return made.load() if out is None else made
 
 
-def case_from(
+def make_case(
     case: Case | Recording | str | Path,
     given: Modelled | None,
     known: Mapping[str, float] | None,
     estimate: Mapping[str, Prior] | None,
     registry: Registry,
 ) -> Case:
-    """Return the case that is meant: itself, that of a file, or one of a recording and a model."""
+    """Return the case: the given one, that of a file, or one made of a recording and a model."""
     if isinstance(case, Recording):
         if given is None:
             raise CaseError("a recording alone is no case: give a model beside it, such as lm.model('lin_backlash')")
-        return _guessed(case, given, known or {}, estimate or {})
+        return _guess_case(case, given, known or {}, estimate or {})
     if given is not None or known or estimate:
-        raise CaseError("the case has a model, known values and priors: change them there, or hand over a recording")
+        raise CaseError("the case has a model, known values and priors: change them there, or give a recording")
     return case if isinstance(case, Case) else Case.read(case, registry)
 
 
-def _guessed(recording: Recording, given: Modelled, known: Mapping[str, float], estimate: Mapping[str, Prior]) -> Case:
-    """Return a case of a recording, with wide priors of what is neither known nor estimated."""
+def _guess_case(
+    recording: Recording, given: Modelled, known: Mapping[str, float], estimate: Mapping[str, Prior]
+) -> Case:
+    """Return a case of a recording, with wide priors for parameters that are neither known nor estimated."""
     from lostmotion.preparation.beginning import guesses, sizes_of
 
     first = Case(recording, given, known, estimate, recording.name)
@@ -312,13 +316,13 @@ def _guessed(recording: Recording, given: Modelled, known: Mapping[str, float], 
     drive = None if pushed is None else np.asarray(pushed) - float(pushed.mean())
     scales = sizes_of(seen - seen.mean(), quantity, drive, recording.dt)
     values, ranges = guesses(machine, scales, forced=pushed is not None or quantity in ("force", "torque"))
-    told = {name: value for name, (value, _) in values.items() if name not in estimate}
+    fixed = {name: value for name, (value, _) in values.items() if name not in estimate}
     priors = {name: Prior(low=a, high=b, scale="log") for name, (a, b, _) in ranges.items() if name not in known}
-    return Case(recording, machine, {**told, **known}, {**priors, **estimate}, recording.name)
+    return Case(recording, machine, {**fixed, **known}, {**priors, **estimate}, recording.name)
 
 
-def _sensor(recording: Recording, channel: str | None) -> int:
-    """Return the number of the sensor of that name or channel; the first where none is named."""
+def _find_sensor(recording: Recording, channel: str | None) -> int:
+    """Return the index of the sensor with this name or channel; 0 where none is named."""
     if channel is None:
         return 0
     for kind in ("sensor", "of"):
@@ -330,8 +334,8 @@ def _sensor(recording: Recording, channel: str | None) -> int:
 
 
 @contextmanager
-def shown(what: str, wanted: bool) -> Iterator[Callable[[str], None]]:
-    """Yield a function that is told each step, and shows it as a line in a terminal or a notebook."""
+def show_progress(what: str, wanted: bool) -> Iterator[Callable[[str], None]]:
+    """Yield a callback that shows each step as a line in a terminal or a notebook."""
     if not (wanted and _is_watched()):
         yield lambda _step: None
         return
@@ -347,13 +351,13 @@ def shown(what: str, wanted: bool) -> Iterator[Callable[[str], None]]:
 
 
 def _is_watched() -> bool:
-    """Return whether somebody sees a line of progress: in a terminal or in a notebook, and not in a log file."""
+    """Return whether a line of progress is visible: in a terminal or a notebook, but not in a log file."""
     shell = sys.modules.get("IPython")
     return sys.stderr.isatty() or (shell is not None and shell.get_ipython() is not None)
 
 
-def _texts(given: str | Iterable[str]) -> tuple[str, ...]:
-    """Return texts as a tuple; one by itself may be given bare."""
+def _to_texts(given: str | Iterable[str]) -> tuple[str, ...]:
+    """Return one text or several texts as a tuple."""
     return (given,) if isinstance(given, str) else tuple(given)
 
 

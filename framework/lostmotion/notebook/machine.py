@@ -1,4 +1,4 @@
-"""A model that was fitted, ready to be set in motion under another drive."""
+"""A fitted model that can be simulated under another drive."""
 
 from __future__ import annotations
 
@@ -48,52 +48,54 @@ class FittedModel:
         rate: float | None = None,
         initial: Mapping[str, float] | None = None,
     ) -> Recording:
-        """Return what the sensors show of a free motion under `inputs`, without noise, as a recording in SI units.
+        """Return the readings of the sensors for a free motion under `inputs`, without noise, in SI units.
 
-        `inputs` maps inputs of the model to arrays (n,) that are sampled at `rate` (Hz), or to functions of time (s);
-        or it is a recording, of which the inputs are taken. The motion begins at rest but for what `initial` says of
-        its states, and lasts `duration` (s). Raises `CaseError` where it cannot be simulated.
+        `inputs` maps inputs of the model to arrays (n,) sampled at `rate` (Hz), or to functions of time (s); or it is a
+        recording whose inputs are used. The motion begins at rest, except for the states in `initial`, and lasts
+        `duration` (s). Raises `CaseError` where it cannot be simulated.
         """
         if self.learned:
             raise CaseError(
-                f"{' and '.join(self.learned)} was learned and is not kept with the result: simulate what `diagnose`"
-                " returned in the same session, or diagnose again"
+                f"{' and '.join(self.learned)} was learned and is not stored with the result: simulate the result of"
+                " `diagnose` in the same session, or diagnose again"
             )
-        signals, rate = _signals(inputs, rate)
-        samples = _samples(signals, duration, rate)
-        columns = _columns(self.model, signals, rate)
+        signals, rate = _read_signals(inputs, rate)
+        samples = _count_samples(signals, duration, rate)
+        columns = _make_inputs(self.model, signals, rate)
         moved = set_in_motion(self.assembly, self.values, columns, samples, rate, initial or {})
         driven = {name: u for name, u in zip(self.model.inputs, moved.inputs.T, strict=True) if name in signals}
         names = {sensor.label: sensor.channel for sensor in self.sensors}
         units = {name: unit_of(name, self.model.motion) for name in (*driven, *names.values())}
         which = ({name: name for name in driven}, {channel: label for label, channel in names.items()})
-        shown = {sensor.label: self._seen(moved, sensor) for sensor in self.sensors}
+        shown = {sensor.label: self._simulate_sensor(moved, sensor) for sensor in self.sensors}
         units |= {label: units[channel] for label, channel in names.items()}
         return recorded({**driven, **shown}, which, units, None, rate, {}, "smooth", f"simulated {self.assembly.label}")
 
     @staticmethod
-    def _seen(moved: Moved, sensor: Sensor) -> Array:
-        """Return what a sensor shows (samples,), with what its terms make of it."""
+    def _simulate_sensor(moved: Moved, sensor: Sensor) -> Array:
+        """Return the readings of a sensor (samples,), with the effect of its terms."""
         seen = moved.channels[sensor.channel]
         for term, p in moved.system.at_sensor(moved.full, moved.system.everything, sensor.place):
             seen = term.rounded(term.gain(p) * term.bent(seen, p) + term.offset(p), p)
+        for change in moved.system.changes_at_sensor(moved.full, moved.system.everything, sensor.place):
+            seen = change.apply(seen, moved.times)
         return seen
 
     def __repr__(self) -> str:
-        told = ", ".join(f"{key} = {value:.4g}" for key, value in self.values.items() if not key.endswith(".since"))
-        return f"<FittedModel {self.assembly.label}: {told}>"
+        values = ", ".join(f"{key} = {value:.4g}" for key, value in self.values.items() if not key.endswith(".since"))
+        return f"<FittedModel {self.assembly.label}: {values}>"
 
 
-def fitted_of(outcome: Outcome, machine: FittedMachine) -> FittedModel:
-    """Return the model of a diagnosis that was made in this session, with learned forces if there are any."""
+def make_fitted_model(outcome: Outcome, machine: FittedMachine) -> FittedModel:
+    """Return the model of a diagnosis made in this session, with learned forces if there are any."""
     problem = outcome.diagnosis.after.problem
     system = problem.system
     terms = tuple(t for key, t in zip(system.keys, system.terms, strict=True) if key in problem.active)
     return FittedModel(system.model, terms, machine.values, outcome.diagnosis.shown.sensors)
 
 
-def machine_of(machine: FittedMachine, registry: Registry) -> FittedModel:
-    """Return the model that a result holds as its `machine`; learned forces are not among its terms."""
+def restore_fitted_model(machine: FittedMachine, registry: Registry) -> FittedModel:
+    """Return the model described by the `machine` of a result; learned forces are not among its terms."""
     if machine.equations:
         cls: Any = model_of(machine.equations, units=machine.units, params=[*machine.values])
         made: Model = cls()
@@ -105,14 +107,14 @@ def machine_of(machine: FittedMachine, registry: Registry) -> FittedModel:
     return FittedModel(made.turned(machine.motion), terms, machine.values, sensors, machine.learned)
 
 
-def _signals(inputs: Mapping[str, Signal] | Recording, rate: float | None) -> tuple[dict[str, Signal], float]:
-    """Return what drives a machine by input, and the rate (Hz) at which arrays among it are sampled."""
+def _read_signals(inputs: Mapping[str, Signal] | Recording, rate: float | None) -> tuple[dict[str, Signal], float]:
+    """Return the signals by input, and the rate (Hz) at which arrays are sampled."""
     if isinstance(inputs, Recording):
         return {str(a.attrs["of"]): np.asarray(a) for a in inputs.inputs}, inputs.rate
     if rate is None or not 0.0 < rate < math.inf:
-        raise CaseError("the rate is missing: give rate=, the samples in a second of arrays and of what is simulated")
+        raise CaseError("the rate is missing: give rate=, the samples per second of the arrays and of the simulation")
     if not isinstance(inputs, Mapping):
-        raise CaseError("the inputs are no mapping: give {'force': array} or {'force': function of time}")
+        raise CaseError("the inputs are not a mapping: give {'force': array} or {'force': function of time}")
     for name, signal in inputs.items():
         values = None if callable(signal) else np.asarray(signal)
         if values is not None and (values.dtype.kind not in "iufb" or values.ndim != 1):
@@ -120,22 +122,22 @@ def _signals(inputs: Mapping[str, Signal] | Recording, rate: float | None) -> tu
     return dict(inputs), rate
 
 
-def _samples(signals: Mapping[str, Signal], duration: float | None, rate: float) -> int:
+def _count_samples(signals: Mapping[str, Signal], duration: float | None, rate: float) -> int:
     lengths = {name: len(np.asarray(signal)) for name, signal in signals.items() if not callable(signal)}
     if duration is None and not lengths:
         raise CaseError("the duration is missing: give duration= in s, since no input is an array")
     samples = round(duration * rate) if duration is not None else min(lengths.values())
     if short := [name for name, length in lengths.items() if length < samples]:
         raise DataError(
-            f"{short[0]} has {lengths[short[0]]} samples, and {samples} are asked for: shorten the duration"
+            f"{short[0]} has {lengths[short[0]]} samples, and {samples} are requested: shorten the duration"
         )
     if samples < 2:
-        raise CaseError(f"{samples} samples are asked for: wanted at least 2")
+        raise CaseError(f"{samples} samples are requested: at least 2 are needed")
     return samples
 
 
-def _columns(model: Model, signals: Mapping[str, Signal], rate: float) -> list[Callable[[Array], Array]]:
-    """Return each input of a model as a function of time (s): zero where nothing is given."""
+def _make_inputs(model: Model, signals: Mapping[str, Signal], rate: float) -> list[Callable[[Array], Array]]:
+    """Return each input of a model as a function of time (s): zero for inputs that are not given."""
     if unknown := [name for name in signals if name not in model.inputs]:
         raise CaseError(
             f"{model.name} has no input {unknown[0]!r}{nearest(unknown[0], model.inputs)}:"
@@ -144,26 +146,26 @@ def _columns(model: Model, signals: Mapping[str, Signal], rate: float) -> list[C
     made: list[Callable[[Array], Array]] = []
     for name in model.inputs:
         if name in signals:
-            made.append(_function(signals[name], rate))
+            made.append(_make_function(signals[name], rate))
         elif name == "base_velocity" and "base_position" in signals:
-            made.append(_rate_of(_function(signals["base_position"], rate), rate))
+            made.append(_differentiate(_make_function(signals["base_position"], rate), rate))
         else:
             made.append(np.zeros_like)
     return made
 
 
-def _function(signal: Signal, rate: float) -> Callable[[Array], Array]:
+def _make_function(signal: Signal, rate: float) -> Callable[[Array], Array]:
     if callable(signal):
         return lambda t: np.broadcast_to(np.asarray(signal(t), dtype=float), np.shape(t)).astype(float)
     from scipy.interpolate import CubicSpline
 
     values = np.asarray(signal, dtype=float)
     if not np.isfinite(values).all():
-        raise DataError("an input holds values that are no finite numbers: fill the gaps first")
+        raise DataError("an input has values that are not finite: fill the gaps first")
     return CubicSpline(np.arange(len(values)) / rate, values)  # type: ignore[no-any-return]
 
 
-def _rate_of(position: Callable[[Array], Array], rate: float) -> Callable[[Array], Array]:
+def _differentiate(position: Callable[[Array], Array], rate: float) -> Callable[[Array], Array]:
     """Return the time derivative of a position by central differences over a hundredth of a sample."""
     h = 0.01 / rate
     return lambda t: (position(t + h) - position(t - h)) / (2.0 * h)

@@ -1,4 +1,4 @@
-"""What an identification found, as an object: intervals, draws, figures and the page."""
+"""The result of an identification as an object: intervals, draws, figures and the page."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class PosteriorPlots:
-    """The figures of an identification; each returns a matplotlib figure, and a bare call the corner."""
+    """The figures of an identification; each method returns a matplotlib figure, and calling the object the corner."""
 
     view: IdentificationView
 
@@ -32,40 +32,40 @@ class PosteriorPlots:
         return "<figures of a posterior: .corner(), .trace()>"
 
     def __call__(self) -> Figure:
-        """Return the parameters drawn one against another."""
+        """Return the corner plot of the parameters."""
         return self.corner()
 
     def corner(self) -> Figure:
-        """Return the parameters drawn one against another."""
+        """Return the corner plot of the parameters."""
         with style.applied():
             return drawing.draw_corner(self.view)
 
     def trace(self) -> Figure:
-        """Return the walkers over the steps, and how their ranks mix."""
+        """Return the walkers over the steps, and the distribution of their ranks."""
         with style.applied():
             return drawing.draw_trace(self.view)
 
 
 @dataclass(frozen=True, eq=False)
 class IdentificationResult:
-    """What `lostmotion.identify` returns: `result` is what `identification.json` holds, `groups` are those of ArviZ."""
+    """The result of `lostmotion.identify`: `result` is the content of `identification.json`, `groups` of ArviZ."""
 
     result: Identification
     groups: Mapping[str, xr.Dataset] = field(repr=False)
 
     @property
     def converged(self) -> bool:
-        """Whether the chain may be believed: where not, there are no intervals."""
+        """Whether the chain has converged; without convergence there are no intervals."""
         return self.result.converged
 
     @property
     def says(self) -> tuple[str, ...]:
-        """What is to be known of the answer, in sentences."""
+        """The state of the chain in sentences."""
         return self.result.says
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """Sentences on the recordings and on what makes intervals less certain."""
+        """Notes on the recordings and on the limitations of the intervals."""
         return self.result.notes
 
     @property
@@ -75,7 +75,7 @@ class IdentificationResult:
 
     @property
     def view(self) -> IdentificationView:
-        """The result and its draws as figures take them."""
+        """The result and its draws in the form that the figures use."""
         return make_view(self.result, self.groups["posterior"])
 
     @property
@@ -84,7 +84,7 @@ class IdentificationResult:
         return PosteriorPlots(self.view)
 
     def to_dict(self) -> dict[str, Any]:
-        """Return what `identification.json` holds."""
+        """Return the content of `identification.json`."""
         made: dict[str, Any] = to_plain(self.result)
         return made
 
@@ -100,11 +100,11 @@ class IdentificationResult:
         return arviz.InferenceData(**groups)
 
     def report(self, path: str | Path = "report.html") -> Path:
-        """Return the path of the page that was written: self-contained HTML."""
+        """Write the page as self-contained HTML and return its path."""
         return save_text(Path(path), page.render(self.view))
 
     def save(self, folder: str | Path) -> Path:
-        """Return the folder into which `identification.json`, `posterior.nc` and `report.html` were written."""
+        """Write `identification.json`, `posterior.nc` and `report.html` into a folder and return it."""
         place = folder_for(Path(folder))
         groups: dict[str | None, xr.Dataset] = dict(self.groups.items())
         save_datasets(place / DRAWS, groups, {"title": self.result.title})
@@ -114,18 +114,18 @@ class IdentificationResult:
 
     def __repr__(self) -> str:
         lines = [f"{self.result.title}: {self.result.model}", *self.says]
-        return "\n".join([*lines, *(f"  {name} = {told}" for name, told in self.parameters.items())])
+        return "\n".join([*lines, *(f"  {name} = {value}" for name, value in self.parameters.items())])
 
     def _repr_html_(self) -> str:
         rows = "".join(
             f"<tr><td>{html.escape(k)}</td><td>{html.escape(str(v))}</td></tr>" for k, v in self.parameters.items()
         )
-        said = "".join(f"<li>{html.escape(one)}</li>" for one in self.says)
-        return f"<h4>{html.escape(self.result.title)}</h4><ul>{said}</ul><table>{rows}</table>"
+        items = "".join(f"<li>{html.escape(one)}</li>" for one in self.says)
+        return f"<h4>{html.escape(self.result.title)}</h4><ul>{items}</ul><table>{rows}</table>"
 
 
 def load_identification(folder: Path) -> IdentificationResult:
-    """Return the identification that was saved into a folder; `DataError` where it is absent or damaged."""
+    """Return the identification stored in a folder; raise `DataError` where it is absent or damaged."""
     result = load_result(Identification, folder / RESULT, RERUN_HINT)
     import h5netcdf
 

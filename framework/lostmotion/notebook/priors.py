@@ -1,4 +1,4 @@
-"""Priors of parameters by their usual names."""
+"""Priors of parameters, with the usual names of their distributions."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from lostmotion.case import Prior
 from lostmotion.errors import CaseError
 
 
-def _prior(**numbers: Any) -> Prior:
+def _make_prior(**numbers: Any) -> Prior:
     try:
         return Prior(**numbers)
     except CaseError as err:
@@ -17,24 +17,24 @@ def _prior(**numbers: Any) -> Prior:
 
 def Uniform(low: float, high: float, *, each: bool = False) -> Prior:  # noqa: N802 - named as distributions are
     """Return a uniform prior between two values; with `each` every recording has a value of its own."""
-    return _prior(low=low, high=high, each=each)
+    return _make_prior(low=low, high=high, each=each)
 
 
 def LogUniform(low: float, high: float, *, each: bool = False) -> Prior:  # noqa: N802
     """Return a prior that is uniform in the logarithm, between two positive values."""
-    return _prior(low=low, high=high, scale="log", each=each)
+    return _make_prior(low=low, high=high, scale="log", each=each)
 
 
 def Normal(mean: float, sd: float, *, each: bool = False) -> Prior:  # noqa: N802
     """Return a normal prior."""
-    return _prior(mean=mean, sd=sd, each=each)
+    return _make_prior(mean=mean, sd=sd, each=each)
 
 
 def LogNormal(median: float, sd_log: float, *, each: bool = False) -> Prior:  # noqa: N802
     """Return a log-normal prior; `sd_log` is the standard deviation of the natural logarithm."""
-    return _prior(median=median, sd_log=sd_log, each=each)
+    return _make_prior(median=median, sd_log=sd_log, each=each)
 
 
 def HalfNormal(sd: float, *, each: bool = False) -> Prior:  # noqa: N802
     """Return the positive half of a normal prior about zero."""
-    return _prior(half_sd=sd, each=each)
+    return _make_prior(half_sd=sd, each=each)

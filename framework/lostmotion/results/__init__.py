@@ -1,4 +1,4 @@
-"""What the stages return: frozen, plain, and holding nothing that computes."""
+"""The results of the stages: frozen dataclasses of plain values, without computations."""
 
 from __future__ import annotations
 
@@ -20,12 +20,15 @@ SMALL, LARGE = 1e-5, 1e7
 
 
 def rounded(value: float, digits: int = 2) -> str:
-    """Return a number with so many digits as people write it: 130, and not 1.3e+02."""
+    """Return a number with this many significant digits in decimal notation: 130, not 1.3e+02."""
     return f"{float(f'{value:.{digits}g}'):g}"
 
 
 def percent(share: float, digits: int = 2) -> str:
-    """Return a share in per cent, with so many digits or, from one on, whole; a tiny one is said to be less."""
+    """Return a share in per cent, with so many significant digits, or as a whole number from 100 % on.
+
+    One below `TINY` is said to be less than that.
+    """
     if 0.0 < abs(share) < TINY:
         return f"less than {rounded(100.0 * TINY)} %"
     return f"{rounded(100.0 * share, digits)} %" if abs(share) < 1.0 else f"{100.0 * share:.0f} %"
@@ -40,7 +43,7 @@ def decimals_of(median: float, low: float, high: float, least: int) -> int:
 
 
 DEGREES: Mapping[str, str] = {"rad": "deg", "rad/s": "deg/s", "rad/s^2": "deg/s^2"}
-"""Units of angles and what they are in degrees."""
+"""Units of angles in radians, with the corresponding units in degrees."""
 
 
 @dataclass(frozen=True)
@@ -49,8 +52,8 @@ class Interval:
 
     median: float = described("median")
     low: float = described("lower end of the central 95 % interval; null where it is withheld")
-    high: float = described("upper end of it; null where it is withheld")
-    unit: str = described("unit of the three")
+    high: float = described("upper end of the interval; null where it is withheld")
+    unit: str = described("unit of these three values")
     withheld: str | None = described("why the interval is withheld, in a sentence", default=None)
 
     def __contains__(self, value: float) -> bool:
@@ -67,7 +70,7 @@ class Interval:
         return {"median": self.median, "low": self.low, "high": self.high, "unit": self.unit}
 
     def with_angles_in(self, angle: str) -> Interval:
-        """Return the interval in degrees where `angle` is deg and its unit one of an angle; else as it is."""
+        """Return the interval in degrees where `angle` is deg and its unit is one of an angle; else unchanged."""
         if angle != "deg" or self.unit not in DEGREES:
             return self
         median, low, high = (math.degrees(x) for x in (self.median, self.low, self.high))
@@ -83,29 +86,29 @@ class Interval:
 
 
 STATUSES: Mapping[str, str] = {
-    "ok": "the number and its interval may be used",
-    "uncertain": "a number is given, but a condition for its interval does not hold",
+    "ok": "the value and its interval may be used",
+    "uncertain": "a value is given, but a condition for its interval does not hold",
     "too_short": "there are too few points for this method",
-    "too_few_neighbours": "too few points come close enough to one another",
-    "no_scaling_region": "the curve has no straight piece to read a slope from",
-    "not_saturating": "the curve does not level off: no separation of scales, as noise has it",
-    "regular": "near states do not part: the motion is periodic or quasiperiodic",
-    "rising": "the value keeps rising with the embedding dimension, as that of noise does",
-    "below_noise": "what could be measured lies below the noise or the resolution of the sensor",
-    "diverged": "the motion runs away",
-    "jumps": "the force jumps, and the tangent flow across the jump is not treated",
-    "failed": "the method broke down",
-    "too_stiff": "the fastest motion asks for more and shorter steps than are taken",
+    "too_few_neighbours": "too few points are close enough to each other",
+    "no_scaling_region": "the curve has no straight section for a slope",
+    "not_saturating": "the curve does not level off: there is no separation of scales, as with noise",
+    "regular": "neighbouring states do not diverge: the motion is periodic or quasiperiodic",
+    "rising": "the value keeps rising with the embedding dimension, as with noise",
+    "below_noise": "the measurable effect is below the noise or the resolution of the sensor",
+    "diverged": "the motion diverges",
+    "jumps": "the force jumps, and the tangent flow across the jump is not computed",
+    "failed": "the method failed",
+    "too_stiff": "the fastest motion needs more and shorter steps than are taken",
 }
-"""What may be wrong with a number, in words: the vocabulary of `status`."""
+"""The values of `status`, with their meanings."""
 
 
 @dataclass(frozen=True)
 class Embedding:
-    """Delay `lag` (samples) and dimension `dim` of an embedding, with the curves they were read from.
+    """Delay `lag` (samples) and dimension `dim` of an embedding, with the curves they are based on.
 
-    Points closer in time than `theiler` samples are no neighbours. `methods` says how lag and dim were chosen,
-    `says` is a sentence where `status` is not "ok".
+    Points closer in time than `theiler` samples are not counted as neighbours. `methods` names how lag and dim were
+    chosen; `says` is a sentence where `status` is not "ok".
     """
 
     lag: int
@@ -118,15 +121,15 @@ class Embedding:
 
     @property
     def window(self) -> int:
-        """The samples that one delay vector spans."""
+        """The number of samples that one delay vector spans."""
         return (self.dim - 1) * self.lag + 1
 
 
 @dataclass(frozen=True)
 class Estimate:
-    """A number with its central 95 % interval, the curves it was read from, and a status in place of an exception.
+    """A value with its central 95 % interval, the curves it is based on, and a status instead of an exception.
 
-    `status` is one of `STATUSES`; when it is not "ok", `says` is a sentence for people, and `value` may be NaN.
+    `status` is one of `STATUSES`; when it is not "ok", `says` explains it in a sentence, and `value` may be NaN.
     `details` are further numbers, such as the ends of the scaling region.
     """
 
@@ -149,11 +152,11 @@ class Estimate:
         curve: Mapping[str, Array] | None = None,
         details: Mapping[str, float] | None = None,
     ) -> Estimate:
-        """Return an estimate without a number: `status` and `says` stand in its place."""
+        """Return an estimate without a value; `status` and `says` give the reason."""
         nothing = float("nan")
         return cls(nothing, nothing, nothing, status, unit, curve or {}, says, details or {})
 
     @property
     def ok(self) -> bool:
-        """Whether the number may be used."""
+        """Whether the value may be used."""
         return self.status == "ok"

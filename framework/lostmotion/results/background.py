@@ -1,4 +1,4 @@
-"""Where a result comes from: recordings, the fitted machine, versions, settings and digests."""
+"""The origin of a result: recordings, the fitted machine, versions, settings and digests."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ class RecordingFacts:
 
     name: str = described("its name")
     samples: int = described("number of its samples")
-    rate: float = described("samples in a second", unit="Hz")
-    start: str | None = described("date and time of day of its first sample (ISO 8601); null where it is not known")
+    rate: float = described("samples per second", unit="Hz")
+    start: str | None = described("date and time of its first sample (ISO 8601); null where it is not known")
     inputs: tuple[str, ...] = described("its recorded inputs")
 
 
@@ -38,11 +38,11 @@ class SensorChannel:
 
 @dataclass(frozen=True)
 class FittedMachine:
-    """The fitted model with what was found, as it is set in motion again."""
+    """The fitted model with the found mechanisms, in a form from which it can be simulated again."""
 
     model: str = described("name of the model; `equations` for one that is written as equations")
     equations: tuple[str, ...] = described("its equations of motion")
-    units: Mapping[str, str] = described("units of its parameters, as the case gives them")
+    units: Mapping[str, str] = described("units of its parameters in the case")
     motion: str = described("translation or rotation")
     terms: tuple[TermFacts, ...] = described("the terms that are added to it")
     learned: tuple[str, ...] = described("the keys of learned curves")
@@ -52,10 +52,10 @@ class FittedMachine:
 
 @dataclass(frozen=True)
 class Origin:
-    """What made a result: the same inputs, settings, seed and versions give the same bytes."""
+    """The origin of a result: the same inputs, settings, seed and versions give the same bytes."""
 
     component: str = described("the part of the program that made it")
-    versions: Mapping[str, str] = described("versions of the packages that may change a number")
-    settings: Mapping[str, object] = described("what was asked for, and the thresholds that decided")
+    versions: Mapping[str, str] = described("versions of the packages that may change a value")
+    settings: Mapping[str, object] = described("the options, and the thresholds of the decisions")
     seed: int | None = described("seed of the random numbers")
-    inputs: Mapping[str, str] = described("SHA-256 digest of each file that went in")
+    inputs: Mapping[str, str] = described("SHA-256 digest of each input file")

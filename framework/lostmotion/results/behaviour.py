@@ -1,4 +1,4 @@
-"""How recording and models behave: predictions, attractors, exponents, dimensions and free decays."""
+"""Behaviour of recording and models: predictions, attractors, exponents, dimensions and free decays."""
 
 from __future__ import annotations
 
@@ -9,15 +9,15 @@ from lostmotion.codec import described
 
 @dataclass(frozen=True)
 class ValidTime:
-    """How long a free run stays near the recording."""
+    """The time for which a free run stays near the recording."""
 
-    value: float = described("that time, in the unit of the horizon")
-    or_longer: bool = described("whether it was followed no longer")
+    value: float = described("this time, in the unit of the horizon")
+    or_longer: bool = described("whether the free run ended before its error became too large")
 
 
 @dataclass(frozen=True)
 class Distance:
-    """How far apart two attractors are."""
+    """The distance between two attractors."""
 
     value: float = described("energy distance, in standard deviations of the motion")
     p: float = described("p-value against chance")
@@ -42,7 +42,7 @@ class DimensionInterval:
     low: float = described("lower end of its central 95 % interval")
     high: float = described("upper end of it")
     status: str = described("a status of an estimate")
-    says: str = described("what is wrong where the status is not ok")
+    says: str = described("the reason where the status is not ok")
 
 
 @dataclass(frozen=True)
@@ -54,11 +54,11 @@ class Chance:
 
 @dataclass(frozen=True)
 class ModelBehaviour:
-    """How a model behaves."""
+    """The behaviour of a model."""
 
     heldout_log_score: float = described("mean log density of one-step predictions of held-out samples")
     free_run_error: float = described("error of free runs over the horizon, over the deviation of the response")
-    valid_prediction_time: ValidTime = described("how long a free run errs by less than 40 % of the motion")
+    valid_prediction_time: ValidTime = described("time for which the error of a free run is below 40 % of the motion")
     attractor_distance: Distance = described("distance between the attractors of recording and free run")
     largest_exponent: ExponentInterval = described("largest Lyapunov exponent")
     d2: DimensionInterval = described("correlation dimension of a free run")
@@ -67,9 +67,9 @@ class ModelBehaviour:
 
 @dataclass(frozen=True)
 class NoiseFloor:
-    """What noise alone would give."""
+    """The values that noise alone would give."""
 
-    heldout_log_score: float = described("what the last model itself expects")
+    heldout_log_score: float = described("the score that the last model predicts for itself")
     free_run_error: float = described("measurement noise over the deviation of the response")
     attractor_distance: Distance = described("between the halves of the recording")
     d2: DimensionInterval = described("correlation dimension of the recording")
@@ -81,7 +81,7 @@ class MeasureTexts:
 
     heldout_log_score: str = described("of the log score")
     free_run_error: str = described("of the error of free runs")
-    valid_prediction_time: str = described("of the time that free runs hold")
+    valid_prediction_time: str = described("of the time for which free runs are valid")
     attractor_distance: str = described("of the distance between attractors")
     largest_exponent: str = described("of the exponent")
     d2: str = described("of the dimension")
@@ -101,7 +101,7 @@ class Behaviour:
     """Measures of the motion: before, after, and of noise alone."""
 
     before: ModelBehaviour = described("of the nominal model")
-    after: ModelBehaviour | None = described("of the model with what was found", default=None)
+    after: ModelBehaviour | None = described("of the model with the found mechanisms", default=None)
     noise_floor: NoiseFloor = described("of noise alone")
     units: MeasureTexts = described("units of the measures")
     horizon: HorizonLength = described("the time over which free runs are compared")
@@ -123,8 +123,8 @@ class DecayCycles:
 class Decays:
     """Free decays of the recording and of free runs of the models from the same starts."""
 
-    says: str = described("how frequency and damping go with amplitude, in sentences")
+    says: str = described("dependence of frequency and damping on the amplitude, in sentences")
     unit: str | None = described("unit of amplitudes", default=None)
     measured: tuple[DecayCycles, ...] | None = described("of the recording", default=None)
     before: tuple[DecayCycles, ...] | None = described("of the nominal model", default=None)
-    after: tuple[DecayCycles, ...] | None = described("of the model with what was found", default=None)
+    after: tuple[DecayCycles, ...] | None = described("of the model with the found mechanisms", default=None)

@@ -1,4 +1,4 @@
-"""What a diagnosis returns and `diagnosis.json` holds: frozen, in SI units, and nothing that computes."""
+"""The result of a diagnosis and the content of `diagnosis.json`: frozen dataclasses in SI units, no computations."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class LearnedCurve:
     at_place: str = described("the place of the model at which the force acts")
     unit: str = described("unit of `at`")
     force_unit: str = described("unit of `force`, `low` and `high`")
-    times: str = described("what the curve is multiplied by; empty where it is a force as it is")
+    times: str = described("the factor on the curve; empty where the curve is the force itself")
     at: tuple[float, ...] = described("points of the quantity")
     force: tuple[Cells, ...] = described("the force at the points; rows over `at`, columns over `at_too`")
     low: tuple[Cells, ...] = described("lower end of the 95 % band of the force")
@@ -31,7 +31,9 @@ class LearnedCurve:
     over_too: str | None = described("the second quantity of a surface", default=None)
     unit_too: str | None = described("unit of `at_too`", default=None)
     at_too: tuple[float, ...] | None = described("points of the second quantity", default=None)
-    visited: tuple[tuple[bool, ...], ...] | None = described("where on the surface the motion was", default=None)
+    visited: tuple[tuple[bool, ...], ...] | None = described(
+        "cells of the surface that the motion visited", default=None
+    )
     forgets_in: float | None = described(
         "the time constant of the hidden state of a force with a memory", unit="s", default=None
     )
@@ -41,14 +43,14 @@ class LearnedCurve:
 class ProposedFormula:
     """A formula that a sparse regression proposes for a learned curve: a proposal, not a finding."""
 
-    formula: str | None = described("the formula; null where none is close")
+    formula: str | None = described("the formula; null where none is close enough")
     share_of_curve: float | None = described("the share of the curve that the formula explains", default=None)
-    says: str = described("what the proposal is worth, in a sentence")
+    says: str = described("the reliability of the proposal, in a sentence")
 
 
 @dataclass(frozen=True)
 class LookAlike:
-    """A term of the library that a learned force looks like."""
+    """A term of the library that is similar to a learned force."""
 
     mechanism: str = described("name of the term")
     at: str = described("place at which it would act")
@@ -56,7 +58,7 @@ class LookAlike:
 
 @dataclass(frozen=True, kw_only=True)
 class Mechanism:
-    """What the model leaves out: a term of the library, a mark of a sensor, or a force without a name.
+    """A missing mechanism: a term of the library, a property of a sensor, or a force without a name.
 
     Bounds of `parameters` are NaN where their intervals are withheld.
     """
@@ -67,34 +69,34 @@ class Mechanism:
         default="",
         spare=True,
     )
-    probability: float = described("posterior probability among the library, nothing missing and unknown")
+    probability: float = described("posterior probability among the library, `nothing_missing` and `unknown`")
     state: str = described("`named`, `likely` or `open`")
-    doubts: tuple[str, ...] = described("why it is no more than likely, in sentences", default=())
+    doubts: tuple[str, ...] = described("reasons why it is not more than likely, in sentences", default=())
     log_odds: float | None = described("log odds of the learned curves over the best of the library", default=None)
-    depends_on: tuple[str, ...] | None = described("what a force without a name depends on", default=None)
+    depends_on: tuple[str, ...] | None = described("the covariates of a force without a name", default=None)
     parameters: Mapping[str, Interval] = described("its parameters by name")
     curve: LearnedCurve | None = described("the first of `curves`", default=None)
     curves: tuple[LearnedCurve, ...] = described("the learned curves", default=(), spare=True)
     proposal: ProposedFormula | None = described("a formula for the learned curves", default=None)
-    looks_like: tuple[LookAlike, ...] = described("terms of the library that it looks like", default=(), spare=True)
-    share_of_likeness: float | None = described("the share of its variance that these explain", default=None)
+    looks_like: tuple[LookAlike, ...] = described("similar terms of the library", default=(), spare=True)
+    share_of_likeness: float | None = described("share of its variance that these terms explain", default=None)
     share_of_drive: float | None = described("largest force, as a share of the drive", default=None)
-    since: Interval | None = described("its onset, where it was not there from the beginning", default=None)
+    since: Interval | None = described("its onset, where it began during the recording", default=None)
     says: str = described("the finding, in a sentence")
     by_recording: tuple[OwnParameters, ...] = described(
-        "its parameters in each recording by itself", default=(), spare=True
+        "its parameters estimated from each recording separately", default=(), spare=True
     )
-    shared: Comparison | None = described("whether one value holds in all recordings", default=None)
+    shared: Comparison | None = described("whether one value is valid for all recordings", default=None)
 
 
 @dataclass(frozen=True)
 class OpenTerm:
-    """A term that would raise the likelihood, with something that speaks against a name."""
+    """A term that would raise the likelihood, but for which there is evidence against a name."""
 
     mechanism: str = described("name of the term")
     at: str = described("place at which it would act")
     probability: float = described("its posterior probability")
-    says: str = described("why it stays open, in a sentence")
+    says: str = described("why it is open, in a sentence")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -103,51 +105,51 @@ class Candidate:
 
     mechanism: str = described("name of the candidate")
     at: str = described("place at which it acts")
-    log_evidence_gain: float = described("log evidence that it adds alone to the nominal model")
-    probability: float = described("posterior probability; of a term that was found, that of `found`")
+    log_evidence_gain: float = described("gain in log evidence when it alone is added to the nominal model")
+    probability: float = described("posterior probability; for a found term, the one in `found`")
     price: float | None = described(
-        "what its parameters and its place among the library cost, in log evidence", default=None
+        "penalty for its parameters and for the size of the library, in log evidence", default=None
     )
     fitted: bool = described("whether it was fitted; else the gain is the bound of a score test")
 
 
 @dataclass(frozen=True)
 class DecidingExcitation:
-    """The experiment that would tell two explanations apart."""
+    """The experiment that would distinguish two explanations."""
 
     waveform: str = described("harmonic, two tones, sweep or multisine")
     level: float = described("amplitude of the drive, in `unit`")
     frequency: float = described("upper end of the band", unit="Hz")
     band: tuple[float, ...] = described("lowest and highest frequency", unit="Hz")
     unit: str = described("unit of `level`")
-    expected_log_gain: float = described("log-likelihood by which it should separate them")
+    expected_log_gain: float = described("expected log-likelihood difference")
     repeat_log_gain: float = described("the same for a repeat of the recording")
-    if_found_is_true: float = described("the same if what was found is true")
+    if_found_is_true: float = described("the same if the found mechanism is true")
     if_this_is_true: float = described("the same if this mechanism is true")
 
 
 @dataclass(frozen=True, kw_only=True)
 class Confusion:
-    """A mechanism that the recording cannot tell from what was found."""
+    """A mechanism that the recording cannot distinguish from the found one."""
 
     mechanism: str = described("name of the mechanism")
     at: str | None = described("place at which it would act", default=None)
     probability: float | None = described("its posterior probability", default=None)
     excitation: DecidingExcitation | None = described("the experiment that would decide", default=None)
-    says: str = described("why it cannot be told apart, and what would decide, in sentences")
+    says: str = described("why it cannot be distinguished, and what would decide, in sentences")
 
 
 @dataclass(frozen=True)
 class ParameterSets:
-    """The parameters of the model before, and of the model with what was found."""
+    """The parameters of the nominal model, and of the model with the found mechanisms."""
 
     before: Mapping[str, Interval] = described("of the nominal model, by name")
-    after: Mapping[str, Interval] = described("of the model with what was found, by name")
+    after: Mapping[str, Interval] = described("of the model with the found mechanisms, by name")
 
 
 @dataclass(frozen=True)
 class HeldOutScore:
-    """What a model predicts of data that no fit has seen."""
+    """The prediction scores of a model on held-out data."""
 
     log_score: float = described("mean log density of one-step predictions, for each sample", key="heldout_log_score")
     nrmse: float = described(
@@ -163,8 +165,8 @@ class HeldOutScores:
     """Predictions of held-out data, before and after."""
 
     before: HeldOutScore = described("of the nominal model")
-    after: HeldOutScore = described("of the model with what was found")
-    noise_floor_nrmse: float = described("the error that measurement noise alone gives")
+    after: HeldOutScore = described("of the model with the found mechanisms")
+    noise_floor_nrmse: float = described("the error that measurement noise alone causes")
     horizon_unit: str = described("Lyapunov times, drive periods or natural periods")
     horizon_unit_time: float = described("length of that unit", unit="s")
 
@@ -174,16 +176,16 @@ class Labels:
     """The models in words."""
 
     before: str = described("the nominal model")
-    after: str = described("the model with what was found")
+    after: str = described("the model with the found mechanisms")
 
 
 @dataclass(frozen=True)
 class DriveFacts:
-    """What moves the machine."""
+    """The excitation of the machine."""
 
     amplitude: float = described("scale of the force to which shares refer, in `unit`")
     unit: str = described("its unit")
-    of: str = described("what that scale is: the drive, or the inertial force")
+    of: str = described("the meaning of this scale: the drive, or the inertial force")
     frequency: float | None = described("frequency of a periodic drive; null where it is not periodic", unit="Hz")
     free: bool = described("whether no input was recorded")
 
@@ -196,12 +198,14 @@ class Units:
     velocity: str = described("unit of velocities")
     force: str = described("unit of forces")
     time: str = described("unit of times")
-    angle: str = described("`deg` where the case gives degrees: pages show angles in it", default="rad", spare=True)
+    angle: str = described(
+        "`deg` where the case uses degrees: pages show angles in this unit", default="rad", spare=True
+    )
 
 
 @dataclass(frozen=True)
 class Response:
-    """What the first sensor measures."""
+    """The quantity that the first sensor measures."""
 
     quantity: str = described("position, velocity, acceleration, force or angle")
 
@@ -222,7 +226,7 @@ class Exponents:
     """Largest Lyapunov exponents of the models."""
 
     before: float = described("of the nominal model")
-    after: float = described("of the model with what was found")
+    after: float = described("of the model with the found mechanisms")
     unit: str = described("their unit")
 
 
@@ -231,7 +235,7 @@ class Both:
     """A number before and after."""
 
     before: float = described("of the nominal model")
-    after: float = described("of the model with what was found")
+    after: float = described("of the model with the found mechanisms")
 
 
 @dataclass(frozen=True)
@@ -239,17 +243,17 @@ class BothTrue:
     """A truth value before and after."""
 
     before: bool = described("of the nominal model")
-    after: bool = described("of the model with what was found")
+    after: bool = described("of the model with the found mechanisms")
 
 
 @dataclass(frozen=True)
 class ValidTimes:
-    """How long free runs over held-out data stay near the recording."""
+    """The times for which free runs over held-out data stay near the recording."""
 
     before: float = described("of the nominal model, in `unit`")
-    after: float = described("of the model with what was found, in `unit`")
+    after: float = described("of the model with the found mechanisms, in `unit`")
     unit: str = described("unit of both")
-    or_longer: BothTrue = described("whether free runs were followed no longer than that")
+    or_longer: BothTrue = described("whether the free runs ended before their errors became too large")
     in_lyapunov_times: Both | None = described("the same in Lyapunov times", default=None)
     in_drive_periods: Both | None = described("the same in periods of the drive", default=None)
     in_natural_periods: Both | None = described("the same in natural periods", default=None)
@@ -260,7 +264,7 @@ class Whiteness:
     """The Ljung-Box test of one-step errors."""
 
     p: float = described("its p-value")
-    says: str = described("what that means, in a sentence")
+    says: str = described("its meaning, in a sentence")
 
 
 @dataclass(frozen=True)
@@ -268,7 +272,7 @@ class BothWhite:
     """Whiteness before and after."""
 
     before: Whiteness = described("of the nominal model")
-    after: Whiteness = described("of the model with what was found")
+    after: Whiteness = described("of the model with the found mechanisms")
 
 
 @dataclass(frozen=True)
@@ -276,54 +280,56 @@ class SampledEvidence:
     """The log evidence of a model by Laplace's method and by importance sampling."""
 
     laplace: float = described("by Laplace's method")
-    sampled: float = described("by importance sampling; null where it cannot be told")
+    sampled: float = described("by importance sampling; null where it could not be computed")
     error: float = described("standard error of `sampled`")
     effective: float = described("effective number of draws; below a few tens `sampled` is not to be trusted")
 
 
 @dataclass(frozen=True)
 class EvidenceCheck:
-    """Whether the log evidence holds by another method; empty where nothing was found."""
+    """A check of the log evidence by another method; empty where nothing was found."""
 
     before: SampledEvidence | None = described("of the nominal model", default=None)
-    after: SampledEvidence | None = described("of the model with what was found", default=None)
+    after: SampledEvidence | None = described("of the model with the found mechanisms", default=None)
     says: str | None = described("whether the two methods agree, in a sentence", default=None)
 
 
 @dataclass(frozen=True, kw_only=True)
 class Diagnosis:
-    """What a diagnosis returns: everything in `diagnosis.json`."""
+    """The result of a diagnosis: the content of `diagnosis.json`."""
 
     title: str = described("title of the case")
     schema: str = described("name and number of this format", default=SCHEMA)
-    verdict: str = described("`adequate`: nothing is missing that this recording can show; or `mismatch`")
-    says: tuple[str, ...] = described("the answer, in sentences")
+    verdict: str = described("`adequate`: this recording shows no missing physics; or `mismatch`")
+    says: tuple[str, ...] = described("the result in sentences")
     found: tuple[Mechanism, ...] = described(
-        "what the model leaves out, named ones first; empty where the verdict is `adequate`"
+        "the missing mechanisms, named ones first; empty where the verdict is `adequate`"
     )
-    open: tuple[OpenTerm, ...] = described("terms that would raise the likelihood and stay without a name")
+    open: tuple[OpenTerm, ...] = described("terms that would raise the likelihood but are not named")
     ranking: tuple[Candidate, ...] = described("every candidate, the most probable first")
-    confused_with: tuple[Confusion, ...] = described("what this recording cannot tell from what was found")
-    unexplained: UnexplainedForce = described("the random force that is left")
-    unexplained_before: UnexplainedForce = described("the random force that the nominal model leaves")
-    where: ForceDependence = described("what the missing force depends on, before")
-    where_after: ForceDependence = described("what the rest depends on, after")
+    confused_with: tuple[Confusion, ...] = described(
+        "mechanisms that this recording cannot distinguish from the found ones"
+    )
+    unexplained: UnexplainedForce = described("the remaining random force")
+    unexplained_before: UnexplainedForce = described("the random force that remains with the nominal model")
+    where: ForceDependence = described("dependence of the missing force, before")
+    where_after: ForceDependence = described("dependence of the remaining force, after")
     parameters: ParameterSets = described("the parameters of the model, before and after")
     fit: HeldOutScores = described("predictions of held-out data, before and after")
     model: Labels = described("the models in words")
-    drive: DriveFacts = described("what moves the machine")
+    drive: DriveFacts = described("the excitation of the machine")
     units: Units = described("units of the arrays")
-    response: Response = described("what the first sensor measures")
+    response: Response = described("the quantity that the first sensor measures")
     sensors: tuple[SensorFacts, ...] = described("the sensors and their noise")
     lyapunov: Exponents = described("largest Lyapunov exponents")
-    valid_prediction_time: ValidTimes = described("how long predictions hold")
+    valid_prediction_time: ValidTimes = described("the time for which predictions are valid")
     whiteness: BothWhite = described("whether one-step errors are white")
-    sharing: Sharing | None = described("what several recordings share; absent of one recording", default=None)
+    sharing: Sharing | None = described("comparison of several recordings; absent for one recording", default=None)
     show: Behaviour = described("measures of the motion, before, after and of noise alone")
-    decay: Decays | None = described("free decays, of recordings that nothing drives and of hammer tests", default=None)
+    decay: Decays | None = described("free decays of recordings without a drive and of hammer tests", default=None)
     evidence: EvidenceCheck = described("the log evidence by another method")
-    machine: FittedMachine = described("what it takes to set the fitted model in motion again")
-    truth: Mapping[str, float] = described("what the case says is true, for tests on made data")
+    machine: FittedMachine = described("the fitted model, in a form from which it can be simulated again")
+    truth: Mapping[str, float] = described("true values from the case, for tests with simulated data")
     recordings: tuple[RecordingFacts, ...] = described("the recordings of the case")
-    notes: tuple[str, ...] = described("what makes the answer less certain, in sentences")
-    provenance: Origin = described("where the result comes from")
+    notes: tuple[str, ...] = described("limitations of the result, in sentences")
+    provenance: Origin = described("versions, settings, seed and digests of the inputs")

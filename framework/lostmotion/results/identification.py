@@ -1,4 +1,4 @@
-"""What `lostmotion identify` finds, as `identification.json` has it; the draws behind it are in `posterior.nc`."""
+"""The result of `lostmotion identify` in the form of `identification.json`; the draws are in `posterior.nc`."""
 
 from __future__ import annotations
 
@@ -38,18 +38,18 @@ class Sampling:
     """How the posterior was sampled."""
 
     walkers: int = described("walkers of the ensemble")
-    steps: int = described("steps of each walker that count")
-    burn_in: int = described("steps of each walker that were left out before them")
-    acceptance: float = described("share of the proposals that were accepted")
+    steps: int = described("steps of each walker after the burn-in")
+    burn_in: int = described("steps of each walker in the burn-in")
+    acceptance: float = described("share of accepted proposals")
     autocorrelation_time: float = described("longest autocorrelation time of any parameter", unit="steps")
-    lacks: tuple[str, ...] = described("what keeps the chain from being believed; empty where it has converged")
+    lacks: tuple[str, ...] = described("convergence criteria that are not met; empty where the chain has converged")
 
 
 @dataclass(frozen=True, kw_only=True)
 class MeasuredRange:
-    """A number that was measured at a level, with its 95 % interval."""
+    """A measured value at a level, with its 95 % interval."""
 
-    value: float = described("the measured number")
+    value: float = described("the measured value")
     low: float = described("lower end of its 95 % interval")
     high: float = described("upper end of its 95 % interval")
     unit: str = described("unit: `1/s` of an exponent (natural logarithm), `1` of a dimension")
@@ -57,7 +57,7 @@ class MeasuredRange:
 
 @dataclass(frozen=True)
 class ExpectedRange:
-    """Central 95 % of a predicted number and its median; in 1/s for an exponent."""
+    """Median and central 95 % range of a predicted value; in 1/s for an exponent."""
 
     low: float = described("lower end of the central 95 %")
     median: float = described("median")
@@ -66,7 +66,7 @@ class ExpectedRange:
 
 @dataclass(frozen=True, kw_only=True)
 class ExpectedMotion:
-    """What the posterior expects of the motion at a level; of a chaotic motion also its exponent and dimension."""
+    """Prediction of the posterior for the motion at a level, with exponent and dimension of a chaotic motion."""
 
     chaotic_share: float = described("probability of a chaotic motion")
     lyapunov: ExpectedRange | None = described("largest exponent of a chaotic motion", unit="1/s", default=None)
@@ -75,44 +75,44 @@ class ExpectedMotion:
 
 @dataclass(frozen=True, kw_only=True)
 class DriveLevel:
-    """One level of the drive: what was measured there, and what the posterior expects."""
+    """One level of the drive: measured values, and predictions of the posterior."""
 
     name: str = described("name of the level or of its recording")
     amplitude: float = described("amplitude of the drive, in `unit`")
     unit: str = described("SI unit of the amplitude")
     omega: float = described("angular frequency of the drive", unit="rad/s")
-    motion: Literal["periodic", "chaotic"] | None = described("motion that was seen; null where it could not be told")
+    motion: Literal["periodic", "chaotic"] | None = described("observed motion; null where it could not be determined")
     lyapunov: MeasuredRange | None = described("largest exponent, where it was measured", default=None)
     d2: MeasuredRange | None = described("correlation dimension, where it was measured", default=None)
-    predicted: ExpectedMotion = described("what the posterior expects at this level")
+    predicted: ExpectedMotion = described("predictions of the posterior at this level")
 
 
 @dataclass(frozen=True, kw_only=True)
 class Identification:
-    """The content of `identification.json`: the parameters of a case with their intervals, and how they were found."""
+    """The content of `identification.json`: the parameters of a case with intervals, and how they were estimated."""
 
     schema: str = described("name and version of the format", default="lostmotion.identification/1")
     route: RouteName = described(
-        "`trajectory`: by the recordings themselves; `quantifiers`: by chaos measures at levels of the drive"
+        "`trajectory`: from the recordings themselves; `quantifiers`: from chaos measures at levels of the drive"
     )
-    converged: bool = described("whether the chain may be believed; where not, no interval is given")
-    says: tuple[str, ...] = described("sentences on the chain, with which the report opens")
-    ess_min: float = described("least effective sample size of the bulk of any parameter")
-    ess_tail_min: float = described("least effective sample size of the tails of any parameter")
+    converged: bool = described("whether the chain has converged; if not, there are no intervals")
+    says: tuple[str, ...] = described("sentences on the chain, at the top of the report")
+    ess_min: float = described("smallest effective sample size of the bulk of any parameter")
+    ess_tail_min: float = described("smallest effective sample size of the tails of any parameter")
     rhat_max: float = described("largest split R-hat of any parameter")
     parameters: Mapping[str, Parameter] = described("parameters of the machine")
     noise: Mapping[str, Parameter] = described("noise levels and offsets of sensors", default={})
     sampling: Sampling = described("how the posterior was sampled")
-    log_likelihood_evaluations: int = described("runs of the likelihood, those before the chain began too")
+    log_likelihood_evaluations: int = described("evaluations of the likelihood, including those before the chain began")
     title: str = described("title of the case")
-    model: str = described("the model, with the terms that were added to it")
-    truth: Mapping[str, float] = described("known values, where the case gives any; no fit uses them", default={})
-    notes: tuple[str, ...] = described("what makes the intervals less certain, and what was noticed of the recordings")
-    provenance: Origin = described("where the result comes from")
-    modes: int | None = described("separate maxima of the posterior (by trajectory)", default=None)
-    levels: tuple[DriveLevel, ...] | None = described("the levels of the drive (by quantifiers)", default=None)
+    model: str = described("the model with the added terms")
+    truth: Mapping[str, float] = described("true values, where the case has any; no fit uses them", default={})
+    notes: tuple[str, ...] = described("limitations of the intervals, and remarks on the recordings")
+    provenance: Origin = described("versions, settings, seed and digests of the inputs")
+    modes: int | None = described("separate maxima of the posterior (route trajectory)", default=None)
+    levels: tuple[DriveLevel, ...] | None = described("the levels of the drive (route quantifiers)", default=None)
     derived: Mapping[str, Interval] | None = described(
-        "dimensionless numbers that follow from the parameters (by quantifiers); empty without convergence",
+        "dimensionless numbers derived from the parameters (route quantifiers); empty without convergence",
         default=None,
     )
 

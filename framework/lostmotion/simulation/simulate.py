@@ -236,6 +236,8 @@ def _shown(system: System, full: Array, channels: Mapping[str, Array], plan: Pla
     shown, first = dict(channels), plan.assembly.model.channels[0]
     gain = system.gain(full, system.everything)
     shown[first] = gain * shown[first]
+    for change in system.changes_at_sensor(full, system.everything, "sensor"):
+        shown[first] = change.apply(shown[first], np.arange(len(shown[first])) / plan.rate)
     for key, term in system.channel_terms.items():
         if isinstance(term, SensorTerm):
             shown[first] = term.rounded(shown[first], system.values(full, key, SILENT))

@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from lostmotion.cli import PluginName, examples
-from lostmotion.cli.options import on_a_trial
-from lostmotion.results import percent
+from lostmotion.cli.options import add_common_options
 
 if TYPE_CHECKING:
     from lostmotion_trials.blind.results import Target
@@ -46,7 +45,7 @@ if TYPE_CHECKING:
     "--samples", default=20_000, show_default=True, type=click.IntRange(500), help="Samples of the longest recording."
 )
 @click.option("--fresh", is_flag=True, help="Throw away the trial that is there, instead of continuing it.")
-@on_a_trial
+@add_common_options
 @click.pass_context
 def command(ctx: click.Context, /, out: Path, only: tuple[str, ...], **given: Any) -> None:
     """Prove it: a blind trial of `diagnose` on machines that hide what one process knows and another has to find.
@@ -94,6 +93,8 @@ def _bar(cases: int, *, quiet: bool) -> Iterator[Callable[[str, int, int], None]
 
 def _line(target: Target) -> str:
     """Return one target with what was reached."""
+    from lostmotion.results import percent
+
     found = target.rate
     if not found.of:
         return f"{target.state:<9}  {target.what}"

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from lostmotion.cli import examples
-from lostmotion.cli.options import on_a_case, with_maps, with_terms
-from lostmotion.cli.progress import counted
+from lostmotion.cli.options import add_case_options, add_maps_option, add_terms_option
+from lostmotion.cli.progress import show_count
 
 if TYPE_CHECKING:
     from lostmotion_trials.coverage.results import ParameterCheck
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
         "lostmotion simulate --help     the drives there are",
     )
 )
-@on_a_case
+@add_case_options
 @click.option(
     "--drive",
     "drives",
@@ -52,7 +52,7 @@ if TYPE_CHECKING:
     multiple=True,
     help="Physics that acts in every machine, whether it is fitted or not.",
 )
-@with_terms
+@add_terms_option
 @click.option(
     "--route",
     type=click.Choice(["trajectory", "quantifiers"]),
@@ -60,7 +60,7 @@ if TYPE_CHECKING:
     show_default=True,
     help="To the posterior.",
 )
-@with_maps
+@add_maps_option
 @click.option("--machines", default=200, show_default=True, type=click.IntRange(1), help="How many machines to draw.")
 @click.option("--ess", default=300.0, show_default=True, type=click.FloatRange(100), help="Effective draws of each.")
 @click.option("--max-steps", default=2000, show_default=True, type=click.IntRange(10), help="Steps at the most.")
@@ -88,7 +88,7 @@ def command(ctx: click.Context, /, case: Path, out: Path, drives: tuple[str, ...
     maps = tuple(path.absolute() for path in given["maps"])
     chosen = {key: given[key] for key in ("hide", "terms", "route", "seed")}
     design = Design(case.absolute(), bench, plan=plan, plugins=plugins, maps=maps, **chosen)
-    with counted("calibrate", given["machines"], "machines", quiet=given["quiet"]) as say:
+    with show_count("calibrate", given["machines"], "machines", quiet=given["quiet"]) as say:
         options = {key: given[key] for key in ("machines", "jobs", "fresh")}
         content = run_calibration(design, out, say=say, **options)
     for line in (*_table(content.summary.parameters), *content.summary.says):

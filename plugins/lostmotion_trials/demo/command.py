@@ -10,7 +10,7 @@ from pathlib import Path
 import click
 
 from lostmotion.cli import examples, registry_of
-from lostmotion.cli.progress import progress
+from lostmotion.cli.progress import show_progress
 
 MISSED = 1
 
@@ -48,7 +48,7 @@ def command(
     from lostmotion_trials.demo.run import DemoSetting, run_demo
 
     begin = time.perf_counter()
-    with progress("demo", quiet=quiet) as say:
+    with show_progress("demo", quiet=quiet) as say:
         told = run_demo(out, registry_of(ctx), DemoSetting(seed, clean, quick, jobs), say=say)
     report = out / "report.html"
     click.echo("\n".join(told.lines))

@@ -7,7 +7,7 @@ from pathlib import Path
 import click
 
 from lostmotion.cli import examples, registry_of
-from lostmotion.cli.progress import progress
+from lostmotion.cli.progress import show_progress
 
 
 @click.command(
@@ -33,12 +33,13 @@ def command(ctx: click.Context, /, names: tuple[str, ...], out: Path, quiet: boo
     """Redo the paper of Tjahjowidodo, Al-Bender and Van Brussel (2007): figures 3 to 23, tables 1 and 2, and more.
 
     Each figure comes with a sentence: reproduced, reproduced in part, or not, and why. Writes PNG and PDF, tables as
-    CSV and Markdown, reproduce.json with the key figures, and index.html with all of it into DIR.
+    CSV and Markdown, reproduce.json with the key figures, and index.html with all of it into DIR. Exit status 0 when
+    the work has finished, whatever the sentences say; 2 for a name that does not exist or a DIR that cannot be used.
     """
     from lostmotion_trials.paper.run import laboratory, reproduce
 
     lab = laboratory(registry_of(ctx), **asked)  # type: ignore[arg-type]
-    with progress("reproduce", quiet=quiet) as say:
+    with show_progress("reproduce", quiet=quiet) as say:
         content = reproduce(names, out, lab, say)
     for name, item in content.items.items():
         click.echo(f"{name:<12} {item.verdict}")
